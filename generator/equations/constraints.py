@@ -17,7 +17,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
-from gudgeon.generator.symbols.storage import Variable
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 
@@ -42,7 +42,7 @@ class Constraints(Freezable):
 
     def __init__(self, geometry: Geometry) -> None:
         self.geometry, self.symbols = geometry, geometry.symbols
-        self.t = self.symbols.new("time", Variable("t"), "time", "s")
+        self.t = self.symbols.new("time", Place("t"), "time", "s")
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def joint_rows(self, joint: Joint) -> list[Row]:

@@ -15,7 +15,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.numbers import Slots
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
@@ -112,7 +112,7 @@ class Geometry(Freezable):
     def _body(self, number: int, body: Body) -> BodySymbols:
         new, index, name = self.symbols.new, 3 * number, body.name
         (x, y, theta), (vx, vy, omega) = (
-            [new(f"{name}_{c}", Element(array, index + k), f"{name}.{c}") for k, c in enumerate(coordinates)]
+            [new(f"{name}_{c}", Place(array)[index + k], f"{name}.{c}") for k, c in enumerate(coordinates)]
             for array, coordinates in (("q", ("x", "y", "theta")), ("v", ("vx", "vy", "omega")))
         )
         mass, inertia = ONE, ONE

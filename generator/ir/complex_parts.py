@@ -17,7 +17,7 @@ from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
 from gudgeon.generator.ir.values import Chosen, Test, Value
 from gudgeon.generator.symbols.corners import Size
-from gudgeon.generator.symbols.storage import Element, Key, Place, PlaceSymbol, key_of
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
 
 SUFFIX, IMAGINARY = "_complex", "_i"
 ZERO = sp.Integer(0)
@@ -113,11 +113,12 @@ class _Twin:
                 return self.parts(value)
         raise ValueError(f"a value of a kernel that has no complex counterpart: {value}")
 
-    def _places(self, place: Key) -> tuple[Element, Element] | None:
+    def _places(self, place: Key) -> tuple[Place, Place] | None:
         """Where both parts of an array's element are."""
-        if not isinstance(place, Element) or not {place.of, place.base} & self.complex:
-            return None
-        return Element(place.of, 2 * place.index), Element(place.of, 2 * place.index + 1)
+        match place:
+            case Place(base, (*of, int() as k)) if {base, Place(base, (*of,))} & self.complex:
+                return Place(base, (*of, 2 * k)), Place(base, (*of, 2 * k + 1))
+        return None
 
     def _pair(self, symbol: sp.Symbol) -> Parts | None:
         name = symbol.name

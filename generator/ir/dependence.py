@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any
 
 import sympy as sp
 
@@ -17,7 +17,6 @@ from gudgeon.generator.symbols.storage import Key, Place, key_of
 
 Marks = frozenset[str]
 NO_MARKS: Marks = frozenset()
-K = TypeVar("K", bound=Key)
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ def _reads(line: Statement | Branch, own: Readable) -> set[Key]:
     return found - {line.target}
 
 
-def _frozen(found: Mapping[K, set[str]]) -> dict[K, Marks]:
+def _frozen(found: Mapping[Any, set[str]]) -> dict[Any, Marks]:
     return {name: frozenset(marks) for name, marks in found.items() if marks}
 
 

@@ -16,7 +16,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branches
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Key, Place, Variable
+from gudgeon.generator.symbols.storage import Key, Place
 
 _DENOMINATORS = tuple(k for k in range(1, 361) if 360 % k == 0)  # whole and half degrees, turns in a minute
 _MOST = 1000  # times PI
@@ -98,8 +98,7 @@ def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: di
     kept: list[Line] = []
     for line in lines:
         place = line.value if isinstance(line, Statement) and line.defines else None
-        is_argument = isinstance(place, Variable) and place.name in arguments
-        if isinstance(place, Place) and (place.is_parameter or is_argument):
+        if isinstance(place, Place) and (place.is_parameter or (not place.path and place.base in arguments)):
             names[line.defines] = place
             continue
         if kept and (stored := _stored(kept[-1], line)):

@@ -39,7 +39,7 @@ from gudgeon.generator.ir.series_rules import (
 )
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, Access, Argument, result, source
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
-from gudgeon.generator.symbols.storage import Element, Field, Place, PlaceSymbol, key_of
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol, key_of
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
 Wanted = Callable[[Place], Place | None]  # where a result goes; None: nobody wants it
@@ -211,11 +211,11 @@ class _Series(Rules):
             known = len(products)
             terms = _pruned([*self._terms, *_stores(products)])
             read = {key_of(s) for _, line in terms for e in line.expressions for s in e.free_symbols}
-            products = [product for product in self.products.values() if Field(SUMS, product.name) in read]
-        kept = tuple(sorted(x.name for x in read if isinstance(x, Field) and x.of == VALUES))
+            products = [product for product in self.products.values() if Place(SUMS)[product.name] in read]
+        kept = tuple(sorted(x.member for x in read if isinstance(x, Place) and x.base == VALUES))
         inverses = {name: 1 / b for name, b in self.inverses.items()}
         keeps = [("values that higher orders read",
-                  Statement(Field(VALUES, x), inverses.get(x, sp.Symbol(x, real=True)))) for x in kept]  # fmt: skip
+                  Statement(Place(VALUES)[x], inverses.get(x, sp.Symbol(x, real=True)))) for x in kept]  # fmt: skip
         values = _pruned([*self._values, *keeps])
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)
@@ -243,8 +243,8 @@ def _stores(products: Sequence[Product]) -> list[Titled]:
     title, lines = "factors of the sums of higher orders", list[Titled]()
     for row, first in enumerate(range(0, len(products), WIDE)):
         some = products[first : first + WIDE]
-        lines.append((title, Gathered(Element(LEFT, row), tuple(value(x.left) for x in some))))
-        lines.append((title, Gathered(Element(RIGHT, row), tuple(value(x.right) for x in some))))
+        lines.append((title, Gathered(LEFT, row, tuple(value(x.left) for x in some))))
+        lines.append((title, Gathered(RIGHT, row, tuple(value(x.right) for x in some))))
     return lines
 
 

@@ -15,7 +15,7 @@ import sympy as sp
 from gudgeon.generator.ir.statements import Line
 from gudgeon.generator.symbols.from_expressions import derivative_at
 from gudgeon.generator.symbols.functions import CLASSES
-from gudgeon.generator.symbols.storage import Element, Field, PlaceSymbol
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k
 ORDER, SHARE = sp.Symbol("k", real=True), sp.Symbol("share", real=True)  # k, 1/k
@@ -49,7 +49,8 @@ class Product:
 class Gathered(Line):
     """So many numbers become a row of an array of vectors at once: what then reads the row has not to wait."""
 
-    target: Element
+    array: str
+    row: int
     values: tuple[sp.Expr, ...]
 
     @property
@@ -199,7 +200,7 @@ class Rules(ABC):
         """1/b_0, a number: kept once."""
         name = f"{b.name}_inverse"
         self.inverses[name] = b
-        return PlaceSymbol(Field(VALUES, name))
+        return PlaceSymbol(Place(VALUES)[name])
 
     def by_rate(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
         """c with c' = u' w."""
@@ -214,7 +215,7 @@ class Rules(ABC):
         pair = (left, right) if (left.name, left.rate) <= (right.name, right.rate) else (right, left)
         words = "__".join(f"{x.name}{'_rate' * x.rate}" for x in pair)
         product = self.products.setdefault(pair, Product(words, *pair))
-        return PlaceSymbol(Field(SUMS, product.name))
+        return PlaceSymbol(Place(SUMS)[product.name])
 
     def square(self, whole: sp.Symbol) -> sp.Symbol:
         """Of what is being defined: it is defined right behind."""
@@ -225,7 +226,7 @@ class Rules(ABC):
 
 def at(symbol: sp.Symbol) -> sp.Symbol:
     """Order 0 of a local."""
-    return PlaceSymbol(Field(VALUES, symbol.name))
+    return PlaceSymbol(Place(VALUES)[symbol.name])
 
 
 def _arc(rules: Rules, y: sp.Symbol, x: sp.Symbol, whole: sp.Symbol) -> sp.Expr:

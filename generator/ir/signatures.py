@@ -9,7 +9,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from gudgeon.generator.symbols import storage
-from gudgeon.generator.symbols.storage import Element, Field, Place, Variable
+from gudgeon.generator.symbols.storage import Place
 
 
 class Number(Enum):
@@ -40,6 +40,9 @@ class Argument:
     type: Type = Number.REAL
     access: Access = Access.VALUE
 
+    def __getitem__(self, step: str | int) -> Place:
+        return Place(self.name)[step]
+
 
 def source(name: str, type: Type = Number.REAL) -> Argument:
     """Return the argument of an array or struct that is read."""
@@ -59,15 +62,10 @@ STATE = (TIME, source("q"), source("v"))
 MEMORY = source("memory", "Memory")
 PARAMETERS = source(storage.PARAMETERS, "Parameters")
 ASIDE = result("aside", "Aside")
+LATCH = source("latch", "Latch")  # of one contact
 ZERO = sp.Integer(0)
-
-
-def rhs_output(name: str, index: int) -> Element:
-    """Return an element of an array that a right-hand side fills in addition to the accelerations."""
-    return Element(Field(ASIDE.name, name), index)
 
 
 def acting_on(index: int) -> tuple[Place, ...]:
     """Return what the function of a joint with play is given after its motion."""
-    latch = Element(Field(MEMORY.name, "latch"), index)
-    return (latch, Variable(PARAMETERS.name), *(Variable(argument.name) for argument in SIDES))
+    return (MEMORY["latch"][index], *(Place(argument.name) for argument in (PARAMETERS, *SIDES)))

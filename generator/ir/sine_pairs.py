@@ -14,7 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel, Section, changed
 from gudgeon.generator.ir.statements import Line, Sines, Statement
-from gudgeon.generator.symbols.storage import Element, Variable
+from gudgeon.generator.symbols.storage import Place
 
 MANY = 4  # groups, beyond which they are computed in a loop
 # Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
@@ -93,8 +93,8 @@ def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: in
     for s in taken:
         n, lane = divmod(places[_angle(s)], 4)
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        vector = Element(f"{which}_{of}", n) if many else f"{which}_{before + n}"
-        lines.append(replace(s, value=Element(vector, lane)))
+        vector = Place(f"{which}_{of}")[n] if many else Place(f"{which}_{before + n}")
+        lines.append(replace(s, value=vector[lane]))
     return lines, before + count
 
 
@@ -104,5 +104,5 @@ def _lanes(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int)
     lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in place.items()]
     for s in taken:
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        lines.append(replace(s, value=Variable(f"{which}_{place[_angle(s)]}")))
+        lines.append(replace(s, value=Place(f"{which}_{place[_angle(s)]}")))
     return lines, before + len(place)

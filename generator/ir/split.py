@@ -19,7 +19,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.order import nearby
 from gudgeon.generator.ir.signatures import Access, Number, result, source
 from gudgeon.generator.ir.statements import Call, Declare, Ended, Guard, Jump, Line, Passed, Return, Sines, Statement
-from gudgeon.generator.symbols.storage import Element, Place, Variable
+from gudgeon.generator.symbols.storage import Place
 
 LONG, PART, SHORTEST = 850, 250, 60
 
@@ -189,12 +189,12 @@ class _Cut:
 
     def store(self, name: str) -> Item:
         """For a part."""
-        statement = Statement(Element(self.passed, self.slots[name]), Variable(name))
+        statement = Statement(Place(self.passed)[self.slots[name]], Place(name))
         return Item("what the next part reads", statement, frozenset({name}), False)
 
     def load(self, name: str) -> Item:
         """Of a part before."""
-        return _load(name, Element(self.passed, self.slots[name]))
+        return _load(name, Place(self.passed)[self.slots[name]])
 
     def part(self, name: str, piece: list[Item]) -> Kernel:
         """One part: what it reads of others, its own statements, what others read of it."""
@@ -220,8 +220,8 @@ class _Cut:
 
     def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
         """The call, what the function itself reads of the part, and what is done where a test failed."""
-        arguments = tuple(Variable(argument.name) for argument in self.kernel.arguments)
-        call = Call(name, arguments, (Variable(self.passed),))
+        arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
+        call = Call(name, arguments, (Place(self.passed),))
         tests = [item.what for item in piece if isinstance(item.what, Guard)]
         loads = [self.load(n) for n in self.slots if n in rest and n in {item.defines for item in piece}]
         lines: list[Line] = [call]

@@ -5,14 +5,14 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.symbols.storage import Element, Field
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
 
 
 class Pool:
     """`keep` stores a value and gives the symbol that reads it; what needs no storing stays as it is."""
 
-    def __init__(self, symbols: Symbols, array: Field) -> None:
+    def __init__(self, symbols: Symbols, array: Place) -> None:
         self._symbols, self.array = symbols, array
         self._kept: dict[sp.Expr, sp.Symbol] = {}
         self._place: dict[sp.Expr, int] = {}
@@ -25,7 +25,7 @@ class Pool:
                 return value
             if sign * value in self._kept:
                 return sign * self._kept[sign * value]
-        symbol = self._symbols.new(wanted, Element(self.array, self._store(build, value)))
+        symbol = self._symbols.new(wanted, self.array[self._store(build, value)])
         self._kept[value], self._place[symbol] = symbol, self._place[value]
         return symbol
 
@@ -33,7 +33,7 @@ class Pool:
         """Stores the local of which a value is ±, so that other functions read it under the same name."""
         symbol = next(iter(value.free_symbols), None)
         if symbol is not None and symbol not in self._symbols.info:
-            self._symbols.info[symbol] = SymbolInfo(Element(self.array, self._store(build, symbol)), "", "")
+            self._symbols.info[symbol] = SymbolInfo(self.array[self._store(build, symbol)], "", "")
         return value
 
     def place(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
@@ -44,7 +44,7 @@ class Pool:
         return self._store(build, value), 1
 
     def _store(self, build: KernelBuilder, value: sp.Expr) -> int:
-        build.out(Element(self.array, self.size), value)
+        build.out(self.array[self.size], value)
         self._place[value] = self.size
         self.size += 1
         return self._place[value]

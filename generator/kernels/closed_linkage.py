@@ -13,7 +13,7 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, result, source
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Given
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 
 
 def prepare_kernel(model: Model) -> Kernel:
@@ -23,11 +23,11 @@ def prepare_kernel(model: Model) -> Kernel:
     for i, entry in enumerate(model.slots.entries.values()):
         told = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
         slots.append(Statement(entry.symbol.name, Given(i, entry.value), told))
-        slots.append(_stored(model, entry.symbol))
+        slots.append(Statement(model.slots.place(entry.symbol), entry.symbol))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():
         derived.append(Statement(symbol.name, value, info[symbol].meaning))
-        derived.append(_stored(model, symbol))
+        derived.append(Statement(model.slots.place(symbol), symbol))
     return Kernel(
         "prepare",
         ("Every number of a run: slots given or by default, then what follows from them.",),
@@ -36,17 +36,11 @@ def prepare_kernel(model: Model) -> Kernel:
     )  # fmt: skip
 
 
-def _stored(model: Model, symbol: sp.Symbol) -> Statement:
-    home = model.symbols.info[symbol].home
-    assert home is not None
-    return Statement(home, symbol)
-
-
 def mass_kernel(model: Model) -> Kernel:
     build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
     build.section("M")
     for k, mass in enumerate(model.masses):
-        build.out(Element("m", k), mass)
+        build.out(Place("m")[k], mass)
     return build.build((PARAMETERS, result("m")))
 
 
@@ -59,7 +53,7 @@ def row_kernels(model: Model) -> list[Kernel]:
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):
-            build.out(Element(out, r), value(row), f"{row.name}, {row.unit}{per}")
+            build.out(Place(out)[r], value(row), f"{row.name}, {row.unit}{per}")
         arguments = (*STATE, PARAMETERS, result(out))
         return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
@@ -77,7 +71,7 @@ def _jacobian_kernel(model: Model) -> Kernel:
     place = {q: k for k, q in enumerate(model.q)}
     for r, row in enumerate(model.all_rows):
         for q, value in row.phi_q.items():
-            build.out(Element("phi_q", r * len(model.q) + place[q]), value, f"d {row.name} / d {q.name}")
+            build.out(Place("phi_q")[r * len(model.q) + place[q]], value, f"d {row.name} / d {q.name}")
     return build.build((*STATE[:2], PARAMETERS, result("phi_q")))
 
 
@@ -87,6 +81,6 @@ def start_kernel(model: Model) -> Kernel:
     build.section("start")
     for key, group in start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
-            build.out(Element(key, k), sign * model.slots.use(quantity), quantity.address)
+            build.out(Place(key)[k], sign * model.slots.use(quantity), quantity.address)
     arguments = (PARAMETERS, *(result(key) for key in ("guess", "set", "rates")))
     return build.build(arguments)

@@ -17,7 +17,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import ASIDE, PARAMETERS, TIME, result
 from gudgeon.generator.ir.statements import Sides, Statement
 from gudgeon.generator.symbols.corners import SideOf
-from gudgeon.generator.symbols.storage import Element, Place
+from gudgeon.generator.symbols.storage import Place
 
 _DOC = ("Switching functions that hang on time alone.",)
 
@@ -48,7 +48,7 @@ def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
             waiting += [symbol.name for symbol in value.free_symbols] if isinstance(value, sp.Expr) else []
     needed = [s for name, s in known.items() if name in read]
     nested = any(isinstance(s.value, SideOf) for s in needed)
-    outs = Section("corners", tuple(Statement(Element("out", k), g) for k, g in enumerate(corners)))
+    outs = Section("corners", tuple(Statement(Place("out")[k], g) for k, g in enumerate(corners)))
     front = ((Sides("", held=False),), (Sides("nobody", held=False),)) if nested else ((), ())
     ranges, values = (Section("parameters and time", (*lines, *needed)) for lines in front)
     own, bounds = (TIME, PARAMETERS, result("out")), (TIME, PARAMETERS, ASIDE)

@@ -13,7 +13,7 @@ computed once and read by all kernels of the motion.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -21,21 +21,14 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import (
-    HELD,
-    Kernel,
-    KernelBuilder,
-    Section,
-    with_sides,
-    without_unused,
-)
+from gudgeon.generator.ir.kernels import HELD, Kernel, KernelBuilder, Section, with_sides, without_unused
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, Number, result
 from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.ir.statements import LargestRow, Return, Sides, Statement, Unread
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.corners import SideOf
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
@@ -71,13 +64,8 @@ class ChainKernels:
         first = self.first + len(self.chain.names)
         symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
-            build.out(Element("out", first + k), self.symbols.definitions[symbol], symbol.name)
+            build.out(Place("out")[first + k], self.symbols.definitions[symbol], symbol.name)
         return build.build((*STATE[:2], MEMORY, PARAMETERS, result("out")), owner="")
-
-    def turned(self) -> list[tuple[int, Mapping[int, sp.Expr]]]:
-        """Where each direction is in q that a step turns, and how far it does: a factor of each coordinate's step."""
-        first = self.first + len(self.chain.names)
-        return [(first + 2 * k, d.turns) for k, d in enumerate(self.chain.directions) if d.turns]
 
     def _extent(self) -> sp.Expr:
         """The size that a step of a slide is measured by: of all points together."""
@@ -104,8 +92,8 @@ class ChainKernels:
         build.section("what the rows' curvature adds")
         bend = self.square.solve(build, solvers, [self._curvature(row, newton) / 2 for row in self.chain.rows], "bend")
         for k, (x, more) in enumerate(zip(newton, bend, strict=True)):
-            build.out(Element("step", k), x + more)
-            build.out(Element("bend", k), more)
+            build.out(Place("step")[k], x + more)
+            build.out(Place("bend")[k], more)
         build.line(Return())
         outs = (result("step"), result("bend"), result("row", Number.INTEGER))
         return build.build((*STATE[:2], MEMORY, PARAMETERS, *outs), status=True, owner="", prune=True)
@@ -135,8 +123,8 @@ class ChainKernels:
         second = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
         build.section("results")
         for at, (x, value) in enumerate(zip(known, second, strict=True), self.first):
-            build.out(Element("v", at), x.rate)
-            build.out(Element("v", at + len(known)), value)
+            build.out(Place("v")[at], x.rate)
+            build.out(Place("v")[at + len(known)], value)
         build.line(Return())
         return build.build((*STATE[:2], MEMORY, PARAMETERS, result("v")), status=True, owner="", prune=True)
 
@@ -156,7 +144,7 @@ class ChainKernels:
         left = [sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in known)) for row in self.chain.rows]
         slopes = [tangents.gradient(value).get(t, ZERO) for value in left]
         for at, value in enumerate(self.square.solve(build, solvers, slopes, "third")):
-            build.out(Element("out", at), value)
+            build.out(Place("out")[at], value)
         build.line(Return())
         return build.build((*STATE, MEMORY, PARAMETERS, result("out")), status=True, owner="", prune=True)
 

@@ -12,10 +12,10 @@ from dataclasses import replace
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, Section, with_sides
-from gudgeon.generator.ir.signatures import ASIDE, rhs_output
+from gudgeon.generator.ir.signatures import ASIDE
 from gudgeon.generator.ir.statements import Line, Sides, Statement
 from gudgeon.generator.symbols.corners import SideOf
-from gudgeon.generator.symbols.storage import Element, Field, Place
+from gudgeon.generator.symbols.storage import Place
 
 NAME, RANGES = "watched_functions", "watched_ranges"
 _DOC = (
@@ -73,14 +73,14 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
 
 def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:
     """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
-    place: dict[Place, int] = {rhs_output("g", k): i for i, k in enumerate(corners)}
-    place |= {rhs_output("event", k): i for k, i in enumerate(range(len(corners), len(corners) + events))}
+    place: dict[Place, int] = {ASIDE["g"][k]: i for i, k in enumerate(corners)}
+    place |= {ASIDE["event"][k]: i for k, i in enumerate(range(len(corners), len(corners) + events))}
     sections = []
     for section in watched.sections:
         kept: list[Line] = []
         for s in section.statements:
             if isinstance(s, Statement) and isinstance(s.target, Place):
-                s = replace(s, target=Element("out", place[s.target]))
+                s = replace(s, target=Place("out")[place[s.target]])
             kept.append(Sides("") if isinstance(s, Sides) else s)
         sections.append(Section(section.title, tuple(kept)))
     return replace(watched, name=RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
@@ -94,14 +94,14 @@ def reads_state(kernel: Kernel) -> bool:
 def reads_beyond(kernel: Kernel, count: int) -> bool:
     """Whether it reads a coordinate, or the rate of one, behind the first `count`."""
     values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
-    places = [value for value in values if isinstance(value, Element) and value.of in ("q", "v")]
-    return max((place.index for place in places), default=-1) >= count
+    places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
+    return any(place.path >= (count,) for place in places)
 
 
 def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
     """What is written of a statement that tells a corner or an event."""
     value = statement.value
     if isinstance(value, SideOf) and int(value.args[0]) in corners:
-        return Statement(rhs_output("g", int(value.args[0])), value.args[1])
+        return Statement(ASIDE["g"][int(value.args[0])], value.args[1])
     target = statement.target
-    return statement if isinstance(target, Element) and target.of == Field(ASIDE.name, "event") else None
+    return statement if isinstance(target, Place) and target.path[:1] == ("event",) else None

@@ -10,7 +10,7 @@ from gudgeon.generator.ir.signatures import PARAMETERS, STATE, result
 from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.square_rows import SquareRows
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 
 
 def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
@@ -32,8 +32,8 @@ def _close_step(system: System, rows: SquareRows) -> Kernel:
     rates = rows.solve(build, solvers, [row.nu for row in system.rows], "rate")
     build.section("results")
     for k, (x, u) in enumerate(zip(step, rates, strict=True)):
-        build.out(Element("step", k), x)
-        build.out(Element("rates", k), u)
+        build.out(Place("step")[k], x)
+        build.out(Place("rates")[k], u)
     build.line(Largest("worst", tuple(phi)))
     build.line(Return())
     outs = (result(name) for name in ("step", "rates", "worst"))
@@ -50,8 +50,8 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
     build.section("positions and velocities of the bodies")
     for body in bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True), body.index):
-            build.out(Element("all_q", k), q)
-            build.out(Element("all_v", k), v)
+            build.out(Place("all_q")[k], q)
+            build.out(Place("all_v")[k], v)
     build.section("rates of the closures")
     named = zip(rows.names, system.rows, strict=True)
     phi_dot = [build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named]
@@ -60,11 +60,11 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
     build.section("accelerations")
     a = rows.solve(build, solvers, [row.gamma for row in system.rows], "second")
     for k, value in enumerate(a):
-        build.out(Element("a", k), value)
+        build.out(Place("a")[k], value)
     for body in bodies:
         motion = system.motions[body.name]
         for k, (line, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
-            build.out(Element("all_a", k), sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
+            build.out(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
     build.line(Return())
     outs = (result(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
     return build.build((*STATE, PARAMETERS, *outs), status=True)

@@ -11,7 +11,7 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, result, source
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import Joint
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 
 
 def outputs_kernel(model: Model) -> Kernel:
@@ -23,26 +23,26 @@ def outputs_kernel(model: Model) -> Kernel:
     multiplier: dict[str, sp.Expr] = {}
     build.section("multipliers")
     for r, row in enumerate(model.rows):
-        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", Element("lambda", r))
+        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[r])
     build.section("reactions")
     rows_of: dict[str, list[Row]] = {}
     for row in model.rows:
         rows_of.setdefault(row.owner, []).append(row)
     for j, joint in enumerate(kept_joints(model)):
         for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
-            target = Element("reactions", N_REACTION_COLUMNS * j + k)
+            target = Place("reactions")[N_REACTION_COLUMNS * j + k]
             build.out(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
-        build.out(Element("torques", d), -multiplier.get(name, ZERO), f"{name}")
+        build.out(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
     for k, (name, (value, _)) in enumerate(element_series(model).items()):
-        build.out(Element("series", k), value, name)
+        build.out(Place("series")[k], value, name)
     build.section("energy")
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
-    build.out(Element("energy", ENERGY_kinetic), kinetic)
+    build.out(Place("energy")[ENERGY_kinetic], kinetic)
     gx, gy = model.gravity
     weights = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
     stored = (element.loads.potential for element in model.elements.values())
-    build.out(Element("energy", ENERGY_potential), sp.Add(*weights, *stored))
+    build.out(Place("energy")[ENERGY_potential], sp.Add(*weights, *stored))
     out = (result(name) for name in ("reactions", "torques", "series", "energy"))
     return build.build((*STATE, PARAMETERS, source("lambda"), *out))
 

@@ -12,20 +12,13 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.kernels import Section, hold_sides
+from gudgeon.generator.ir.signatures import LATCH
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.kernels.laws import law_calls, law_name
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
-from gudgeon.generator.solvers.contact_slopes import (
-    DEEP,
-    FORCE,
-    dry_slopes,
-    film_slopes,
-    in_place,
-    share_slope,
-    unlatched,
-)
-from gudgeon.generator.symbols.storage import Key
+from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slopes, in_place, share_slope, unlatched
+from gudgeon.generator.symbols.storage import Place
 
 Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
@@ -64,9 +57,9 @@ class Pin:
         return self.clearance.normal.further if self.clearance.normal else ()
 
     @property
-    def given(self) -> tuple[Key, ...]:
+    def given(self) -> tuple[Place, ...]:
         """The same as what a joint has it under: a force that is held is one of the latch."""
-        return (FORCE.place,) if self.clearance.rigid else self.further
+        return (LATCH["force"],) if self.clearance.rigid else tuple(map(Place, self.further))
 
     @property
     def has_transition(self) -> bool:

@@ -13,7 +13,7 @@ from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, result, s
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST_SIZE
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 
 LEAST_MASS = 1e-4  # of the mass of all bodies: the least that a body counts in projections
 FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
@@ -31,13 +31,13 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
     build.section("right-hand side")
     place = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Element("r", place[row.name]))
+        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Place("r")[place[row.name]])
         for k, row in enumerate(kkt.rows)
     }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
     build.section("results")
     for k, _ in enumerate(system.q):
-        build.out(Element("x", k), x[k])
+        build.out(Place("x")[k], x[k])
     build.line(Return())
     arguments = (*STATE[:2], source("r"), PARAMETERS, result("x"))
     return build.build(arguments, status=True), kkt
@@ -104,8 +104,8 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     x, u = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
     build.section("results")
     for k, _ in enumerate(system.q):
-        build.out(Element("dq", k), x[k])
-        build.out(Element("dv", k), u[k])
+        build.out(Place("dq")[k], x[k])
+        build.out(Place("dv")[k], u[k])
     build.line(Largest("worst", tuple(phi.values())))
     build.line(Return())
     outs = (result(name) for name in ("dq", "dv", "worst"))

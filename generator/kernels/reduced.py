@@ -19,7 +19,7 @@ from gudgeon.generator.kernels.projection import projection_kernel
 from gudgeon.generator.reduction.links import Link
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.symbols.storage import Element, PlaceSymbol
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
@@ -74,8 +74,8 @@ def _expand(system: TreeSystem) -> Kernel:
     build.section("bodies")
     for body in system.model.bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
-            build.out(Element("all_q", body.index + k), q)
-            build.out(Element("all_v", body.index + k), v)
+            build.out(Place("all_q")[body.index + k], q)
+            build.out(Place("all_v")[body.index + k], v)
     return build.build((*STATE, PARAMETERS, result("all_q"), result("all_v")))
 
 
@@ -91,15 +91,15 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
     ])  # fmt: skip
     state.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
-        state.out(Element("s", k), position, names[k])
-        state.out(Element("s_rate", k), rate)
+        state.out(Place("s")[k], position, names[k])
+        state.out(Place("s_rate")[k], rate)
     accelerations = KernelBuilder(model.symbols, "reduce_accelerations", ["Their second rates a, from absolute all_a."])
     accelerations.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
-        along = (diff(position, q) * PlaceSymbol(Element("all_a", i)) for i, q in enumerate(model.q))
-        accelerations.out(Element("a", k), sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
+        along = (diff(position, q) * PlaceSymbol(Place("all_a")[i]) for i, q in enumerate(model.q))
+        accelerations.out(Place("a")[k], sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
     kernels = [state.build((*STATE, PARAMETERS, result("s"), result("s_rate")))]
     if is_rescued(system):
         kernels.append(accelerations.build((*STATE, source("all_a"), PARAMETERS, result("a"))))
@@ -132,7 +132,7 @@ def _closures(system: TreeSystem) -> list[Kernel]:
         build = KernelBuilder(system.model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(system.rows):
-            build.out(Element("out", r), value(row), row.name)
+            build.out(Place("out")[r], value(row), row.name)
         arguments: Sequence[Argument] = STATE if velocity else STATE[:2]
         return build.build((*arguments, PARAMETERS, result("out")))
 

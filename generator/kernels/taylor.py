@@ -18,7 +18,7 @@ from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import FACTORS, KKT
 from gudgeon.generator.solvers.pivots import SINGULAR, VANISHING, ZERO, Factor
-from gudgeon.generator.symbols.storage import Element, Field, Place
+from gudgeon.generator.symbols.storage import Place
 
 if TYPE_CHECKING:
     from gudgeon.generator.kernels.program import Program
@@ -92,8 +92,8 @@ def _nobody(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
 def _place(target: Place) -> Place | None:
     """Where a result goes: what other functions tell of a state nobody wants here."""
     match target:
-        case Element("a"):
+        case Place("a"):
             return target
-        case Element(Field(ASIDE.name, "power"), k):
-            return Element("power", k)
+        case Place(ASIDE.name, ("power", int() as k)):
+            return Place("power")[k]
     return None

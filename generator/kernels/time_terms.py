@@ -19,7 +19,7 @@ from gudgeon.generator.ir.signatures import ASIDE, PARAMETERS, TIME
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.symbols.corners import Pick, SideOf
 from gudgeon.generator.symbols.periods import ModOn, PeriodsOf
-from gudgeon.generator.symbols.storage import Element, Place, Variable
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.wholes import Whole
 
 NAME = "time_terms"
@@ -64,7 +64,7 @@ def _read(dynamics: Kernel, rests: bool) -> _Terms:
 
 
 def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
-    outs = [Statement(Element("out", k), term) for k, term in enumerate(terms)]
+    outs = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
     arguments = (TIME, PARAMETERS, ASIDE)
     return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=sections, status=False)
@@ -89,7 +89,7 @@ class _Terms:
         if not isinstance(value, sp.Basic):
             if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
                 self.known[local] = statement
-            if value == Variable(TIME.name):
+            if value == Place(TIME.name):
                 self.time = local
             return
         names = {symbol.name for symbol in value.free_symbols}

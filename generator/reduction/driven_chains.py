@@ -27,7 +27,7 @@ from gudgeon.generator.equations.friction import Friction
 from gudgeon.generator.equations.system import Given, Known, Motion, System
 from gudgeon.generator.reduction.frames import Frame
 from gudgeon.generator.sparsity.matching import Block, match_rows, triangular_blocks
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
@@ -66,7 +66,7 @@ def with_directions(chain: Chain, system: System, frames: Iterable[Frame], presc
         if frame.turns and set(frame.turns) <= {*place, *prescribed} and {frame.cos, frame.sin} & read:
             first = len(system.q) + len(chain.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
-                symbols.info[symbol] = replace(symbols.info[symbol], home=Element("q", first + k))
+                symbols.info[symbol] = replace(symbols.info[symbol], home=Place("q")[first + k])
             turns = {place[name]: c for name, c in frame.turns.items() if name in place}
             directions.append(Direction(frame.cos, frame.sin, turns))
     return replace(chain, directions=tuple(directions))
@@ -177,17 +177,17 @@ def _homes(system: System, names: Sequence[str], kept: Sequence[int], columns: S
     symbols = system.model.symbols
     info = symbols.info
 
-    def move(symbol: sp.Symbol, home: Element) -> None:
+    def move(symbol: sp.Symbol, home: Place) -> None:
         info[symbol] = replace(info[symbol], home=home)
 
     for i, k in enumerate((*kept, *columns)):
-        move(system.q[k], Element("q", i))
-        move(system.v[k], Element("v", i))
+        move(system.q[k], Place("q")[i])
+        move(system.v[k], Place("v")[i])
     known = []
     for i, c in enumerate(columns, len(system.q)):
         name = system.q[c].name
-        second = symbols.new(f"{name}_second", Element("v", i), names[c])
-        third = symbols.new(f"{name}_third", Element("v", i + len(columns)), names[c])
+        second = symbols.new(f"{name}_second", Place("v")[i], names[c])
+        third = symbols.new(f"{name}_third", Place("v")[i + len(columns)], names[c])
         known.append(Known(system.q[c], system.v[c], second, third))
     return tuple(known)
 

@@ -21,7 +21,7 @@ from gudgeon.generator.reduction.frames import ONE, ZERO, Coordinate, Frame, Mot
 from gudgeon.generator.reduction.links import Link
 from gudgeon.generator.reduction.tree import Tree
 from gudgeon.generator.symbols.numbers import Slots
-from gudgeon.generator.symbols.storage import Element
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 Term = tuple[str, str]  # frame, slide ("" without)
@@ -104,7 +104,7 @@ class TreeGeometry(Geometry):
         """A new unknown."""
         new, owner = self.symbols.new, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
-        q, v = (new(n, Element(letter, state), name) for n, letter in zip(names, "qv", strict=True))
+        q, v = (new(n, Place(letter)[state], name) for n, letter in zip(names, "qv", strict=True))
         self.motions.coordinates[name] = Coordinate(name, q, v)
         return 1
 

@@ -19,10 +19,10 @@ from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted
-from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO, Argument, result, source
+from gudgeon.generator.ir.signatures import LATCH, PARAMETERS, SIDES, ZERO, Argument, result
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
-from gudgeon.generator.symbols.storage import Element, Field, PlaceSymbol
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
 OF_CONTOUR = (contact.e, contact.de_n, contact.across, contact.omega_i, contact.omega_j, contact.worn,
@@ -30,10 +30,9 @@ OF_CONTOUR = (contact.e, contact.de_n, contact.across, contact.omega_i, contact.
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
 DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
-LATCH = source("latch", "Latch")
-_CLOSED = Test(PlaceSymbol(Field(LATCH.name, "closed")))
-_STORED = PlaceSymbol(Field(LATCH.name, "deltadot_minus"))
-FORCE = PlaceSymbol(Field(LATCH.name, "force"))  # of surfaces that do not give
+_CLOSED = Test(PlaceSymbol(LATCH["closed"]))
+_STORED = PlaceSymbol(LATCH["deltadot_minus"])
+_FORCE = PlaceSymbol(LATCH["force"])  # of surfaces that do not give
 
 
 def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
@@ -90,10 +89,10 @@ class _Slopes:
         """Writes (F along n, F along t, M_i, M_j) and their slopes, then rates of inner states; 0 where it has none."""
         self.section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
-            self.build.out(Element(Field("out", "value"), row), value)
+            self.build.out(Place("out")["value"][row], value)
             slopes: Tangent = self.tangents.gradient(value)
             for column, base in enumerate(self.inputs):
-                self.build.out(Element(Element(Field("out", "slope"), row), column), slopes.get(base, ZERO))
+                self.build.out(Place("out")["slope"][row][column], slopes.get(base, ZERO))
         return self.build.build(_arguments(self.clearance), inline=True, prune=True)
 
 
@@ -131,7 +130,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
     slopes.section("contact")
-    further = [FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
+    further = [_FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
     F_n = slopes.law(normal, (contact.depth, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     for step in contact.pressing(clearance):
@@ -139,8 +138,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     pressed = contact.F_N if clearance.contour else F_n
     rubbed: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        bent = Field(LATCH.name, "state")
-        own = [build.local("bent", PlaceSymbol(Element(bent, k))) for k in range(len(clearance.states))]
+        own = [build.local("bent", PlaceSymbol(LATCH["state"][k])) for k in range(len(clearance.states))]
         for state, base in zip(own, slopes.states, strict=False):
             tangents.know(state, {base: sp.Integer(1)})
         rubbed = slopes.law(clearance.friction, (pressed, contact.v_t, *own))
@@ -181,7 +179,7 @@ def share_slope(model: Model, clearance: Clearance) -> Kernel:
         build.line(Statement(step.symbol.name, tangents.held(value)))
         tangents.know(step.symbol, tangents.gradient(value, step.symbol))
     value = in_place(model, last.value)
-    build.out(Element("out", 0), tangents.held(value))
-    build.out(Element("out", 1), tangents.gradient(value).get(contact.delta, ZERO))
+    build.out(Place("out")[0], tangents.held(value))
+    build.out(Place("out")[1], tangents.gradient(value).get(contact.delta, ZERO))
     arguments = (Argument(contact.delta.name), PARAMETERS, *SIDES, result("out"))
     return build.build(arguments, inline=True)

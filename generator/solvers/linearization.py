@@ -28,11 +28,11 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.ir.signatures import MEMORY, Number, acting_on, rhs_output
+from gudgeon.generator.ir.signatures import ASIDE, MEMORY, Number, acting_on
 from gudgeon.generator.ir.statements import Call, Declare
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.solvers.pivots import friction_mode
-from gudgeon.generator.symbols.storage import Element, Field, Place, PlaceSymbol, Variable
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
@@ -67,18 +67,17 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.states = self.model.law_states  # of each joint with play, as in C
         self.z = {
-            self._held(f"{c.label}_{state.name}", Element(Field(latch, "state"), k)): i * self.states + k
-            for i, c in enumerate(self.model.clearances) for latch in [Element(Field(MEMORY.name, "latch"), i)]
-            for k, state in enumerate(c.states)
+            self._held(f"{c.label}_{state.name}", MEMORY["latch"][i]["state"][k]): i * self.states + k
+            for i, c in enumerate(self.model.clearances) for k, state in enumerate(c.states)
         }  # fmt: skip
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
         for known in system.known:  # functions of t
             for symbol, rate in ((known.q, known.rate), (known.rate, known.second), (known.second, known.third)):
                 self.tangents.know(symbol, {self.t: rate})
         self.parts = Parts()
-        self.a = [self._held(f"a_{q.name}", Element("a", k)) for k, q in enumerate(system.q)]
+        self.a = [self._held(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
         self.multiplier = [
-            self._held(f"held_lambda_{row.name}", rhs_output("lambda", r)) for r, row in enumerate(system.rows)
+            self._held(f"held_lambda_{row.name}", ASIDE["lambda"][r]) for r, row in enumerate(system.rows)
         ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.rates: list[sp.Expr] = []  # of the inner states
@@ -109,7 +108,7 @@ class Linearization:
 
     def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """The joint's force as symbols, with their tangents from its own function."""
-        name, build, out = clearance.label, self.build, rhs_output("clearance", index)
+        name, build, out = clearance.label, self.build, ASIDE["clearance"][index]
         build.section(f"clearance {clearance.kind} {clearance.name}")
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
@@ -117,17 +116,17 @@ class Linearization:
         given += clearance.also
         slopes = self.symbols.unique(f"change_{name}")
         build.line(Declare(Number.REAL, slopes, (4 + self.states, len(given) + self.states)))
-        build.line(Call(f"tangent_{name}_", (*e, *edot, *given[4:], *acting_on(index)), (Variable(slopes),)))
+        build.line(Call(f"tangent_{name}_", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
         own = [state for state, place in self.z.items() if place // self.states == index] if self.states else []
         inner = [self.tangents.gradient(x) for x in (*given, *own)]
         also = ("n_x", "n_y") if clearance.wall else ("theta_i",)
         by_what = (*_BY, *also[: len(clearance.also)], *(state.name for state in own))
         values = []
-        results: dict[str, Place] = {what: Field(out, what) for what in ("Fx", "Fy", "moment_first", "moment_second")}
-        results |= {f"state_rate_{k}": Element(Field(out, "state_rate"), k) for k in range(len(own))}
+        results: dict[str, Place] = {what: out[what] for what in ("Fx", "Fy", "moment_first", "moment_second")}
+        results |= {f"state_rate_{k}": out["state_rate"][k] for k in range(len(own))}
         for i, (what, home) in enumerate(results.items()):
             symbol = self._held(f"{name}_{what}", home)
-            places = {k: Element(Element(slopes, i), j) for j, k in enumerate(by_what) if inner[j]}
+            places = {k: Place(slopes)[i][j] for j, k in enumerate(by_what) if inner[j]}
             by = [build.local(f"{symbol.name}_by_{k}", place) for k, place in places.items()]
             known = iter(by)
             pairs = {next(known): tangent for tangent in inner if tangent}
@@ -188,7 +187,7 @@ class Linearization:
         for r, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + r, friction.name, self.build
             stick, sign = friction_mode(build, name, r)
-            held = Chosen(Test(stick, "!=", (0.0,)), PlaceSymbol(Field(rhs_output("friction", r), "force")), ZERO)
+            held = Chosen(Test(stick, "!=", (0.0,)), PlaceSymbol(ASIDE["friction"][r]["force"]), ZERO)
             force = build.local(f"held_force_{name}", held)
             self.sticks.append(stick)
             self._phi_q(node, friction.jacobian)

@@ -32,17 +32,7 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.differentiation import Tangents
 from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Section, with_sides
-from gudgeon.generator.ir.signatures import (
-    ASIDE,
-    MEMORY,
-    PARAMETERS,
-    STATE,
-    Access,
-    Argument,
-    Number,
-    result,
-    source,
-)
+from gudgeon.generator.ir.signatures import ASIDE, MEMORY, PARAMETERS, STATE, Access, Argument, Number, result, source
 from gudgeon.generator.ir.statements import Call, Declare, Return, RunNumbers, Statement
 from gudgeon.generator.ir.stored_values import Pool
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots
@@ -50,10 +40,9 @@ from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
 from gudgeon.generator.solvers.linearization import Linearization, Pair, Parts
 from gudgeon.generator.solvers.pivots import is_simple
 from gudgeon.generator.sparsity.elimination import choose_elimination
-from gudgeon.generator.symbols.storage import Element, Field, PlaceSymbol, Variable
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 ZERO = sp.Integer(0)
-_LU = Field(LINEARIZATION, "lu")
 
 
 class Newton:
@@ -70,9 +59,9 @@ class Newton:
         partner = self.first.partner
         self.equation = {**partner, **{r: k for k, r in partner.items()}}  # by its unknown, if not its own
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named + states]
-        self.values = Pool(system.model.symbols, Field(LINEARIZATION, "value"))
-        self.factors = Pool(system.model.symbols, _LU)
         self.lin = source(LINEARIZATION, "Linear")
+        self.values = Pool(system.model.symbols, self.lin["value"])
+        self.factors = Pool(system.model.symbols, self.lin["lu"])
         self.linearize = self._linearize()
         self.factor = self._factor()
         self.substitute = self._substitute()
@@ -93,7 +82,7 @@ class Newton:
         self.parts = self._pooled(build, parts, work.tangents)
         self.sticks = [self.values.keep(build, stick, f"is_{stick.name}") for stick in work.sticks]
         self.tables = self._tables(build)
-        build.out(Field(LINEARIZATION, PARAMETERS.name), Variable(PARAMETERS.name))
+        build.out(self.lin[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
             *STATE, MEMORY, PARAMETERS, source("a"), source(ASIDE.name, ASIDE.type), self._own_lin(),
         )  # fmt: skip
@@ -221,13 +210,13 @@ class Newton:
             earlier[i].append(j)
         for k in order:
             i = self.equation.get(k, k)
-            value = PlaceSymbol(Element("x", i)) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier[i]))
+            value = PlaceSymbol(Place("x")[i]) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier[i]))
             x[k] = build.local(f"b_{self.names[k]}", value)
         build.section("backward")
         for k in reversed(order):
             value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
             x[k] = build.local(f"x_{self.names[k]}", value * self.inverse[k])
-            build.out(Element("x", k), x[k])
+            build.out(Place("x")[k], x[k])
         return self._build(build, (self.lin, result("x")))
 
     def _solve(self) -> Kernel:
@@ -242,7 +231,7 @@ class Newton:
         build.section("right-hand side")
         build.line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
-        r_q, r_v = ([PlaceSymbol(Element("r", first + k)) for k in range(n)] for first in (0, n))
+        r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
         wanted = sorted({k for node, k in parts.phi_q if node < n + self.m})
         shifted = {k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in wanted}
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
@@ -255,18 +244,18 @@ class Newton:
         for i, value in parts.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
-            b[i].append(PlaceSymbol(Element("r", self._behind(i))))
+            b[i].append(PlaceSymbol(Place("r")[self._behind(i)]))
         for i, terms in enumerate(b):
-            build.out(Element("x", i), self._scale(i) * sp.Add(*terms))
-        build.line(Call("newton_substitute", (Variable(LINEARIZATION),), (Variable("x"),)))
+            build.out(Place("x")[i], self._scale(i) * sp.Add(*terms))
+        build.line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
         build.section("solution")
         for k in range(n):
-            build.out(Element("u", k), ETA * (r_q[k] + PlaceSymbol(Element("x", k))))
-            build.out(Element("u", n + k), PlaceSymbol(Element("x", k)))
+            build.out(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
+            build.out(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
         for i in range(self.first_state, self.nodes):
-            build.out(Element("u", self._behind(i)), PlaceSymbol(Element("x", i)))
+            build.out(Place("u")[self._behind(i)], PlaceSymbol(Place("x")[i]))
         for w in range(N_WORK):
-            build.out(Element("u", 2 * n + w), self._work(w))
+            build.out(Place("u")[2 * n + w], self._work(w))
         arguments = (self.lin, Argument("eta"), Argument("s"), source("r"), result("u"))
         return self._build(build, arguments)
 
@@ -277,17 +266,17 @@ class Newton:
     def _work(self, w: int) -> sp.Expr:
         """u_w; x holds u_v, that is η (δa + r_v), and η μ behind it."""
         parts, n = self.parts, self.n
-        terms = [PlaceSymbol(Element("r", 2 * n + w)), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
+        terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
         for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
-            terms += [value * PlaceSymbol(Element("u", first + k)) for (i, k), value in part.items() if i == w]
+            terms += [value * PlaceSymbol(Place("u")[first + k]) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
         for (i, node), value in parts.power_row.items():
-            before = ETA * PlaceSymbol(Element("r", n + node)) if node < n else ZERO
-            changes += [value * (PlaceSymbol(Element("x", node)) - before)] if i == w else []
+            before = ETA * PlaceSymbol(Place("r")[n + node]) if node < n else ZERO
+            changes += [value * (PlaceSymbol(Place("x")[node]) - before)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 
 def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
     """Its matrix at complex η, factorized and solved where s is 0."""
-    arrays = ("eta", "r", "u", "x", _LU)
+    arrays = ("eta", "r", "u", "x", newton.lin["lu"])
     return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))

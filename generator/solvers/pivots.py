@@ -13,7 +13,6 @@ from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.signatures import MEMORY
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Chosen, Test, Threshold
-from gudgeon.generator.symbols.storage import Element, Field
 
 ZERO = sp.Integer(0)
 
@@ -33,8 +32,8 @@ EARLY = Threshold("EARLY", 1e-5)
 # the inverse of its square, 5e-16 for a share of 1.
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
 # The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
-LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, Field(MEMORY.name, "least"))
-LEAST_SIZE = Threshold(VANISHING.name, VANISHING, Field(MEMORY.name, "least_size"))
+LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, MEMORY["least"])
+LEAST_SIZE = Threshold(VANISHING.name, VANISHING, MEMORY["least_size"])
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,7 @@ class Factor:
 
 def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
     """1 in stick and 0 else, and the sign of a slip (0: none)."""
-    place = Element(Field(MEMORY.name, "mode"), index)
+    place = MEMORY["mode"][index]
     mode = build.local(f"mode_{name}", place, "0 stick, 1 or -1 the sign of the slip, 2 held")
     stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
     return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))

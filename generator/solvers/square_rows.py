@@ -23,7 +23,7 @@ from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
 from gudgeon.generator.sparsity.matching import Block, triangular_blocks
 from gudgeon.generator.symbols.corners import Size
-from gudgeon.generator.symbols.storage import Element, Place, Variable
+from gudgeon.generator.symbols.storage import Place
 
 ZERO = sp.Integer(0)
 # A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
@@ -111,8 +111,8 @@ class SquareRows:
         build.line(Declare(Number.REAL, values, (n * n,)))
         build.line(Declare(Number.INTEGER, order, (n,)))
         for k, value in enumerate(value for line in self._square(block) for value in line):
-            build.out(Element(values, k), value)
-        factored = Call("factor_block", (sp.Integer(n),), (Variable(values), Variable(order)))
+            build.out(Place(values)[k], value)
+        factored = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
         build.line(Guard(factored, block.rows[0] + 1))
         return Solver(block, name=name)
 
@@ -147,7 +147,7 @@ class SquareRows:
         name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(left)
         build.line(Declare(Number.REAL, name, (n,)))
         for k, value in enumerate(left):
-            build.out(Element(name, k), value)
-        given = (sp.Integer(n), Variable(f"{solver.name}_values"), Variable(f"{solver.name}_order"))
-        build.line(Call("solve_block", given, (Variable(name),)))
-        return [Element(name, k) for k in range(n)]
+            build.out(Place(name)[k], value)
+        given = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
+        build.line(Call("solve_block", given, (Place(name),)))
+        return [Place(name)[k] for k in range(n)]

@@ -16,7 +16,7 @@ from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import to_sympy
-from gudgeon.generator.symbols.storage import PARAMETERS, Element, Field, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, Place
 from gudgeon.generator.symbols.symbols import OWN_FIELD, Symbols
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
@@ -126,7 +126,7 @@ class Slots(Freezable):
         if not known:
             known = self.symbols.unique(wanted)
             self.tables[known] = [
-                self._add(own.address, f"{known}_{k}", own, Element(Field(PARAMETERS, known), k))
+                self._add(own.address, f"{known}_{k}", own, Place(PARAMETERS)[known][k])
                 for k, own in enumerate(quantities)
             ]
         for symbol in self.tables[known]:
@@ -184,8 +184,13 @@ class Slots(Freezable):
 
     def field(self, symbol: sp.Symbol) -> str:
         """What a number is called in Parameters."""
+        return self.place(symbol).member
+
+    def place(self, symbol: sp.Symbol) -> Place:
+        """Where a number is in Parameters."""
         home = self.symbols.info[symbol].home
-        return home.member if home else ""
+        assert home is not None
+        return home
 
 
 def names_any(quantity: Quantity) -> bool:

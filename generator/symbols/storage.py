@@ -10,14 +10,23 @@ import sympy as sp
 PARAMETERS = "p"  # the argument that holds the parameters of a run
 
 
+@dataclass(frozen=True)
 class Place:
-    """A place in memory; `base` is the argument or local array that leads to it.
+    """An argument or local, or a part of it: `Place("aside")["clearance"][0]["Fx"]`.
 
-    As a string it is the path, `p.mass`, `aside.clearance[0].Fx`: by it terms are put in order.
+    `path` has the name of a field, or the number of an element, a step. As a string, by which terms are put in order,
+    the place is `aside.clearance[0].Fx`.
     """
 
-    expressions: ClassVar[tuple[sp.Basic, ...]] = ()
     base: str
+    path: tuple[str | int, ...] = ()
+    expressions: ClassVar[tuple[sp.Basic, ...]] = ()
+
+    def __getitem__(self, step: str | int) -> Place:
+        return Place(self.base, (*self.path, step))
+
+    def __str__(self) -> str:
+        return self.base + "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in self.path)
 
     @property
     def names(self) -> frozenset[str]:
@@ -27,7 +36,7 @@ class Place:
     @property
     def is_parameter(self) -> bool:
         """Return whether the place is a parameter of the run."""
-        return self.base == PARAMETERS and not isinstance(self, Variable)
+        return self.base == PARAMETERS and self.path != ()
 
     @property
     def member(self) -> str:
@@ -35,56 +44,8 @@ class Place:
         return str(self).partition(".")[2]
 
 
-@dataclass(frozen=True)
-class Variable(Place):
-    """An argument as a whole, or a local."""
-
-    name: str
-
-    @property
-    def base(self) -> str:  # type: ignore[override]
-        """Return its own name."""
-        return self.name
-
-    def __str__(self) -> str:
-        return self.name
-
-
-@dataclass(frozen=True)
-class Result(Variable):
+class Result(Place):
     """The number that a function returns through the argument of this name."""
-
-
-@dataclass(frozen=True)
-class Inner(Place):
-    """A part of an argument or local array of that name, or of another place."""
-
-    of: str | Place
-
-    @property
-    def base(self) -> str:  # type: ignore[override]
-        """Return the base of the whole."""
-        return self.of if isinstance(self.of, str) else self.of.base
-
-
-@dataclass(frozen=True)
-class Field(Inner):
-    """A field of a struct."""
-
-    name: str
-
-    def __str__(self) -> str:
-        return f"{self.of}.{self.name}"
-
-
-@dataclass(frozen=True)
-class Element(Inner):
-    """An element of an array, counted from 0."""
-
-    index: int
-
-    def __str__(self) -> str:
-        return f"{self.of}[{self.index}]"
 
 
 class PlaceSymbol(sp.Symbol):

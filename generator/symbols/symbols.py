@@ -20,9 +20,9 @@ import sympy as sp
 from gudgeon.generator.symbols.corners import Switches
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
 from gudgeon.generator.symbols.freezable import Freezable
-from gudgeon.generator.symbols.storage import PARAMETERS, Field, Key, Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, PlaceSymbol
 
-OWN_FIELD = Field(PARAMETERS, "")  # the home of a parameter whose field is called as the symbol
+OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
 
 
 def made_name(wanted: str) -> str:
@@ -122,7 +122,7 @@ class Symbols(Freezable):
 
     def _is_member(self, name: str) -> bool:
         """Whether a number of the run has this name: the same one for something else would mislead."""
-        return self._home(name) == Field(PARAMETERS, name)
+        return self._home(name) == Place(PARAMETERS)[name]
 
     def _home(self, name: str) -> Place | None:
         info = self.info.get(sp.Symbol(name, real=True))
@@ -138,7 +138,7 @@ class Symbols(Freezable):
         shared = self._shared if home and home.is_parameter else None
         name, called = (self._unshared(text, shared) if text else "" for text in (wanted, shown))
         symbol = sp.Symbol(name, real=True)
-        home = Field(PARAMETERS, called or name) if home == OWN_FIELD else home
+        home = Place(PARAMETERS)[called or name] if home == OWN_FIELD else home
         self.info[symbol] = SymbolInfo(home, meaning, unit)
         if shared is not None:
             shared.info[symbol] = self.info[symbol]

@@ -19,7 +19,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.series import series_of
 from gudgeon.generator.ir.series_rules import Gathered, NoSeries
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Element, Field, Key, Place, Variable, key_of
+from gudgeon.generator.symbols.storage import Key, Place, key_of
 from gudgeon.integrators import lanes
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
@@ -38,35 +38,35 @@ MOTION = ((0.3, 0.5, -0.2, 0.1), (0.7, -0.4, 0.3, 0.05))  # x and y as polynomia
 def coefficients(value: sp.Expr, orders: int) -> list[float]:
     """Of an expression of time, x and y along MOTION, by both functions of its series."""
     lines = (
-        Statement("time", Variable("t")), Statement("x", Element("q", 0)), Statement("y", Element("q", 1)),
-        Statement("w", Field("p", "w")), Statement("result", value),
-        Statement(Element("a", 0), sp.Symbol("result", real=True)),
+        Statement("time", Place("t")), Statement("x", Place("q")[0]), Statement("y", Place("q")[1]),
+        Statement("w", Place("p")["w"]), Statement("result", value),
+        Statement(Place("a")[0], sp.Symbol("result", real=True)),
     )  # fmt: skip
     made = series_of(Kernel("f", (), (), (Section("", lines),)), lambda target: target, "f")
-    rows = dict[tuple[object, int], list[float]]()
-    names: dict[Key, float] = {Field("p", "w"): 0.6}
+    rows = dict[tuple[str, int], list[float]]()
+    names: dict[Key, float] = {Place("p")["w"]: 0.6}
     found: list[float] = []
     for k in range(orders + 1):
-        known = {name: value for name, value in names.items() if k == 0 or isinstance(name, Field)}
-        known |= {Element("q", i): float(c[k]) if k < len(c) else 0.0 for i, c in enumerate(MOTION)}
-        known |= {Variable("t"): float(k == 1), "k": k, "share": 1 / max(k, 1), "next": 1 / (k + 1)}
+        kept = (name for name in names if k == 0 or (isinstance(name, Place) and name.base in ("p", "at")))
+        known = {name: names[name] for name in kept}
+        known |= {Place("q")[i]: float(c[k]) if k < len(c) else 0.0 for i, c in enumerate(MOTION)}
+        known |= {Place("t"): float(k == 1), "k": k, "share": 1 / max(k, 1), "next": 1 / (k + 1)}
         for i, product in enumerate(made.products):
             left, right = (rows.get((side, i), []) for side in ("left", "right"))
-            known[Field("sum", product.name)] = sum(left[j - 1] * right[k - j - 1] for j in range(1, k))
+            known[Place("sum")[product.name]] = sum(left[j - 1] * right[k - j - 1] for j in range(1, k))
         kernel = made.values if k == 0 else made.terms
         for line in (line for section in kernel.sections for line in section.statements):
             follow(line, known, rows)
-        found.append(known[Element("a", 0)] * (k + 1 if k else 1))
+        found.append(known[Place("a")[0]] * (k + 1 if k else 1))
         names = names | known
     return found
 
 
-def follow(line: Line, known: dict[Key, float], rows: dict[tuple[object, int], list[float]]) -> None:
+def follow(line: Line, known: dict[Key, float], rows: dict[tuple[str, int], list[float]]) -> None:
     """What a line does, with numbers by their names."""
     if isinstance(line, Gathered):
-        side, row = line.target.of, line.target.index
         for i, value in enumerate(line.values):
-            rows.setdefault((side, 8 * row + i), []).append(number(value, known))
+            rows.setdefault((line.array, 8 * line.row + i), []).append(number(value, known))
     elif isinstance(line, Statement):
         value = line.value
         known[line.target] = known[value] if isinstance(value, Place) else number(value, known)

@@ -13,7 +13,7 @@ from gudgeon.generator.ir.order import nearby
 from gudgeon.generator.ir.signatures import Number, result, source
 from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.symbols.storage import Element, PlaceSymbol, Variable
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import shipped_file
@@ -95,17 +95,17 @@ def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
 
 
 def test_a_short_kernel_is_its_only_part() -> None:
-    kernel = Kernel("f", (), (result("x"),), (Section("", (Statement(Element("x", 0), sp.Float(1)),)),))
+    kernel = Kernel("f", (), (result("x"),), (Section("", (Statement(Place("x")[0], sp.Float(1)),)),))
     assert parts.cut(kernel) == (kernel,)
 
 
 def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     shorten(monkeypatch)
-    a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [PlaceSymbol(Element("b", k)) for k in range(2)]
-    first = Statement("a0", Element("x", 0))
+    a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [PlaceSymbol(Place("b")[k]) for k in range(2)]
+    first = Statement("a0", Place("x")[0])
     plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
-    front: tuple[Line, ...] = (Declare(Number.REAL, "b", (2,)), Call("fill", (), (Variable("b"),)))
-    last = Statement(Element("y", 0), a[39] + a[3])
+    front: tuple[Line, ...] = (Declare(Number.REAL, "b", (2,)), Call("fill", (), (Place("b"),)))
+    last = Statement(Place("y")[0], a[39] + a[3])
     kernel = Kernel("f", (), (source("x"), result("y")),
                     (Section("", (*front, *plain, last)),))  # fmt: skip
     # every statement but the first reads b, which only the call knows: nothing may move

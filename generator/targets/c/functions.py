@@ -36,9 +36,9 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import NONE
 from gudgeon.generator.kernels.shared import CORNER, SharedCall
 from gudgeon.generator.symbols.derivatives import symbols_of
-from gudgeon.generator.symbols.storage import Element, Field, Place, key_of
+from gudgeon.generator.symbols.storage import Place, key_of
 from gudgeon.generator.targets.c.layout import WIDTH, broken
-from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text
+from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text, expression
 
 # Functions that engine/scene/kernels.h declares: the engine calls them from a unit of its own.
 CALLED_BY_ENGINE = frozenset({
@@ -105,7 +105,7 @@ class Lines(Text):
                 return self._largest_row(item)
             case Gathered():
                 values = ", ".join(map(self.expression, item.values))
-                return [f"{self.printer.called(item.target)} = (Wide){{{values}}};"]
+                return [f"{item.array}[{item.row}] = (Wide){{{values}}};"]
             case Unread():
                 return [f"(void){self.printer.called(item.name)};"]
         return [_PLAIN[type(item)]]
@@ -131,7 +131,7 @@ class Lines(Text):
     def handed_over(self, place: Place) -> str:
         """A struct within another one by its address, all else as it is."""
         text = self.printer.called(place)
-        return f"&{text}" if isinstance(place, (Element, Field)) else text
+        return f"&{text}" if place.path else text
 
     def _guard(self, item: Guard) -> list[str]:
         fails = self._call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
@@ -210,7 +210,7 @@ def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
 def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str]) -> str:
     """A joint's call of a function that joints share."""
     held = ["side", "g", str(call.corner)] if call.corner is not None else []
-    numbers = map(CPrinter().called, call.numbers)
+    numbers = map(expression, call.numbers)
     return f"{call.kernel.name}({', '.join([*given, *numbers, *held, *results])});"
 
 

@@ -34,7 +34,7 @@ from gudgeon.generator.ir.statements import (
 )
 from gudgeon.generator.ir.values import Chosen, Test, Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
-from gudgeon.generator.symbols.storage import Element, Place
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import Text
 
@@ -157,10 +157,8 @@ class LaneLines(functions.Lines):
                            for old, x in zip(before, item.values, strict=False)]
                 return largest or [f"{name} = all_of(0.0);"]
             case Gathered():
-                array, first = item.target.of, WIDE * item.target.index
-                places = (Element(array, first + i) for i in range(len(item.values)))
-                return [f"{self.printer.called(place)} = {self.expression(x)};"
-                        for place, x in zip(places, item.values, strict=True)]
+                return [f"{item.array}[{WIDE * item.row + i}] = {self.expression(x)};"
+                        for i, x in enumerate(item.values)]
             case Sines():
                 return super()._lines(item)
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")

@@ -13,7 +13,7 @@ from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.layout import broken
-from gudgeon.generator.targets.c.printer import CPrinter
+from gudgeon.generator.targets.c.printer import expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -160,7 +160,7 @@ def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
 
 def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     """Text, and the local that it fills, or ""."""
-    given: Sequence[str] = [delta, "ratio", *map(CPrinter().called, pin.given)]
+    given: Sequence[str] = [delta, "ratio", *map(expression, pin.given)]
     normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",))
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
     pressed = "F_N" if pin.pressing else "F_n"

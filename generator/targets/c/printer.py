@@ -14,7 +14,7 @@ from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Val
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.functions import CLASSES
-from gudgeon.generator.symbols.storage import PARAMETERS, Element, Field, Key, Place, PlaceSymbol, Result
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, key_of
 from gudgeon.generator.targets.quick import Quick
 
 _PLAIN = Readable(())
@@ -37,22 +37,16 @@ class CPrinter(Quick, C99CodePrinter):
 
     def place(self, place: Place) -> str:
         """Return the lvalue; arguments that are structs are pointers."""
-        match place:
-            case Field(str() as pointer, name):
-                return f"{pointer}->{name}"
-            case Field(Place() as whole, name):
-                return f"{self.place(whole)}.{name}"
-            case Element(of, index):
-                return f"{self.place(of) if isinstance(of, Place) else of}[{index}]"
-            case Result(name):
-                return f"*{name}"
-        return self.called(place.base)
+        if isinstance(place, Result):
+            return f"*{place.base}"
+        text = place.base if place.path else self.called(place.base)
+        for step in place.path:
+            arrow = "->" if text == place.base else "."
+            text += f"[{step}]" if isinstance(step, int) else f"{arrow}{step}"
+        return text
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
-        return self.called(expr.name)
-
-    def _print_PlaceSymbol(self, expr: PlaceSymbol) -> str:
-        return self.called(expr.place)
+        return self.called(key_of(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """A number such as 0.5 needs no brackets; 2*PI/3 in a product does, for it is one number."""
@@ -174,7 +168,7 @@ class CPrinter(Quick, C99CodePrinter):
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """From contours.py."""
-        table, angle = self.called(Field(PARAMETERS, expr.table)), self._print(expr.args[3])
+        table, angle = self.called(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
         return f"contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:

@@ -39,7 +39,12 @@ def _turned(chains: ChainKernels) -> list[tuple[int, str]]:
             return ""
         return f"{float(c)!r} * " if c.is_Number else f"-p->{-c} * " if (-c).is_Symbol else f"p->{c} * "
 
-    return [(k, " + ".join(f"{factor(c)}step[{j}]" for j, c in turns.items())) for k, turns in chains.turned()]
+    first = chains.first + len(chains.chain.names)
+    return [
+        (first + 2 * k, " + ".join(f"{factor(c)}step[{j}]" for j, c in d.turns.items()))
+        for k, d in enumerate(chains.chain.directions)
+        if d.turns
+    ]
 
 
 def _multipliers(model: Model, system: TreeSystem) -> list[str]:

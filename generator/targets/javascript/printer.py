@@ -30,7 +30,7 @@ from gudgeon.generator.ir.values import Test
 from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, c_name
-from gudgeon.generator.symbols.storage import Element, Field, Place, Result, Variable
+from gudgeon.generator.symbols.storage import Place, Result
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 from gudgeon.language.functions import IN_SYMPY
 
@@ -61,7 +61,7 @@ const contour = (depth, order, angle) => {
     return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
 };
 """
-_SIDES = tuple(Variable(argument.name) for argument in SIDES)
+_SIDES = tuple(Place(argument.name) for argument in SIDES)
 
 
 class JavaScriptPrinter(CPrinter):
@@ -132,10 +132,9 @@ def _aside(kernel: Kernel) -> str:
     places += [place for line in lines if isinstance(line, Call) for place in line.results]
     parts = dict[str, int]()
     for place in places:
-        element = place.of if isinstance(place, Field) else place
-        match element:
-            case Element(Field(ASIDE.name, array), k):
-                structs = 1 + k if element is not place or array == "clearance" else 0
+        match place:
+            case Place(ASIDE.name, (str() as array, int() as k, *member)):
+                structs = 1 + k if member or array == "clearance" else 0
                 parts[array] = max(structs, parts.get(array, 0))
     told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
     return f"{{{told}}}" if parts else ""

@@ -22,7 +22,7 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.quantities import quantities
-from gudgeon.generator.symbols.storage import PARAMETERS, Element, Field, Key, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
@@ -223,7 +223,7 @@ class _Finder:
 
     def _prepare(self) -> None:
         kernel = self.program.prepare
-        own = {s.name: home for s in self.model.slots.members() if (home := self.model.symbols.info[s].home)}
+        own = {s.name: self.model.slots.place(s) for s in self.model.slots.members()}
         slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
         fields = {name: self.numbers[home] | ({f"number-{name}"} if name in slots else set())
                   for name, home in own.items()}  # fmt: skip
@@ -234,15 +234,14 @@ class _Finder:
 
     def by_address(self) -> dict[str, Marks]:
         """Tokens of each number of the file."""
-        info = self.model.symbols.info
-        entries = self.model.slots.entries.values()
-        return {own.address: frozenset(self.numbers[home]) for own in entries if (home := info[own.symbol].home)}
+        slots = self.model.slots
+        return {own.address: frozenset(self.numbers[slots.place(own.symbol)]) for own in slots.entries.values()}
 
 
 def _element(target: Key) -> tuple[str, int]:
     """An array of numbers, of a function or within its `aside`, and which element of it; −1 of everything else."""
     match target:
-        case Element(str() as array, index) | Element(Field(ASIDE.name, array), index):
+        case Place(array, (int() as index,)) | Place(ASIDE.name, (str() as array, int() as index)):
             return array, index
     return str(target), -1
 

@@ -31,24 +31,21 @@ from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Val
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.functions import CLASSES
-from gudgeon.generator.symbols.storage import Element, Field, Key, Place, PlaceSymbol, Result, Variable
+from gudgeon.generator.symbols.storage import Key, Place, Result, key_of
 from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
 from gudgeon.generator.targets.quick import Quick
 
 _NOWHERE = (Status, JointsAlone, Jump, Rescue, Sides)  # vanished pivots, held corners, what single runs ask for
-_HELD = tuple(Variable(argument.name) for argument in SIDES)
+_HELD = tuple(Place(argument.name) for argument in SIDES)
 _SIDES = ("side", "g", "corner")
 
 
 def name(key: Key) -> str:
     """Return the expression of a local or place: of a field `lambda` it is `aside.lambda_[3]`."""
-    match key:
-        case Field(of, word):
-            return f"{name(of)}.{name(word)}"
-        case Element(of, index):
-            return f"{name(of)}[{index}]"
-    word = str(key)
-    return f"{word}_" if keyword.iskeyword(word) else word
+    if isinstance(key, Place):
+        steps = (f"[{step}]" if isinstance(step, int) else f".{name(step)}" for step in key.path)
+        return name(key.base) + "".join(steps)
+    return f"{key}_" if keyword.iskeyword(key) else key
 
 
 class NumPyPrinter(Quick, PythonCodePrinter):
@@ -63,10 +60,7 @@ class NumPyPrinter(Quick, PythonCodePrinter):
         return name(self.of.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
-        return self.called(expr.name)
-
-    def _print_PlaceSymbol(self, expr: PlaceSymbol) -> str:
-        return self.called(expr.place)
+        return self.called(key_of(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         share = share_of_pi(expr)
