@@ -103,6 +103,13 @@ typedef struct {
     double *residuals, *peaks;
     double *audited, *audited_t;          /* as gudgeon_run_audited has them, N_CHECKS a run */
     int *audited_where;
+    double *gained;                       /* as gudgeon_run_pace has them */
+    long *paced, *ended;
+    double *trace;                        /* rows of a trace for each run, trace_rows of them; NULL: none */
+    long trace_rows, *traced;             /* written rows */
+    int (*ask)(void *);                   /* called by runs with `whom` each `every` seconds: not 0: stop; or NULL */
+    void *whom;
+    double every;
     const volatile int *ending;           /* not 0: all runs end where they are */
 } Batch;
 

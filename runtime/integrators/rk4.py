@@ -9,41 +9,12 @@ section 1), in the reduced one they are closed after every step.
 from __future__ import annotations
 
 import math
-from time import perf_counter
-
-from gudgeon.integrators.session import Session
-from gudgeon.integrators.trajectory import Problem, Trajectory
 
 NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
 CHUNK = 20_000  # steps of one call of C, which asks Python on its way (asking.py)
 ADVICE = "the step {:.3g} s is too long for this scene: take a smaller one"
 SAME = 1e-9  # share of the step by which the last one may differ and counts as equal: times are sums of rounded numbers
-
-
-def run(problem: Problem) -> Trajectory:
-    """Integrate over the output times by steps of problem.step."""
-    session = Session(problem)
-    return session.drive(lambda: _all(session))
-
-
-def _all(session: Session) -> None:
-    """All the way; raises RunEnded, KeyboardInterrupt, SolverError."""
-    while session.done < len(session.problem.t):
-        _chunk(session)
-        session.look()
-
-
-def _chunk(session: Session) -> None:
-    """Some steps in C."""
-    problem, done = session.problem, session.pointer(session.rows_done, "long *", True)
-    grid = (problem.step, len(problem.t), session.pointer(problem.t))
-    before = perf_counter()
-    status = session.lib.gudgeon_rk4_run(
-        session.run, session.pointer(session.p), *grid, CHUNK, *session.rows(0), done
-    )  # fmt: skip
-    session.seconds += perf_counter() - before
-    session.back(status, session.report()[0], ADVICE.format(problem.step))
 
 
 def last_step(duration: float, step: float) -> float:

@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "2de45a8850e9f6a2606924c9b58a77f4ade1bcae13a05c052c6d129f7834ae9f"  # SHA-256 of these declarations
+OF = "c2734b03c22896cf3e631ba74d8798662b707feef5ac8e93e91f3bfbfbed1888"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
@@ -200,6 +200,15 @@ ffi = FFI(
             b"\x00\x00\x14\x11audited",
             b"\x00\x00\x14\x11audited_t",
             b"\x00\x00\x98\x11audited_where",
+            b"\x00\x00\x14\x11gained",
+            b"\x00\x00c\x11paced",
+            b"\x00\x00c\x11ended",
+            b"\x00\x00\x14\x11trace",
+            b"\x00\x00\x01\x11trace_rows",
+            b"\x00\x00c\x11traced",
+            b"\x00\x019\x11ask",
+            b"\x00\x00{\x11whom",
+            b"\x00\x00\x02\x11every",
             b"\x00\x01t\x11ending",
         ),
     ),

@@ -18,9 +18,8 @@ from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
 from gudgeon.integrators.batch import available_threads
-from gudgeon.integrators.session import counts_of_runs
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Problem, Progress
+from gudgeon.integrators.trajectory import Problem, Progress, counts_of_runs
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array

@@ -172,7 +172,7 @@ def run_singly(
 ) -> Batch:  # fmt: skip
     """The batch of simulation.simulate(parameters=…, **options) of each run; its values, mask and p (n, ...)."""
     before, (given, is_given, p) = time.perf_counter(), numbers
-    source, t, t0 = simulation.source, times.requested(), float(np.nanmin(times.t))
+    source, t, t0 = simulation.source, times.requested(), times.start
     runs = _Runs(simulation, given, is_given, options, starts, asked.keep, t.shape[-1])
     runs.errors |= bad
     runs.run(asked.threads, asked.progress, t0)
