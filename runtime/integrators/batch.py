@@ -130,9 +130,9 @@ class Runs:
         struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
         struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method, rtol)
         struct.fixed, struct.stop, struct.audit = int(fixed), int(stop), audit
-        kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
+        kinds = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
         for name, array in self.arrays.items():
-            setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *"), True))
+            setattr(struct, name, self.compiled.pointer(array, kinds[array.dtype.char], True))
         return struct
 
     def keep_trace(self) -> None:
@@ -353,7 +353,7 @@ class Runs:
         events, lost = split_undefined(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
             return events, lost
-        t_last = self.samples(i)[0][-1] + resolution(times)
+        t_last = self._times_of(i)[-1] + resolution(times)
         return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
 
     def counts(self, i: int) -> Counts:
@@ -363,12 +363,16 @@ class Runs:
     def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
         """Times of the samples of run i that were reached, and views of these: (q, v, works), memory, codes."""
         x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
-        done = int(x["done"][i])
+        done, joints = int(x["done"][i]), len(compiled.source.clearances)
+        return self._times_of(i), x["y"][k, :done], x["latched"][k, :done, : compiled.n_memory], x["state"][k, :done, :joints]
+
+    def _times_of(self, i: int) -> Array:
+        """Return the times (s) of the samples of run i that were reached."""
+        done = int(self.arrays["done"][i])
         t = self.times.of(i)[:done].copy()
-        if done and x["status"][i] in (ENDED, STOPPED, STALLED):
-            t[-1] = x["t_last"][i]
-        joints = len(compiled.source.clearances)
-        return t, x["y"][k, :done], x["latched"][k, :done, : compiled.n_memory], x["state"][k, :done, :joints]
+        if done and self.arrays["status"][i] in (ENDED, STOPPED, STALLED):
+            t[-1] = self.arrays["t_last"][i]
+        return t
 
     def trajectory(self, i: int) -> Trajectory:
         """Return run i; of several runs a copy, without their arrays."""
