@@ -1,6 +1,7 @@
 /*
- * Many runs, one after the other: start, time loop and report of each without Python. Several threads may work on
- * one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were alone.
+ * The time loop of one run and of many, one after the other: start, steps and report of each without Python. Several
+ * threads may work on one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were
+ * alone.
  */
 #include "batch.h"
 #include "../scene/start.h"
@@ -52,11 +53,11 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
     gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
     run->began = i + 1;
     gudgeon_run_tape(run, tape.rows, tape.capacity);
-    gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
-    gudgeon_run_stop(run, b->stop);
-    gudgeon_run_audit(run, b->audit, b->size[i]);
+    set_contact_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
+    run->stop = b->stop;
+    start_audit(run, b->audit, b->size[i]);
     if (b->trace)
-        gudgeon_run_trace(run, (double *)((TraceRow *)b->trace + i * b->trace_rows), b->trace_rows);
+        start_trace(run, (TraceRow *)b->trace + i * b->trace_rows, b->trace_rows);
     set_cancellation(b, &run->asked);
     if (b->choice >= 0)
         gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
@@ -73,8 +74,8 @@ static void take_sample(const Batch *b, long i, long k, Run *run)
 }
 
 /*
- * The first sample of run i from row `first` on that is no number, for a force was none between the stages of a step; 0:
- * there is none. A method of fixed step finds that at the end of the step.
+ * The first sample of run i from row `first` on that is no number, because a force was none between the stages of a
+ * step; 0: there is none. A method of fixed step finds that at the end of the step.
  */
 static long first_odd(const Batch *b, long i, long first)
 {
@@ -125,12 +126,12 @@ static void end_run(const Batch *b, long i, int status, Run *run)
     signed char state[AT_LEAST_ONE(N_CLEARANCES)];
     const long odd = first_odd(b, i, 0);
     gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
-    gudgeon_run_audited(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
+    report_audit(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
     gudgeon_run_report(run, b->t_last + i, b->counts + N_COUNTS * i, b->residuals + N_RESIDUALS * i,
         b->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
-    gudgeon_run_pace(run, b->gained + i, b->paced + 2 * i, b->ended + N_STEP_ENDS * i);
+    report_pace(run, b->gained + i, b->paced + 2 * i, b->ended + N_STEP_ENDS * i);
     if (b->trace)
-        b->traced[i] = gudgeon_run_traced(run);
+        b->traced[i] = count_trace_rows(run);
     if (odd)
         take_back(b, i, odd);
     else if (status == ENDED || status == STALLED || (status == STOPPED && b->done[i] > 0))

@@ -363,8 +363,9 @@ class Runs:
     def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
         """Times of the samples of run i that were reached, and views of these: (q, v, works), memory, codes."""
         x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
-        done, joints = int(x["done"][i]), len(compiled.source.clearances)
-        return self._times_of(i), x["y"][k, :done], x["latched"][k, :done, : compiled.n_memory], x["state"][k, :done, :joints]
+        t, joints = self._times_of(i), len(compiled.source.clearances)
+        y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
+        return t, y, memory[:, : compiled.n_memory], state[:, :joints]
 
     def _times_of(self, i: int) -> Array:
         """Return the times (s) of the samples of run i that were reached."""

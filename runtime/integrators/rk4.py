@@ -1,4 +1,4 @@
-"""Classical Runge–Kutta of order 4 with fixed step: the loop is in C (engine/methods/rk4.c).
+"""Classical Runge–Kutta of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46:435, 1901; engine/methods/rk4.c).
 
 Every step is as long as was asked for, the last one as is left; outputs do not touch them. Samples between two steps
 come from the cubic through both. Python is called once a chunk of steps and fetches impacts and events; C asks it on
@@ -9,8 +9,6 @@ section 1), in the reduced one they are closed after every step.
 from __future__ import annotations
 
 import math
-
-NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
 CHUNK = 20_000  # steps of one call of C, which asks Python on its way (asking.py)
 ADVICE = "the step {:.3g} s is too long for this scene: take a smaller one"

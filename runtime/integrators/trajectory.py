@@ -98,7 +98,8 @@ class Counts:
 def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
     """Return the counts (N_COUNTS,) and residuals (N_RESIDUALS,) that gudgeon_run_report writes."""
     residuals = [x if math.isfinite(x) else math.nan for x in numbers.tolist()]
-    return Counts(**dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True)))
+    known = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
+    return Counts(**{each.name: known[each.name] for each in fields(Counts)})
 
 
 def counts_of_runs(counts: NDArray[Any], numbers: Array) -> dict[str, NDArray[Any]]:
