@@ -74,14 +74,16 @@ static void take_sample(const Batch *b, long i, long k, Run *run)
 }
 
 /*
- * The first sample of run i from row `first` on that is no number, because a force was none between the stages of a
- * step; 0: there is none. A method of fixed step finds that at the end of the step.
+ * The first sample of run i that is no number, because a force was none between the stages of a step; 0: there is none.
+ * A method of fixed step finds that at the end of the step. No sample is checked twice.
  */
-static long first_odd(const Batch *b, long i, long first)
+static long first_odd(const Batch *b, long i)
 {
-    for (long k = first > 1 ? first : 1; k < b->done[i] && b->choice >= 0; k++)
-        if (!all_finite(b->y + (rows_of(b, i) + k) * N_S, 2 * N_Q))
+    for (long k = b->checked[i]; k < b->done[i] && b->choice >= 0; k++) {
+        if (k > 0 && !all_finite(b->y + (rows_of(b, i) + k) * N_S, 2 * N_Q))
             return k;
+        b->checked[i] = k + 1;
+    }
     return 0;
 }
 
@@ -124,7 +126,7 @@ static void end_run(const Batch *b, long i, int status, Run *run)
 {
     double *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_MEMORY)];
     signed char state[AT_LEAST_ONE(N_CLEARANCES)];
-    const long odd = first_odd(b, i, 0);
+    const long odd = first_odd(b, i);
     gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
     report_audit(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
     gudgeon_run_report(run, b->t_last + i, b->counts + N_COUNTS * i, b->residuals + N_RESIDUALS * i,
@@ -166,12 +168,11 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
         }
         if (b->phase[i] != BEGUN)
             continue;
-        const long first = b->done[i];
         const double before = seconds_now();
         const int status = *b->ending && b->done[i] < b->wanted[i] ? STOPPED : advance(b, i, b->limit, run);
         b->seconds[i] += seconds_now() - before;
         const int is_over = status != EVENTS_FULL && (status || b->done[i] == b->wanted[i]);
-        if (!is_over && !first_odd(b, i, first))
+        if (!is_over && !first_odd(b, i))
             return status ? LISTS : GOES_ON;
         end_run(b, i, status, run);
         if (has_lists(run))

@@ -89,7 +89,7 @@ typedef struct {
     signed char *codes;                   /* of the contacts that a run goes on with */
     double *y, *latched;                  /* samples, by place */
     signed char *state;
-    long *done;                           /* samples stored */
+    long *done, *checked;                 /* samples stored; those that are known to be numbers */
     int *status;
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */

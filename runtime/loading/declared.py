@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "e74854af68d56df6f07728cbc6600b26c9bf5f19417735891cfe877bb5b9e087"  # SHA-256 of these declarations
+OF = "666bdf02749c821b7b89d58411487c27dce277805b0d7f7a76c3fc35a176e310"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
@@ -174,6 +174,7 @@ ffi = FFI(
             b"\x00\x00\x14\x11latched",
             b"\x00\x00\x86\x11state",
             b"\x00\x00c\x11done",
+            b"\x00\x00c\x11checked",
             b"\x00\x00\x98\x11status",
             b"\x00\x00\x14\x11t_last",
             b"\x00\x00\x14\x11last",
