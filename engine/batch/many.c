@@ -1,11 +1,21 @@
 /*
- * Many runs, one after the other: start, time loop and report of each without Python. Several threads may work on
- * one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were alone.
+ * The time loop of one run and of many, one after the other: start, steps and report of each without Python. Several
+ * threads may work on one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were
+ * alone.
  */
 #include "batch.h"
 #include "../scene/start.h"
 
 static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
+
+/* Whom the long computations of a run ask whether to go on. */
+static void set_cancellation(const Batch *b, Asked *asked)
+{
+    if (b->ask)
+        set_asked(asked, b->ask, b->whom, b->every);
+    else
+        set_asked(asked, is_ending, (void *)b, GLANCE);
+}
 
 /* Whether run j, which has begun, was closed here from what run i begins with too. */
 static int begins_alike(const Batch *b, long i, long j)
@@ -33,7 +43,7 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
 {
     double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0};
     Asked asked;
-    set_asked(&asked, is_ending, (void *)b, GLANCE);
+    set_cancellation(b, &asked);
     const double t0 = times_of(b, i)[0];
     if (!b->started[i] && close_run(b, i, others, n, &asked))
         return asked.stop ? STOPPED : NOT_CLOSED;
@@ -43,10 +53,12 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
     gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
     run->began = i + 1;
     gudgeon_run_tape(run, tape.rows, tape.capacity);
-    gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
-    gudgeon_run_stop(run, b->stop);
-    gudgeon_run_audit(run, b->audit, b->size[i]);
-    gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
+    set_contact_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
+    run->events.stop = b->stop;
+    start_audit(run, b->audit, b->size[i]);
+    if (b->trace)
+        start_trace(run, (TraceRow *)b->trace + i * b->trace_rows, b->trace_rows);
+    set_cancellation(b, &run->asked);
     if (b->choice >= 0)
         gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
             b->fixed ? b->step[i] : 0.0);
@@ -59,6 +71,20 @@ static void take_sample(const Batch *b, long i, long k, Run *run)
     const long row = rows_of(b, i) + k;
     store_sample(run, run->t, run->y, (const Parameters *)(b->p_motion + i * b->numbers), 0, b->y + row * N_S,
         b->latched + row * AT_LEAST_ONE(N_MEMORY), b->state + row * AT_LEAST_ONE(N_CLEARANCES));
+}
+
+/*
+ * The first sample of run i that is no number, because a force was none between the stages of a step; 0: there is none.
+ * A method of fixed step finds that at the end of the step. No sample is checked twice.
+ */
+static long first_odd(const Batch *b, long i)
+{
+    for (long k = b->checked[i]; k < b->done[i] && b->choice >= 0; k++) {
+        if (k > 0 && !all_finite(b->y + (rows_of(b, i) + k) * N_S, 2 * N_Q))
+            return k;
+        b->checked[i] = k + 1;
+    }
+    return 0;
 }
 
 /* Steps of run i, at most `limit`, with their samples. */
@@ -75,27 +101,45 @@ static int advance(const Batch *b, long i, long limit, Run *run)
     return status;
 }
 
-/* Run i is over: its report; where an event or Ctrl-C ended it, a last sample in place of those that are as late. */
-static void end_run(const Batch *b, long i, int status, Run *run)
+/* Sample k of run i, which is no number, is taken back with those after it. */
+static void take_back(const Batch *b, long i, long k)
+{
+    b->done[i] = k;
+    b->t_last[i] = times_of(b, i)[k];
+    memcpy(b->last + i * N_S, b->y + (rows_of(b, i) + k - 1) * N_S, N_S * sizeof(double));
+}
+
+/* The present state as the last sample of run i, in place of those that are as late. */
+static void close_samples(const Batch *b, long i, int status, Run *run)
 {
     const double *times = times_of(b, i), t_end = t_end_of(b, i);
-    double t, *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_MEMORY)];
-    signed char state[AT_LEAST_ONE(N_CLEARANCES)];
-    const double apart = status == STOPPED ? 0.0
+    const double apart = status != ENDED ? 0.0
         : max_of(32.0 * DBL_EPSILON * max_of(fabs(times[0]), fabs(t_end)),
-            min_of(1e-11, 1e-10 * (t_end - times[0]))); /* as Python's Session has it */
-    if (status == ENDED || (status == STOPPED && b->done[i] > 0)) {
-        b->t_last[i] = run->t;
-        while (b->done[i] > 0 && times[b->done[i] - 1] >= run->t - apart)
-            b->done[i]--;
-        take_sample(b, i, b->done[i]++, run);
-    }
-    b->status[i] = status;
-    b->phase[i] = OVER;
+            min_of(1e-11, 1e-10 * (t_end - times[0]))); /* resolution() of runtime/integrators/events.py */
+    while (b->done[i] > 0 && times[b->done[i] - 1] >= run->t - apart)
+        b->done[i]--;
+    take_sample(b, i, b->done[i]++, run);
+}
+
+/* Run i is over: its report, and where it ended before its last sample but did not fail, the state there. */
+static void end_run(const Batch *b, long i, int status, Run *run)
+{
+    double *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_MEMORY)];
+    signed char state[AT_LEAST_ONE(N_CLEARANCES)];
+    const long odd = first_odd(b, i);
     gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
-    gudgeon_run_audited(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
-    gudgeon_run_report(run, &t, b->counts + N_COUNTS * i, b->residuals + N_RESIDUALS * i,
+    report_audit(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
+    gudgeon_run_report(run, b->t_last + i, b->counts + N_COUNTS * i, b->residuals + N_RESIDUALS * i,
         b->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
+    report_pace(run, b->gained + i, b->paced + 2 * i, b->ended + N_STEP_ENDS * i);
+    if (b->trace)
+        b->traced[i] = count_trace_rows(run);
+    if (odd)
+        take_back(b, i, odd);
+    else if (status == ENDED || status == STALLED || (status == STOPPED && b->done[i] > 0))
+        close_samples(b, i, status, run);
+    b->status[i] = odd ? NOT_FINITE : status;
+    b->phase[i] = OVER;
 }
 
 static int has_lists(const Run *run)
@@ -127,10 +171,9 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
         const double before = seconds_now();
         const int status = *b->ending && b->done[i] < b->wanted[i] ? STOPPED : advance(b, i, b->limit, run);
         b->seconds[i] += seconds_now() - before;
-        if (status == EVENTS_FULL)
-            return LISTS;
-        if (!status && b->done[i] < b->wanted[i])
-            return GOES_ON;
+        const int is_over = status != EVENTS_FULL && (status || b->done[i] == b->wanted[i]);
+        if (!is_over && !first_odd(b, i))
+            return status ? LISTS : GOES_ON;
         end_run(b, i, status, run);
         if (has_lists(run))
             return RUN_OVER;

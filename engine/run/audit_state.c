@@ -75,24 +75,19 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 }
 
 /* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
-void gudgeon_run_audit(void *memory, int level, double size)
+static void start_audit(Run *run, int level, double size)
 {
-    ((Run *)memory)->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
+    run->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
     for (int k = 0; k < N_CHECKS; k++)
-        ((Run *)memory)->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
+        run->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }
 
-/*
- * Of each check the largest value as a multiple of its limit, < 0: not checked, its time, and where it was. Returns how
- * many checks.
- */
-int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where)
+/* Of each check the largest value as a multiple of its limit, < 0: not checked, its time, and where it was. */
+static void report_audit(const Run *run, double *worst, double *t, int *where)
 {
-    const Run *run = memory;
     for (int k = 0; k < N_CHECKS; k++) {
         worst[k] = run->audit.record[k].worst;
         t[k] = run->audit.record[k].t;
         where[k] = run->audit.record[k].where;
     }
-    return N_CHECKS;
 }

@@ -11,19 +11,12 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 
 void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->events.stop = stop; }
 
-/* `ask` is called with `whom` each `every` seconds (0: at each right-hand side); the run stops where it says so. */
-void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every)
-{
-    set_asked(&((Run *)memory)->asked, ask, whom, every);
-}
-
 /*
  * Of a run that no longer advances: s that its last PACE_STEPS steps gained, how many these are, whether they are far
  * shorter than those before; how many of them ended at contacts, corners of forces, frictions, events of the user.
  */
-void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended)
+static void report_pace(const Run *run, double *gained, long *steps, long *ended)
 {
-    const Run *run = memory;
     *gained = run->progress.pace.gain;
     steps[0] = PACE_STEPS;
     steps[1] = run->progress.pace.crawls;

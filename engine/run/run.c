@@ -258,9 +258,8 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
 }
 
 /* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */
-void gudgeon_run_codes(void *memory, const signed char *state)
+static void set_contact_codes(Run *run, const signed char *state)
 {
-    Run *run = memory;
     for (int i = 0; i < N_CLEARANCES; i++)
         run->compressing[i] = state[i] == CODE_IMPACT;
 }

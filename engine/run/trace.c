@@ -87,19 +87,13 @@ static void trace_step(Run *run)
 }
 
 /* Room for the trace of a run that is about to begin: an even number of rows. */
-void gudgeon_run_trace(void *memory, double *trace, long rows)
+static void start_trace(Run *run, TraceRow *trace, long rows)
 {
-    Run *run = memory;
-    run->envelope.rows = (TraceRow *)trace;
+    run->envelope.rows = trace;
     run->envelope.n_rows = rows;
     run->envelope.stride = 1;
     begin_trace_row(run);
 }
 
 /* Rows of the trace so far; the last one may tell of fewer steps than the others. */
-long gudgeon_run_traced(const void *memory)
-{
-    const Run *run = memory;
-    return run->envelope.row + (run->envelope.steps > 0);
-}
-
+static long count_trace_rows(const Run *run) { return run->envelope.row + (run->envelope.steps > 0); }

@@ -52,17 +52,12 @@ int gudgeon_newton(double t, const double *y, const double *memory, const double
     const double *r, double *u);
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
-void gudgeon_run_trace(void *memory, double *trace, long rows);
-long gudgeon_run_traced(const void *memory);
 void gudgeon_run_tape(void *memory, double *rows, long capacity);
 long gudgeon_run_taped(void *memory);
-void gudgeon_run_codes(void *memory, const signed char *state);
 int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
 void gudgeon_run_stop(void *memory, int stop);
-void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every);
-void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
 int gudgeon_run_full(const void *memory);
 int gudgeon_run_listed(const void *memory);
 int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
@@ -73,8 +68,6 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
-void gudgeon_run_audit(void *memory, int level, double size);
-int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 
 /*
@@ -84,7 +77,7 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 typedef struct {
     long samples, numbers, limit;         /* rows of a place; steps after which a call returns */
     int choice, automatic, stop;          /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
-    int audit;                            /* level, as gudgeon_run_audit takes it */
+    int audit;                            /* level: AuditLevel */
     int fixed;                            /* whether methods that choose their step take a given one */
     double *t;
     long apart, *wanted, *place;          /* times of run i: wanted[i] of them from t + i * apart; 0: those of all */
@@ -96,13 +89,20 @@ typedef struct {
     signed char *codes;                   /* of the contacts that a run goes on with */
     double *y, *latched;                  /* samples, by place */
     signed char *state;
-    long *done;                           /* samples stored */
+    long *done, *checked;                 /* samples stored; those that are known to be numbers */
     int *status;
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */
     double *residuals, *peaks;
-    double *audited, *audited_t;          /* as gudgeon_run_audited has them, N_CHECKS a run */
+    double *audited, *audited_t;          /* largest value of each check of the audit, -1: none, its time and place */
     int *audited_where;
+    double *gained;                       /* of the last steps: s; how many, whether they crawl; what ended them */
+    long *paced, *ended;
+    double *trace;                        /* rows of a trace for each run, trace_rows of them; NULL: none */
+    long trace_rows, *traced;             /* written rows */
+    int (*ask)(void *);                   /* called by runs with `whom` each `every` seconds: not 0: stop; or NULL */
+    void *whom;
+    double every;
     const volatile int *ending;           /* not 0: all runs end where they are */
 } Batch;
 

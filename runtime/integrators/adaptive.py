@@ -24,19 +24,14 @@ accelerations do not magnify errors of velocities.
 from __future__ import annotations
 
 import math
-from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import angles
-from gudgeon.contract.boundary import NOT_FINITE, PEAK_e_max
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, STAGED, STIFF
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.integrators.failure import failure
-from gudgeon.integrators.session import Session
-from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import number
 from gudgeon.model.sizes import mechanism_sizes
@@ -46,50 +41,6 @@ FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velo
 SMALLEST = 1e-14  # rounding would be controlled below it
 CHUNK = 4_000  # steps of one call of C, which asks Python on its way (asking.py)
 ADVICE = "the motion may leave what the model holds for; look at the last samples"
-
-
-def run(problem: Problem) -> Trajectory:
-    """Integrate over the output times; samples come from the interpolant, projected."""
-    session = Session(problem, problem.p_free)
-    scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
-    fixed = 0.0 if math.isinf(problem.step) else problem.step
-    choice = choice_of(problem.compiled, problem.method, problem.rtol)
-    session.lib.gudgeon_adaptive_setup(session.run, *choice, session.pointer(scale), session.pointer(least), fixed)
-    return session.drive(lambda: _all(session))
-
-
-def _all(session: Session) -> None:
-    """All the way; raises RunEnded, KeyboardInterrupt, SolverError."""
-    while session.done < len(session.problem.t):
-        _chunk(session)
-        session.look()
-
-
-def _chunk(session: Session) -> None:
-    """Some steps in C."""
-    problem, done = session.problem, session.pointer(session.rows_done, "long *")
-    first = session.done
-    arguments = (session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK, *session.rows(0), done)
-    before = perf_counter()
-    status = session.lib.gudgeon_adaptive_run(session.run, *arguments)
-    session.seconds += perf_counter() - before
-    _check_samples(session, first)
-    session.back(status, session.report()[0], ADVICE)
-
-
-def _check_samples(session: Session, first: int) -> None:
-    """Raises NonFiniteError for a sample that is no number, and takes it back with those behind it."""
-    if k := first_odd(session.y[: session.done], session.n, first):
-        session.rows_done[0] = k
-        last, t = session.y[k - 1 : k], float(session.problem.t[k])
-        e_max = session.report()[3][:, PEAK_e_max]
-        raise failure(session.compiled, session.problem.method, NOT_FINITE, t, ADVICE, last, e_max, session.p)
-
-
-def first_odd(y: Array, n: int, first: int = 0) -> int:
-    """Which sample (N, 2n + …) is no number, for a force was none between the stages of a step; 0: none is."""
-    finite = np.isfinite(y[first:, : 2 * n])
-    return 0 if finite.all() else first + int((~finite.all(axis=1)).argmax())
 
 
 def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:

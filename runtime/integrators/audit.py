@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AuditError
-from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.compiled import Array
 
 REMEDY = (
     "the result cannot be trusted: compare with another method, a smaller rtol or formulation full; audit=False runs"
@@ -18,17 +16,8 @@ REMEDY = (
 )
 
 
-def fetch_findings(compiled: CompiledModel, run: Any) -> tuple[Finding, ...]:
-    """Return what the audit of a run's struct has found so far."""
-    worst, t = np.zeros(len(CHECKS)), np.zeros(len(CHECKS))
-    where = np.zeros(len(CHECKS), dtype=np.intc)
-    arrays = compiled.pointer(worst), compiled.pointer(t), compiled.pointer(where, "int *")
-    compiled.lib.gudgeon_run_audited(run, *arrays)
-    return as_findings(compiled.source, worst, t, where)
-
-
 def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.intc]) -> tuple[Finding, ...]:
-    """Return the findings from values, times and places (n_checks,) as gudgeon_run_audited writes them.
+    """Return the findings from values, times and places (n_checks,) as a run reports them.
 
     What was not checked, and has a negative value, has none.
     """

@@ -8,11 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.boundary import MAX_LISTED, N_IMPACT_COLUMNS, IMPACT_t_on
-from gudgeon.integrators.session import as_impacts
-from gudgeon.model.compiled import CompiledModel
+from gudgeon.contract.boundary import IMPACT_COLUMN_NAMES, MAX_LISTED, N_IMPACT_COLUMNS, IMPACT_t_on
+from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.model.compiled import Array, CompiledModel
 
 BLOCK = 16 * MAX_LISTED  # contacts that have their room together
+
+
+def as_impacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
+    """Return contacts (IMPACT_DTYPE) from their numbers (n, N_IMPACT_COLUMNS) and joints (n,) as C lists them."""
+    impacts = np.empty(len(joints), dtype=IMPACT_DTYPE)
+    impacts["joint"] = joints
+    for name in (IMPACT_DTYPE.names or ())[1:]:
+        impacts[name] = numbers[:, IMPACT_COLUMN_NAMES.index(name)]
+    return impacts
 
 
 class Contacts:
@@ -35,6 +44,8 @@ class Contacts:
 
         To be asked once: the lists are let go.
         """
+        if not self.all:
+            return np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
         runs = np.array([i for each in self.all for i in each.runs], np.int_)
         counts = np.array([count for each in self.all for count in each.counts], np.int_)
         begins, by_run = np.cumsum(counts) - counts, np.argsort(runs, kind="stable")

@@ -17,9 +17,9 @@ from gudgeon.assembly.branch_rates import branches_told
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.boundary import EVENTS_FULL, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
+from gudgeon.integrators.events import resolution
 from gudgeon.integrators.failure import NO_NUMBER, Pace, drives_at, outgrown, overflowing, too_far
 from gudgeon.integrators.kinematic_events import Events
-from gudgeon.integrators.session import resolution
 from gudgeon.integrators.steps import Course, Look, Steps
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.model.compiled import Array, CompiledModel

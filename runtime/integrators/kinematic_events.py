@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import EVENT_STOPS, EVENTS_FULL, MAX_LISTED, STOPPED
 from gudgeon.errors import SolverError
-from gudgeon.integrators.session import told_apart
+from gudgeon.integrators.events import split_undefined
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Problem, no_events
 from gudgeon.model.compiled import Array
 
@@ -73,6 +73,6 @@ class Events:
 
     def in_order(self) -> tuple[NDArray[Any], NDArray[Any]]:
         """Events by time, not beyond the end, and the first time at which each is no number."""
-        events, lost = told_apart(self.problem.compiled, self.found)
+        events, lost = split_undefined(self.problem.compiled, self.found)
         events["t"] = np.minimum(events["t"], self.end)
         return events, lost[np.unique(lost["event"], return_index=True)[1]]

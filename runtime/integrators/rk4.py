@@ -1,4 +1,4 @@
-"""Classical Runge–Kutta of order 4 with fixed step: the loop is in C (engine/methods/rk4.c).
+"""Classical Runge–Kutta of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46:435, 1901; engine/methods/rk4.c).
 
 Every step is as long as was asked for, the last one as is left; outputs do not touch them. Samples between two steps
 come from the cubic through both. Python is called once a chunk of steps and fetches impacts and events; C asks it on
@@ -9,41 +9,10 @@ section 1), in the reduced one they are closed after every step.
 from __future__ import annotations
 
 import math
-from time import perf_counter
-
-from gudgeon.integrators.session import Session
-from gudgeon.integrators.trajectory import Problem, Trajectory
-
-NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
 CHUNK = 20_000  # steps of one call of C, which asks Python on its way (asking.py)
 ADVICE = "the step {:.3g} s is too long for this scene: take a smaller one"
 SAME = 1e-9  # share of the step by which the last one may differ and counts as equal: times are sums of rounded numbers
-
-
-def run(problem: Problem) -> Trajectory:
-    """Integrate over the output times by steps of problem.step."""
-    session = Session(problem)
-    return session.drive(lambda: _all(session))
-
-
-def _all(session: Session) -> None:
-    """All the way; raises RunEnded, KeyboardInterrupt, SolverError."""
-    while session.done < len(session.problem.t):
-        _chunk(session)
-        session.look()
-
-
-def _chunk(session: Session) -> None:
-    """Some steps in C."""
-    problem, done = session.problem, session.pointer(session.rows_done, "long *", True)
-    grid = (problem.step, len(problem.t), session.pointer(problem.t))
-    before = perf_counter()
-    status = session.lib.gudgeon_rk4_run(
-        session.run, session.pointer(session.p), *grid, CHUNK, *session.rows(0), done
-    )  # fmt: skip
-    session.seconds += perf_counter() - before
-    session.back(status, session.report()[0], ADVICE.format(problem.step))
 
 
 def last_step(duration: float, step: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,19 @@ PORTION = 16  # runs handed out at once, at most
 GLANCE = 0.05  # s between two looks of the waiting thread
 
 
+def wait_for(
+    waiting: set[Future[None]], ctrl_c: CtrlC, progress: Progress | None, fraction: Callable[[int], float]
+) -> None:
+    """Wait for all; raise Ctrl-C and what one of them raises. `fraction` of the work done, if so many still wait."""
+    while waiting:
+        ended, waiting = wait(waiting, GLANCE)
+        ctrl_c.take()
+        for future in ended:
+            future.result()
+        if progress:
+            progress(fraction(len(waiting)), "integrating")
+
+
 def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
     """All wanted runs, to their ends. Ctrl-C ends them where they are."""
     portion = max(1, min(PORTION, len(wanted) // (8 * runs.threads)))
@@ -30,13 +44,7 @@ def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int],
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
             waiting: set[Future[None]] = {pool.submit(_work, runs, portions, k) for k in range(runs.threads)}
-            while waiting:
-                ended, waiting = wait(waiting, GLANCE)
-                ctrl_c.take()
-                for future in ended:
-                    future.result()
-                if progress:
-                    progress(float(np.mean(runs.arrays["phase"] == OVER)), "integrating")
+            wait_for(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
             runs.arrays["ending"][0] = 1
             raise

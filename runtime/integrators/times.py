@@ -38,6 +38,11 @@ class Times:
         return self.t.shape[-1]
 
     @property
+    def start(self) -> float:
+        """Time (s) at which all runs begin."""
+        return float(self.t[0] if self.t.ndim == 1 else np.nanmin(self.t[:, 0]))
+
+    @property
     def apart(self) -> int:
         """Numbers between the times of two runs in memory; 0: they are the same."""
         return self.most if self.t.ndim == 2 else 0

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.audit import Finding
-from gudgeon.contract.boundary import N_WORK
+from gudgeon.contract.boundary import COUNT_NAMES, N_WORK, RESIDUAL_NAMES
 from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import Look
 from gudgeon.integrators.trace import Trace
@@ -92,6 +93,21 @@ class Counts:
     rejected: int = 0
     jacobians: int = 0
     stiff_steps: int = 0
+
+
+def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
+    """Return the counts (N_COUNTS,) and residuals (N_RESIDUALS,) that gudgeon_run_report writes."""
+    residuals = [x if math.isfinite(x) else math.nan for x in numbers.tolist()]
+    known = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
+    return Counts(**{each.name: known[each.name] for each in fields(Counts)})
+
+
+def counts_of_runs(counts: NDArray[Any], numbers: Array) -> dict[str, NDArray[Any]]:
+    """Return arrays (n,) by the names in Counts, from those of n runs, (n, N_COUNTS) and (n, N_RESIDUALS)."""
+    known = dict(zip(COUNT_NAMES, counts.T.copy(), strict=True))
+    finite = np.where(np.isfinite(numbers), numbers, math.nan)
+    known |= dict(zip(RESIDUAL_NAMES, finite.T.copy(), strict=True))
+    return {each.name: known[each.name] for each in fields(Counts)}
 
 
 @dataclass(frozen=True)

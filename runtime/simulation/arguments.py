@@ -11,7 +11,7 @@ from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.files.room import check_memory
-from gudgeon.integrators import adaptive, kinematic, rk4
+from gudgeon.integrators import batch, kinematic
 from gudgeon.integrators.peers import driver
 from gudgeon.language.wanted import is_whole, told
 from gudgeon.model.arrays import taken
@@ -20,7 +20,7 @@ from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
 
 METHODS = {
-    "rk4": rk4.run, **dict.fromkeys((*CHOOSING, *SMOOTH, ADAPTIVE), adaptive.run), KINEMATIC: kinematic.run,
+    **dict.fromkeys(("rk4", *CHOOSING, *SMOOTH, ADAPTIVE), batch.integrate), KINEMATIC: kinematic.run,
     **dict.fromkeys(driver.NAMES, driver.run),
 }  # fmt: skip
 MAX_STEPS = 10**12

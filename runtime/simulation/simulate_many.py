@@ -18,21 +18,18 @@ from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
 from gudgeon.integrators.batch import available_threads
-from gudgeon.integrators.session import counts_of_runs
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Problem, Progress
+from gudgeon.integrators.trajectory import Problem, Progress, counts_of_runs
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
 from gudgeon.model.room import check_room
-from gudgeon.results.bare import Bare
-from gudgeon.results.batch import Batch, States, as_failures, given_values
-from gudgeon.results.batch_series import STATES, parts_of, wanted_names
+from gudgeon.results.batch import STATES, Batch, States, as_failures, given_values, parts_of, wanted_names
 from gudgeon.results.peaks import peaks_of
-from gudgeon.results.results import Result, State
-from gudgeon.results.start_row import without_start
+from gudgeon.results.results import Bare, Result, State
+from gudgeon.results.samples import without_start
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ import numpy as np
 from gudgeon.assembly.followed import NOTED, tell_of_runs
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.failure import INTERRUPTED
-from gudgeon.integrators.threads import GLANCE
+from gudgeon.integrators.threads import wait_for
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, joined, no_events
 from gudgeon.model.choices import said
@@ -116,13 +116,7 @@ class _Runs:
         with CtrlC() as ctrl_c, ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
             try:
                 waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n) if i not in self.errors}
-                while waiting:
-                    ended, waiting = wait(waiting, GLANCE)
-                    ctrl_c.take()
-                    for future in ended:
-                        future.result()
-                    if progress:
-                        progress(1.0 - len(waiting) / self.n, "integrating")
+                wait_for(waiting, ctrl_c, progress, lambda left: 1.0 - left / self.n)
             except KeyboardInterrupt:
                 self.interrupted = True
             finally:
@@ -172,7 +166,7 @@ def run_singly(
 ) -> Batch:  # fmt: skip
     """The batch of simulation.simulate(parameters=…, **options) of each run; its values, mask and p (n, ...)."""
     before, (given, is_given, p) = time.perf_counter(), numbers
-    source, t, t0 = simulation.source, times.requested(), float(np.nanmin(times.t))
+    source, t, t0 = simulation.source, times.requested(), times.start
     runs = _Runs(simulation, given, is_given, options, starts, asked.keep, t.shape[-1])
     runs.errors |= bad
     runs.run(asked.threads, asked.progress, t0)

@@ -1,6 +1,6 @@
 /*
  * The time loops: calls of the engine, some steps or samples each, and what becomes of their statuses. They do what
- * runtime/integrators/session.py, adaptive.py, rk4.py and kinematic.py do, call for call, so that bits are the same.
+ * engine/batch/many.c, runtime/integrators/batch.py and kinematic.py do, call for call, so that bits are the same.
  */
 const AT_ONCE = 2000; // steps between samples of a motion without a freedom, before somebody else has a turn
 const {ENDED, EVENTS_FULL, EVENT_STOPS, MAX_LISTED, N_IMPACT_COLUMNS, N_WORK} = Boundary;

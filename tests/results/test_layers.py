@@ -14,7 +14,7 @@ import pytest
 import gudgeon.results
 
 DATA = sorted(file.stem for file in Path(gudgeon.results.__path__[0]).glob("*.py"))
-FORMER = ("__init__", "bare", "batch_series", "start_row", "trust")
+FORMER = ("__init__", "trust")
 
 
 @pytest.mark.parametrize("room", ["files", "figures", "reports"])

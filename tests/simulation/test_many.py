@@ -16,7 +16,7 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.search import search
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.boundary import IMPACT_COLUMN_NAMES, N_IMPACT_COLUMNS
-from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.errors import BadValueError, GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators import contacts
 from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
@@ -66,6 +66,18 @@ def test_runs_are_bit_for_bit_those_made_alone(scene: str, options: dict[str, An
         peaks = [(peak.F, peak.first_contact) for peak in alone.diagnostics.peaks]
         np.testing.assert_array_equal([(peak["F"], peak["first_contact"]) for peak in batch.peaks[i]], peaks)
         assert batch.diagnostics["steps"][i] == alone.diagnostics.steps
+
+
+def test_a_run_whose_end_is_too_far_ends_as_alone() -> None:
+    """With the pace of its last steps in the error, and the state that was reached as the last sample."""
+    pendulum = gudgeon.load("pendulum", quick=False)
+    with pytest.raises(SolverError, match="at the pace of its last 32768 steps") as alone:
+        pendulum.simulate(1e13, output=2, method="dop853")
+    batch = pendulum.simulate_many({"g": [9.81]}, 1e13, output=2, method="dop853")
+    run = batch.partial(0)
+    assert run is not None and str(batch.failures[0].error) == str(alone.value)
+    assert_same(run, alone.value.partial)
+    assert batch.t_last[0] == run.t[-1] == alone.value.partial.t[-1] > 1e3
 
 
 def test_no_more_threads_than_runs() -> None:

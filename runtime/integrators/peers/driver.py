@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
-from gudgeon.integrators import rk4
 from gudgeon.integrators.adaptive import tolerances
+from gudgeon.integrators.batch import integrate
 from gudgeon.integrators.peers.contacts import Contacts, Piece
 from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
 from gudgeon.integrators.projection import residuals
@@ -130,8 +130,8 @@ class _Driver:
 
     def _onsets(self) -> Array:
         """δ̇⁻ (n_memory,) of contacts that the run begins in: an assumption of the C loops, not what is checked here."""
-        start = replace(self.problem, t=self.problem.t[:1], step=1.0, progress=None)
-        return np.asarray(rk4.run(start).memory[0])
+        start = replace(self.problem, method="rk4", t=self.problem.t[:1], step=1.0, progress=None)
+        return np.asarray(integrate(start).memory[0])
 
     def _begin(self) -> None:
         self.contacts.begin(self.t, self.y, self._onsets)
