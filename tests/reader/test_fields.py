@@ -100,8 +100,8 @@ from gudgeon.language.units import LENGTH
 
 FIELDS = (number("reach", "how far it reaches", LENGTH, required=True, bounds=POSITIVE), flag("bent", "whether it is"))
 JOINT = JointType(
-    "strut", "a strut", FIELDS, False, ("length",), ("m",),
-    lambda first, second, fields: [first.x - second.x + fields.quantity("reach", 0)],
+    "strut", "a strut", FIELDS, "", ("length",), ("m",),
+    lambda first, second, fields: [first.x - second.x + fields.quantity("reach", 0)], __doc__,
 )
 """
 FORCE = """
@@ -118,7 +118,7 @@ FIELDS = (
     number("push", "how hard it pushes", FORCE, required=True, varies=OF_MOTION),
     word("way", "which way", ("right", "left"), "right"),
 )
-ELEMENT = ElementType("fan", "a fan", "points", (1,), FIELDS, (), build)
+ELEMENT = ElementType("fan", "a fan", "points", (1,), FIELDS, (), build, __doc__)
 """
 LAW_FILE = """
 from gudgeon.generator.field import Bound, number
