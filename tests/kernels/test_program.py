@@ -69,7 +69,7 @@ def test_a_model_is_read_only() -> None:
     model = derived("pendulum", "ideal")
     for table in (model.slots.entries, model.slots.derived, model.symbols.info, model.symbols.rules):
         with pytest.raises(TypeError, match="does not support item assignment"):
-            table["late"] = None  # type: ignore[index, assignment]
+            table["late"] = None  # type: ignore[assignment]
     with pytest.raises(AssertionError, match="late: derived after the tables were frozen"):
         model.symbols.new("late")
     with pytest.raises(AssertionError, match="late"):

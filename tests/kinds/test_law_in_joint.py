@@ -41,8 +41,9 @@ MADE_UP = Law(
 def value_of(field: Field) -> str:
     """Return a number that the field's own bounds allow."""
     for value in (KNOWN.get(field.name, "1e6"), "1e6", "1", "0.5"):
-        limits = [bound for bound in field.bounds if not isinstance(bound.limit, str) and field.name not in KNOWN]
-        if all(RELATIONS[bound.relation](float(value), bound.limit) for bound in limits):
+        limits = [(bound.relation, bound.limit) for bound in field.bounds if field.name not in KNOWN]
+        numbers = [(relation, limit) for relation, limit in limits if not isinstance(limit, str)]
+        if all(RELATIONS[relation](float(value), limit) for relation, limit in numbers):
             return value
     raise AssertionError(f"no number for {field.name}")
 
