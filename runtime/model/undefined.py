@@ -55,9 +55,8 @@ def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generi
 def _concerned(source: KernelSource, p: Array) -> list[Partial]:
     """The expressions that name a slot which differs in some run from the file's."""
     kept = vars(source)
-    if "partials" not in kept:
-        kept["partials"] = partials(source)
-        kept["partial_slots"] = sorted({k for one in kept["partials"] for k in one.slots.values()})
+    if "partial_slots" not in kept:
+        kept["partial_slots"] = sorted({k for one in partials(source) for k in one.slots.values()})
         kept["partial_defaults"] = np.array([source.slots[k].default for k in kept["partial_slots"]])
     slots = kept["partial_slots"]
     if not slots:
@@ -66,11 +65,19 @@ def _concerned(source: KernelSource, p: Array) -> list[Partial]:
     if not differ.any():
         return []
     changed = {slots[k] for k in np.flatnonzero(differ).tolist()}
-    return [one for one in kept["partials"] if not changed.isdisjoint(one.slots.values())]
+    return [one for one in partials(source) if not changed.isdisjoint(one.slots.values())]
 
 
 def partials(source: KernelSource) -> list[Partial]:
-    """Return the expressions of parameters, drives and forces that may be undefined."""
+    """Return the expressions of parameters, drives and forces that may be undefined; read once for each source."""
+    kept = vars(source)
+    if "partials" not in kept:
+        kept["partials"] = _read_partials(source)
+    found: list[Partial] = kept["partials"]
+    return found
+
+
+def _read_partials(source: KernelSource) -> list[Partial]:
     place, found = source.place, []
     trees = [(slot.address, slot.tree, k) for k, slot in enumerate(source.slots) if slot.tree]
     for address, tree, k in [*trees, *((one.address, one.tree, -1) for one in source.written)]:

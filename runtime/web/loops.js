@@ -269,7 +269,8 @@ class Way {
             done += count;
             if (status === EVENT_STOPS) return true;
             if (status === EVENTS_FULL) this.capacity *= 4;
-            else if (status && times[done] < this.t_end) throw failure(this.run, Boundary.NEWTON_FAILED, KINEMATIC_TOLD, [], times[done]);
+            else if (status && times[done] < this.t_end)
+                throw failure(this.run, Boundary.NEWTON_FAILED, KINEMATIC_TOLD, [], times[done]);
             else if (status) break; // beyond the end
         }
         return false;
