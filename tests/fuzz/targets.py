@@ -13,6 +13,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.parser import check_dimension, parse
 from gudgeon.language.tree import evaluate, from_json, names, to_json
 from gudgeon.language.units import DIMENSIONLESS, LENGTH, TIME, Dimension
+from tests.mechanisms.invalid import MISTAKES
 
 HERE = Location("f", 1, 1)
 KNOWN: Mapping[str, Dimension | None] = {"t": TIME, "a": LENGTH, "b": None, "L1.x": LENGTH, "k": DIMENSIONLESS}
@@ -97,10 +98,11 @@ def timed(target: Callable[[bytes], None], data: bytes) -> None:
 
 def files() -> list[bytes]:
     """Mechanism files to begin with: the shipped, the valid and the invalid."""
-    here = Path(__file__).resolve().parents[1] / "mechanisms"
-    paths = [*sorted(here.glob("valid/*.yaml")), *sorted(here.glob("invalid/*.yaml"))]
+    valid = sorted((Path(__file__).resolve().parents[1] / "mechanisms" / "valid").glob("*.yaml"))
     shipped = sorted(Path(str(resources.files("gudgeon.mechanisms"))).glob("*.yaml"))
-    return [SMALL, *(path.read_bytes() for path in (*paths, *shipped) if path.stat().st_size < 4000)]
+    invalid = [mistake.data for mistake in sorted(MISTAKES, key=lambda mistake: mistake.file)]
+    texts = [*(path.read_bytes() for path in valid), *invalid, *(path.read_bytes() for path in shipped)]
+    return [SMALL, *(text for text in texts if len(text) < 4000)]
 
 
 EXPRESSIONS = (

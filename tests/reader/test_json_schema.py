@@ -16,6 +16,7 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import laws
 from gudgeon.generator.targets.json_schema import schema
 from gudgeon.generator.yaml.tree import Items, Map, Text, parse_yaml
+from tests.mechanisms.invalid import MISTAKES
 
 jsonschema = pytest.importorskip("jsonschema")
 
@@ -59,7 +60,7 @@ def test_as_an_editor_reads_it(validator: Any) -> None:
     validator.validate(YAML(typ="safe", pure=True).load(path.read_text()))
 
 
-# those of the files of mistakes whose mistake is one of shape
+# rows of tests/mechanisms/invalid.py whose mistake is one of shape
 SHAPES = (
     "axis_missing drive_without_value event_unknown_action event_unknown_key event_unknown_word event_without_zero "
     "format_missing format_of_the_future law_in_wrong_role law_number_missing "
@@ -72,7 +73,8 @@ SHAPES = (
 
 @pytest.mark.parametrize("name", SHAPES.split())
 def test_wrong_shapes_are_invalid(name: str, validator: Any) -> None:
-    assert not validator.is_valid(read(MECHANISMS / "invalid" / f"{name}.yaml"))
+    (mistake,) = (row for row in MISTAKES if row.name == name)
+    assert not validator.is_valid(plain(parse_yaml(mistake.data, mistake.file)))
 
 
 def test_every_kind_is_in_it() -> None:
