@@ -172,10 +172,12 @@ def _world(point: PointInfo, p: Array, q: Array) -> Array:
 def _moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
     """Return moments about centres of mass, (n, n_turned, n_joints + n_elements) N m, and the longest arm, m.
 
-    q is (n, n_bodies, 3).
+    q is (n, n_bodies, 3). The longest arm is that of any body: forces at a body's own centre of mass have no arm, but
+    their moments are known to the rounding of forces times lengths of the linkage.
     """
     points = np.array([_world(point, p, q) for point in table.points]).reshape(-1, len(q), 2).swapaxes(0, 1)
-    arm = points[:, np.newaxis] - q[:, table.turned, np.newaxis, :2]
-    longest = float((np.hypot(arm[..., 0], arm[..., 1]) * np.abs(table.turning)).max(initial=0.0))
+    arms = points[:, np.newaxis] - q[:, :, np.newaxis, :2]
+    longest = float((np.hypot(arms[..., 0], arms[..., 1]) * np.abs(table.signs[:, : len(points[0])])).max(initial=0.0))
+    arm = arms[:, table.turned]
     F, M = wrenches[:, np.newaxis, :, :2], wrenches[:, np.newaxis, :, 2]
     return np.asarray(table.turning * (M + arm[..., 0] * F[..., 1] - arm[..., 1] * F[..., 0])), longest
