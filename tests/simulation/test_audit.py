@@ -11,6 +11,7 @@ import gudgeon
 from gudgeon.contract.audit import CHECKS
 from gudgeon.errors import BadValueError
 from gudgeon.model.reference import check_reference
+from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.simulation.simulation import Simulation
 from tests.audit_mutants import mutant
 from tests.programs import needs_compiler
@@ -75,7 +76,7 @@ def test_the_audit_changes_no_number() -> None:
             np.testing.assert_array_equal(runs[0].impacts[name], other.impacts[name])
     assert runs[0].diagnostics.right_hand_sides == runs[1].diagnostics.right_hand_sides
     assert runs[1].diagnostics.audit == ()
-    assert gudgeon.results.diagnostics.Diagnostics.from_json(runs[0].diagnostics.to_json()).audit
+    assert Diagnostics.from_json(runs[0].diagnostics.to_json()).audit
 
 
 IN_C = {check.name for check in CHECKS}
