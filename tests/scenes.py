@@ -14,6 +14,14 @@ Load = Callable[..., Simulation]
 _HEAD = "format: gudgeon/1\nname: attacked\n"
 
 
+def patched(text: str, *replacements: tuple[str, str]) -> str:
+    """Return `text` with every (old, new) replaced in turn. AssertionError where `old` is not in it once."""
+    for old, new in replacements:
+        assert text.count(old) == 1, f"{old!r} is in the text {text.count(old)} times"
+        text = text.replace(old, new)
+    return text
+
+
 def loader(folder: Path, formulation: str = "reduced") -> Load:
     """`load(text, scene)`: the text without its head, as a file in `folder`."""
     numbers = itertools.count()

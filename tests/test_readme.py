@@ -14,6 +14,7 @@ from typer.testing import CliRunner, Result
 import gudgeon
 from gudgeon.cli import app
 from tests.programs import needs_compiler
+from tests.scenes import patched
 
 ROOT = Path(__file__).resolve().parents[1]
 TOLD = ("README.md", *(f"docs/{name}.md" for name in ("describing", "python", "reading", "checks", "speed")))
@@ -134,10 +135,7 @@ def test_the_phase_of_the_motor_as_a_parameter(tmp_path: Path) -> None:
 
 
 def test_a_mistake_looks_as_shown(call: Gudgeon, tmp_path: Path) -> None:
-    text = ENGINE
-    for old, new in re.findall(r"^-(.*)\n\+(.*)$", blocks("diff")[0], re.MULTILINE):
-        assert text.count(old) == 1
-        text = text.replace(old, new)
+    text = patched(ENGINE, *re.findall(r"^-(.*)\n\+(.*)$", blocks("diff")[0], re.MULTILINE))
     (tmp_path / "engine.yaml").write_text(text, encoding="utf-8")
     done = call("gudgeon check engine.yaml")
     assert done.exit_code == 2

@@ -177,7 +177,8 @@ def _moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, 
     """
     points = np.array([_world(point, p, q) for point in table.points]).reshape(-1, len(q), 2).swapaxes(0, 1)
     arms = points[:, np.newaxis] - q[:, :, np.newaxis, :2]
-    longest = float((np.hypot(arms[..., 0], arms[..., 1]) * np.abs(table.signs[:, : len(points[0])])).max(initial=0.0))
+    acts = table.signs[:, : len(table.points)] != 0.0
+    longest = float((np.hypot(arms[..., 0], arms[..., 1]) * acts).max(initial=0.0))
     arm = arms[:, table.turned]
     F, M = wrenches[:, np.newaxis, :, :2], wrenches[:, np.newaxis, :, 2]
     return np.asarray(table.turning * (M + arm[..., 0] * F[..., 1] - arm[..., 1] * F[..., 0])), longest

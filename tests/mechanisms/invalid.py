@@ -23,6 +23,7 @@ from gudgeon.errors import (
     UnknownKeyError,
     UnknownNameError,
 )
+from tests.scenes import patched
 
 Patch = Mapping[str, str]
 BASE = (Path(__file__).with_name("valid") / "double_pendulum.yaml").read_text(encoding="utf-8")
@@ -52,16 +53,8 @@ class Mistake:
     @property
     def data(self) -> bytes:
         """Return the bytes of the file. A surrogate in a patch stands for a byte that is not UTF-8."""
-        text = self.patch if isinstance(self.patch, str) else patched(BASE, self.patch)
+        text = self.patch if isinstance(self.patch, str) else patched(BASE, *self.patch.items())
         return text.encode("utf-8", "surrogateescape")
-
-
-def patched(text: str, patch: Patch) -> str:
-    """Return `text` with every replacement made."""
-    for old, new in patch.items():
-        assert text.count(old) == 1, f"{old!r} is in the text {text.count(old)} times"
-        text = text.replace(old, new)
-    return text
 
 
 def before(section: str, lines: str) -> dict[str, str]:

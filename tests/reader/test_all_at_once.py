@@ -10,6 +10,7 @@ import pytest
 
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.generator.reader.read import read_mechanism
+from tests.scenes import patched
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = """format: gudgeon/1
@@ -56,13 +57,9 @@ TOGETHER: list[tuple[Patches, tuple[str, ...]]] = [
 
 @pytest.mark.parametrize(("patches", "told"), TOGETHER)
 def test_they_are_told_together(patches: Patches, told: tuple[str, ...]) -> None:
-    text = TEXT
-    read_mechanism(text.encode(), "m.yaml")
-    for old, new in patches:
-        assert text.count(old) == 1
-        text = text.replace(old, new)
+    read_mechanism(TEXT.encode(), "m.yaml")
     with pytest.raises(InputErrors) as caught:
-        read_mechanism(text.encode(), "m.yaml")
+        read_mechanism(patched(TEXT, *patches).encode(), "m.yaml")
     errors = caught.value.errors
     places = [(error.where.line, error.where.column) for error in errors if error.where]
     assert places == sorted(places) and len(places) == len(errors)

@@ -20,6 +20,7 @@ from gudgeon.generator.mechanism.mechanism import Mechanism
 from gudgeon.generator.reader.materials import EXAMPLE
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.units import INERTIA
+from tests.scenes import patched
 
 TEXT = """
 format: gudgeon/1
@@ -48,8 +49,7 @@ scenes: {worn: {play: {wristpin: {bearing: bush, contact: dry}}}}
 
 
 def read(old: str, new: str) -> Mechanism:
-    assert TEXT.count(old) == 1
-    return read_mechanism(TEXT.replace(old, new).encode(), "f.yaml")
+    return read_mechanism(patched(TEXT, (old, new)).encode(), "f.yaml")
 
 
 def refused(old: str, new: str) -> InputError:

@@ -27,6 +27,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import names
 from gudgeon.model.parameters import as_parameter
 from gudgeon.model.written import reason
+from tests.scenes import patched
 
 LED = """\
 format: gudgeon/1
@@ -124,8 +125,7 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
 
 @pytest.mark.parametrize(("text", "by", "error", "told", "at"), MISTAKES)
 def test_mistakes_are_told_where_they_are(text: str, by: str, error: type[InputError], told: str, at: str) -> None:
-    assert LED.count(text) == 1
-    wrong = LED.replace(text, by)
+    wrong = patched(LED, (text, by))
     with pytest.raises(InputError) as raised:
         read_mechanism(wrong.encode(), "led.yaml")
     assert isinstance(raised.value, error) and told in str(raised.value)  # alone: who uses the name is not told

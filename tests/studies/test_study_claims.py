@@ -21,6 +21,7 @@ from gudgeon.studies.ensemble.claimed import Claimed
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
+from tests.scenes import patched
 
 TEXT = """\
 format: gudgeon-study/1
@@ -198,9 +199,8 @@ BAD = [  # in place of what, what; line and words of the message
 @needs_compiler
 @pytest.mark.parametrize(("old", "new", "place", "words"), BAD, ids=[f"{k}" for k in range(len(BAD))])
 def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: str, tmp_path: Path) -> None:
-    path, text = tmp_path / "s.yaml", TEXT
-    assert text.count(old) == 1, old
-    path.write_text(text.replace(old, new))
+    path = tmp_path / "s.yaml"
+    path.write_text(patched(TEXT, (old, new)))
     with pytest.raises(InputError) as told:
         plans_of(path)
     assert str(told.value).startswith(f"{path}:{place}") and words in str(told.value), str(told.value)

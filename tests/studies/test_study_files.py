@@ -14,6 +14,7 @@ from gudgeon.generator.study.read import read_study
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
+from tests.scenes import patched
 
 pytestmark = needs_compiler
 GOOD = """\
@@ -117,8 +118,7 @@ def test_what_a_choice_varies_is_not_set_for_all_runs(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("old", "new", "place", "words"), BAD, ids=[f"{k}" for k in range(len(BAD))])
 def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: str, tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
-    assert GOOD.count(old) == 1
-    path.write_text(GOOD.replace(old, new))
+    path.write_text(patched(GOOD, (old, new)))
     with pytest.raises(InputError) as told:
         plans_of(path)
     assert str(told.value).startswith(f"{path}:{place}: "), str(told.value)
