@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ import gudgeon
 from gudgeon.assembly.start import Start
 from gudgeon.errors import SingularError
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.shipped import generated, shipped_file
+from gudgeon.loading.shipped import GENERATED, generated, shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
@@ -50,7 +49,6 @@ forces:
 start: {guess: {a.theta: 0.4 rad, c.x: 0.8 m}}
 """
 
-GENERATED = Path(__file__).resolve().parents[2] / "generated"
 INTEGRATED = [  # read, not loaded: a file that is collected compiles nothing
     (name, source.scene) for name in generated() for source in read_scenes(GENERATED / name) if "rk4" in source.methods
 ]
