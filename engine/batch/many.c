@@ -144,7 +144,7 @@ static void end_run(const Batch *b, long i, int status, Run *run)
 
 static int has_lists(const Run *run)
 {
-    int some = run->n_impacts > 0 || run->events.n > 0 || run->tape.n > 0;
+    int some = run->contacts.n_impacts > 0 || run->events.n > 0 || run->tape.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
         some = some || run->memory.latch[k].closed;
     return some;
@@ -195,8 +195,9 @@ static void give_state(const void *memory, Moving *state)
 {
     const Run *run = memory;
     *state = (Moving){.t = run->t, .steps = (double)run->steps, .evaluations = (double)run->evaluations,
-        .phi_max = run->phi_max, .phi_dot_max = run->phi_dot_max, .ratio_min = run->ratio_min,
-        .ratio_max = run->ratio_max, .ratio_outside = run->ratio_outside};
+        .phi_max = run->phi_max, .phi_dot_max = run->phi_dot_max,
+        .contacts = {.ratio_min = run->contacts.ratio_min, .ratio_max = run->contacts.ratio_max,
+            .ratio_outside = run->contacts.ratio_outside}};
     for (int k = 0; k < N_Y; k++) {
         state->y[k] = run->y[k];
         state->dy[k] = run->dy[k];
@@ -205,15 +206,15 @@ static void give_state(const void *memory, Moving *state)
         const Clearance *joint = &run->aside.clearance[i];
         state->memory.latch[i].closed = run->memory.latch[i].closed;
         state->memory.latch[i].deltadot_minus = run->memory.latch[i].deltadot_minus;
-        state->compressing[i] = -run->compressing[i];
+        state->contacts.compressing[i] = -run->contacts.compressing[i];
         state->journal[i].e = joint->e;
         state->journal[i].delta = joint->delta;
         state->journal[i].deltadot = joint->deltadot;
-        state->F_peak[i] = run->F_peak[i];
-        state->t_peak[i] = run->t_peak[i];
-        state->e_max[i] = run->e_max[i];
-        state->open[i].F_peak = run->open[i].F_peak;
-        state->open[i].t_peak = run->open[i].t_peak;
+        state->contacts.F_peak[i] = run->contacts.F_peak[i];
+        state->contacts.t_peak[i] = run->contacts.t_peak[i];
+        state->contacts.e_max[i] = run->contacts.e_max[i];
+        state->contacts.open[i].F_peak = run->contacts.open[i].F_peak;
+        state->contacts.open[i].t_peak = run->contacts.open[i].t_peak;
     }
 #if N_USER_EVENTS
     memcpy(state->speed, run->speed, sizeof state->speed);
@@ -230,9 +231,9 @@ static void take_state(void *memory, const Moving *state)
     run->evaluations = (long)state->evaluations;
     run->phi_max = state->phi_max;
     run->phi_dot_max = state->phi_dot_max;
-    run->ratio_min = state->ratio_min;
-    run->ratio_max = state->ratio_max;
-    run->ratio_outside = state->ratio_outside;
+    run->contacts.ratio_min = state->contacts.ratio_min;
+    run->contacts.ratio_max = state->contacts.ratio_max;
+    run->contacts.ratio_outside = state->contacts.ratio_outside;
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = state->y[k];
         run->dy[k] = state->dy[k];
@@ -241,15 +242,15 @@ static void take_state(void *memory, const Moving *state)
     memcpy(run->speed, state->speed, sizeof state->speed);
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) { /* neither an onset nor a separation was among these steps */
-        run->compressing[i] = state->compressing[i] != 0;
+        run->contacts.compressing[i] = state->contacts.compressing[i] != 0;
         run->aside.clearance[i].e = state->journal[i].e;
         run->aside.clearance[i].delta = state->journal[i].delta;
         run->aside.clearance[i].deltadot = state->journal[i].deltadot;
-        run->F_peak[i] = state->F_peak[i];
-        run->t_peak[i] = state->t_peak[i];
-        run->e_max[i] = state->e_max[i];
-        run->open[i].F_peak = state->open[i].F_peak;
-        run->open[i].t_peak = state->open[i].t_peak;
+        run->contacts.F_peak[i] = state->contacts.F_peak[i];
+        run->contacts.t_peak[i] = state->contacts.t_peak[i];
+        run->contacts.e_max[i] = state->contacts.e_max[i];
+        run->contacts.open[i].F_peak = state->contacts.open[i].F_peak;
+        run->contacts.open[i].t_peak = state->contacts.open[i].t_peak;
     }
 }
 
@@ -275,7 +276,7 @@ static void samples_single(const Batch *b, long i, const Moving *before, void *m
     }
     for (int k = 0; k < N_CLEARANCES; k++) {
         from.closed[k] = before->memory.latch[k].closed > 0.0;
-        from.compressing[k] = before->compressing[k] != 0;
+        from.compressing[k] = before->contacts.compressing[k] != 0;
     }
     sample_inside(run, &from, p, &out);
     sample_here(run, run->t - before->t, p, &out);

@@ -3,12 +3,15 @@ Number t, steps, evaluations, y[N_Y], dy[N_Y];
 #if N_USER_EVENTS
 Number speed[2];
 #endif
-Number phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
-Number F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
+Number phi_max, phi_dot_max;
 struct {
-    Number F_peak, t_peak; /* of the contact that goes on */
-} open[AT_LEAST_ONE(N_CLEARANCES)];
+    Number ratio_min, ratio_max, ratio_outside;
+    Number F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
+    struct {
+        Number F_peak, t_peak; /* of the contact that lasts */
+    } open[AT_LEAST_ONE(N_CLEARANCES)];
+    Flag compressing[AT_LEAST_ONE(N_CLEARANCES)]; /* 0 or -1 */
+} contacts;
 struct {
     Number e, delta, deltadot; /* at the end of the last step */
 } journal[AT_LEAST_ONE(N_CLEARANCES)];
-Flag compressing[AT_LEAST_ONE(N_CLEARANCES)]; /* 0 or -1 */

@@ -56,8 +56,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     note_speed(run);
     weigh(run);
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
-            run->compressing[i] = 0;
+        note_turn(run, i, run->aside.clearance[i].deltadot);
     const double drift = run->phi_dot_max; /* at the corner of a drive rates are those before the impulse */
     status = watch(run, p);
     if (N_CORNERS > 0 && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)

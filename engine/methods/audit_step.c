@@ -98,7 +98,7 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
         return;
     double most = largest_film_force(aside, &where);
     for (int i = 0; i < N_CLEARANCES; i++)
-        most = has_film(i) ? max_of(most, FILM_FADED * run->F_peak[i]) : most;
+        most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
     const double share = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
     if (where >= 0 && has_tolerance(run) && run->steps > 0 && (share <= limit || !meets_jump(run, step, p)))
         record(&run->audit, CHECK_force, share, limit, t, where);

@@ -13,7 +13,7 @@ static void begin_step(Run *run)
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
         from->closed[i] = run->memory.latch[i].closed;
-        from->compressing[i] = run->compressing[i];
+        from->compressing[i] = run->contacts.compressing[i];
     }
 }
 
@@ -23,9 +23,9 @@ static void latches_at(const Run *run, const Beginning *from, double t, double *
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Latch *latch = &run->memory.latch[i];
         const int changed = !latch->closed != !from->closed[i];
-        const int since = latch->closed ? t >= run->open[i].t_on : !(t < run->open[i].t_off);
+        const int since = latch->closed ? t >= run->contacts.open[i].t_on : !(t < run->contacts.open[i].t_off);
         const int closed = changed && !since ? from->closed[i] : latch->closed;
-        const int compressing = changed && since ? run->compressing[i] : from->compressing[i];
+        const int compressing = changed && since ? run->contacts.compressing[i] : from->compressing[i];
         latched[i] = closed ? latch->deltadot_minus : NAN;
         state[i] = (signed char)(closed ? 2 - compressing : 0);
     }
@@ -119,23 +119,19 @@ static double zero_inside(Run *run, const Beginning *from, int i, int rate, doub
 }
 
 /* Lists a contact of joint i, free at both ends of the step, that begins and ends inside it, if there is one. */
-static void list_graze(Run *run, const Beginning *from, int i, const Clearance *before, const Parameters *p)
+static void locate_graze(Run *run, const Beginning *from, int i, const Clearance *before, const Parameters *p)
 {
     const Clearance *after = &run->aside.clearance[i];
     if (!(before->deltadot > 0.0 && after->deltadot < 0.0))
         return;
     const double top = zero_inside(run, from, i, 1, from->t, before->deltadot, run->t, after->deltadot, p);
     const Clearance joint = joint_inside(run, from, i, top, p);
-    if (!(joint.delta > -shallow(p, i)) || run->n_impacts >= LISTED_IMPACTS)
+    if (!(joint.delta > -shallow(p, i)) || run->contacts.n_impacts >= LISTED_IMPACTS)
         return;
     const double on = zero_inside(run, from, i, 0, from->t, before->delta, top, joint.delta, p);
     const double off = zero_inside(run, from, i, 0, run->t, after->delta, top, joint.delta, p);
     const double rate = joint_inside(run, from, i, on, p).deltadot, F = total_force(&joint);
-    run->onsets++;
-    run->e_max[i] = max_of(run->e_max[i], joint.e);
-    if (F > run->F_peak[i])
-        run->F_peak[i] = F, run->t_peak[i] = top;
-    run->impacts[run->n_impacts++] = (Impact){on, off, max_of(rate, slowest_impact(p, i)), F, top, i};
+    list_graze(run, &(Impact){on, off, max_of(rate, slowest_impact(p, i)), F, top, i}, joint.e);
 }
 
 /*
@@ -151,16 +147,11 @@ static void locate_inside(Run *run, const Beginning *from, const Clearance *befo
         if (!gives(i))
             continue;
         if (!closed && !from->closed[i]) {
-            list_graze(run, from, i, &before[i], p);
+            locate_graze(run, from, i, &before[i], p);
         } else if (closed != from->closed[i] && (low > 0.0) != (high > 0.0)) {
             const double t = zero_inside(run, from, i, 0, closed ? from->t : run->t, closed ? low : high,
                 closed ? run->t : from->t, closed ? high : low, p);
-            *(closed ? &run->open[i].t_on : &run->open[i].t_off) = t;
-            for (int k = run->n_impacts - 1; !closed && k >= 0; k--)
-                if (run->impacts[k].joint == i) {
-                    run->impacts[k].t_off = t;
-                    break;
-                }
+            move_contact(run, i, t);
         }
     }
     run->evaluations = evaluations; /* output, not integration */

@@ -271,5 +271,5 @@ static void check_free(Run *run)
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
             record(&run->audit, CHECK_free, total_force(&run->aside.clearance[i]),
-                max_of(1e-6 * run->F_peak[i], 1e-300), run->t, i);
+                max_of(1e-6 * run->contacts.F_peak[i], 1e-300), run->t, i);
 }

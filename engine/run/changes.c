@@ -189,7 +189,7 @@ static int change_side(Run *run, int corner, const Parameters *p)
 static void show_onsets(Run *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->memory.latch[i].closed && run->open[i].t_on == run->t && gives(i))
+        if (run->memory.latch[i].closed && run->contacts.open[i].t_on == run->t && gives(i))
             peak(run, i, run->t, total_force(&run->aside.clearance[i]));
 }
 

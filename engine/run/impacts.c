@@ -58,26 +58,6 @@ static int answer_here(Run *run, const Parameters *p, Answer *contacts)
     return find_answer(motion_of_laws, N_Y, run->t, run->y, &run->memory, p, contacts);
 }
 
-/* One row of the list that Python fetches; for an impact without a duration F_peak is the impulse, N s. */
-static int list_contact(Run *run, const Impact *contact)
-{
-    if (run->n_impacts >= LISTED_IMPACTS)
-        return CHATTERING;
-    run->impacts[run->n_impacts++] = *contact;
-    return 0;
-}
-
-/* Lists an impact; with `add` its impulse is added to the last row of the same joint at this time, if there is one. */
-static int list_impact(Run *run, const Impact *impact, int add)
-{
-    for (int k = run->n_impacts - 1; k >= 0 && add && run->impacts[k].t_on == run->t; k--)
-        if (run->impacts[k].joint == impact->joint && run->impacts[k].t_off == run->t) {
-            run->impacts[k].F_peak += impact->F_peak;
-            return 0;
-        }
-    return list_contact(run, impact);
-}
-
 /* Impulses: what they change in the velocities, their work, and what is listed of them. */
 static void jump(Run *run, const Answer *blow, const double *impulse, const double *meeting, const Rub *rub,
     const Parameters *p)
@@ -140,32 +120,10 @@ static int strike(Run *run, const Parameters *p, int pass, int limit, double *ap
         const double u = meeting[k] > resting(least, p, i) ? meeting[k] : 0.0; /* it rests, and is pressed */
         const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = list_impact(run, &bounce, pass >= LISTED_PASSES);
+            status = list_impact(run, &bounce, pass >= LISTED_PASSES, !known.latch[i].closed);
         *approach += impulse[k] * u;
-        run->onsets += impulse[k] > 0.0 && !known.latch[i].closed;
     }
     return status ? status : slip_after_blow(run, p);
-}
-
-/* Joint i is closed, or open, from now on. */
-static int turn_contact(Run *run, int i, int closes)
-{
-    Latch *latch = &run->memory.latch[i];
-    const int was = latch->closed;
-    latch->closed = closes;
-    if (closes == was)
-        return 0;
-    run->compressing[i] = 0;
-    if (closes) {
-        latch->deltadot_minus = 0.0;
-        run->open[i] = (Impact){run->t, NAN, 0.0, 0.0, run->t, i};
-        for (int k = run->n_impacts - 1; k >= 0 && run->impacts[k].t_on == run->t; k--)
-            if (run->impacts[k].joint == i)
-                latch->deltadot_minus = run->open[i].deltadot = run->impacts[k].deltadot;
-        return 0;
-    }
-    run->open[i].t_off = run->t;
-    return list_contact(run, &run->open[i]);
 }
 
 /*

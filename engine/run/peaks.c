@@ -15,14 +15,8 @@ static void peak(Run *run, int i, double t, double F)
 {
     if (run->envelope.rows)
         trace_force(run, i, t, F);
-    if (F > run->F_peak[i]) {
-        run->F_peak[i] = F;
-        run->t_peak[i] = t;
-    }
-    if (run->memory.latch[i].closed && F > run->open[i].F_peak) {
-        run->open[i].F_peak = F;
-        run->open[i].t_peak = t;
-    }
+    raise_force(run, i, t, F);
+    raise_contact_force(run, i, t, F);
 }
 
 static double force_at(Run *run, const Step *step, double s, int i, const Parameters *p)
@@ -46,7 +40,7 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
         return 0.0;
     const double F = total_force(&aside.clearance[i]);
     peak(run, i, step->t + s * step->h, F);
-    run->e_max[i] = max_of(aside.clearance[i].e, run->e_max[i]);
+    raise_eccentricity(run, i, aside.clearance[i].e);
     return F;
 }
 
@@ -127,7 +121,7 @@ static void rigid_peak(Run *run, Step *step, double share, int i, double before,
     part[0] = (Sampled){{0.5 * share, force_at(run, step, 0.5 * share, i, p), NAN}, {share, after, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const Sampled now = part[n - 1];
-        const double w = now.end.s - from.s, known = max_of(run->open[i].F_peak, after) * (1.0 + SAME_FORCE);
+        const double w = now.end.s - from.s, known = max_of(run->contacts.open[i].F_peak, after) * (1.0 + SAME_FORCE);
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
@@ -160,13 +154,13 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
         const double s = from
             + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
         Aside aside;
-        if (top + round < run->e_max[i] - 0.01 * fabs(run->e_max[i]) || make_dense(run, p, step)
+        if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i]) || make_dense(run, p, step)
             || play_in(run, step, s, p, &aside))
             return;
         const Clearance *now = &aside.clearance[i];
         if (run->envelope.rows)
             trace_place(run, i, step->t + s * step->h, now);
-        run->e_max[i] = max_of(now->e, run->e_max[i]);
+        raise_eccentricity(run, i, now->e);
         if (fabs(outward(now) - top) < 1e-9 * fabs(top + round))
             return;
         if (now->deltadot > 0.0)
@@ -266,7 +260,7 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
     for (int i = 0; i < N_CLEARANCES; i++) {
         outermost(run, step, share, i, p);
         const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
-        const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
+        const double known = run->memory.latch[i].closed ? run->contacts.open[i].F_peak : run->contacts.F_peak[i];
         before[i] = total_force(a), after[i] = total_force(b);
         /* a contact's force may double in a step, a film's grows by some percent */
         const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
@@ -287,8 +281,8 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
     for (int i = 0; i < N_CLEARANCES; i++) {
         const int turned = run->aside.clearance[i].F_n * step->aside.clearance[i].F_n < 0.0; /* it was none meanwhile */
         const int near = trends[i] != LOW, falls = near && trends[i] < 0;
-        if (near && (((falls || turned) && run->rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
+        if (near && (((falls || turned) && run->contacts.rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, before[i], after[i], p);
-        run->rising[i] = !falls;
+        set_rising(run, i, !falls);
     }
 }

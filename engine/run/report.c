@@ -37,7 +37,7 @@ int gudgeon_run_full(const void *memory) { return lists_full(memory); }
 int gudgeon_run_listed(const void *memory)
 {
     const Run *run = memory;
-    int n = run->n_impacts + run->events.n;
+    int n = run->contacts.n_impacts + run->events.n;
     for (int i = 0; i < N_CLEARANCES; i++)
         n += run->memory.latch[i].closed;
     return n;
@@ -73,52 +73,26 @@ int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double
     return n;
 }
 
-/*
- * Moves the oldest contacts, at most `capacity`, from the list into rows of these arrays (ImpactColumn); returns how
- * many. With `last` those that still go on follow: no step is made after it.
- */
-int gudgeon_run_impacts(void *memory, int last, int capacity, double *numbers, int *joints)
-{
-    Run *run = memory;
-    for (int i = 0; last && !run->open_listed && i < N_CLEARANCES; i++)
-        if (run->memory.latch[i].closed)
-            run->impacts[run->n_impacts++] = run->open[i];
-    run->open_listed = last;
-    const int n = run->n_impacts < capacity ? run->n_impacts : capacity;
-    for (int i = 0; i < n; i++, numbers += N_IMPACT_COLUMNS) {
-        const Impact *impact = &run->impacts[i];
-        numbers[IMPACT_t_on] = impact->t_on;
-        numbers[IMPACT_t_off] = impact->t_off;
-        numbers[IMPACT_deltadot] = impact->deltadot;
-        numbers[IMPACT_F_peak] = impact->F_peak;
-        numbers[IMPACT_t_peak] = impact->t_peak;
-        joints[i] = impact->joint;
-    }
-    run->n_impacts -= n;
-    memmove(run->impacts, run->impacts + n, (size_t)run->n_impacts * sizeof run->impacts[0]);
-    return n;
-}
-
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks)
 {
     const Run *run = memory;
     *t = run->t;
     counts[COUNT_steps] = run->steps;
     counts[COUNT_right_hand_sides] = run->evaluations;
-    counts[COUNT_onsets] = run->onsets;
-    counts[COUNT_grazes] = run->grazes;
-    counts[COUNT_ratio_outside] = (long)run->ratio_outside;
+    counts[COUNT_onsets] = run->contacts.onsets;
+    counts[COUNT_grazes] = run->contacts.grazes;
+    counts[COUNT_ratio_outside] = (long)run->contacts.ratio_outside;
     counts[COUNT_switches] = run->switches;
     counts[COUNT_rejected] = run->rejected;
     counts[COUNT_jacobians] = run->jacobians;
     counts[COUNT_stiff_steps] = run->stiff_steps;
     numbers[RESIDUAL_phi_max] = run->phi_max;
     numbers[RESIDUAL_phi_dot_max] = run->phi_dot_max;
-    numbers[RESIDUAL_ratio_min] = run->ratio_min;
-    numbers[RESIDUAL_ratio_max] = run->ratio_max;
+    numbers[RESIDUAL_ratio_min] = run->contacts.ratio_min;
+    numbers[RESIDUAL_ratio_max] = run->contacts.ratio_max;
     for (int i = 0; i < N_CLEARANCES; i++, peaks += N_PEAK) {
-        peaks[PEAK_F] = run->F_peak[i];
-        peaks[PEAK_t] = run->t_peak[i];
-        peaks[PEAK_e_max] = run->e_max[i];
+        peaks[PEAK_F] = run->contacts.F_peak[i];
+        peaks[PEAK_t] = run->contacts.t_peak[i];
+        peaks[PEAK_e_max] = run->contacts.e_max[i];
     }
 }

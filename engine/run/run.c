@@ -73,7 +73,7 @@ static void store_sample(const Run *run, double t, const double *now, const Para
     for (int k = 0; k < N_CLEARANCES; k++) {
         latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
         state[i * JOINTS + k] = (signed char)(!run->memory.latch[k].closed ? CODE_FREE
-            : run->compressing[k] ? CODE_IMPACT : CODE_CONTACT);
+            : run->contacts.compressing[k] ? CODE_IMPACT : CODE_CONTACT);
     }
     for (int k = 0; k < N_FRICTIONS; k++)
         latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
@@ -136,7 +136,7 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 /* Whether the lists are to be fetched: the next step may find more than they hold. */
 static int lists_full(const Run *run)
 {
-    return run->n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || tape_full(run);
+    return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || tape_full(run);
 }
 
 /*
@@ -196,7 +196,7 @@ static void begin_in_contact(Run *run, int i, const Parameters *p)
             known.latch[i].deltadot_minus = max_of(known.latch[i].deltadot_minus, onset);
     }
     run->memory = known;
-    run->open[i].deltadot = known.latch[i].deltadot_minus;
+    begin_contact(run, i, run->t, known.latch[i].deltadot_minus);
 }
 
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
@@ -243,7 +243,7 @@ size_t gudgeon_run_size(void)
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched)
 {
     Run *run = memory;
-    *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
+    *run = (Run){.t = t};
     from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
     read_memory(latched, &run->memory);
     run->memory.asked = &run->asked;
@@ -251,16 +251,5 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
         run->memory.least = run->memory.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */
         run->y[FIRST_STATE + k] = isnan(latched[N_MEMORY - N_STATES + k]) ? 0.0 : latched[N_MEMORY - N_STATES + k];
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
-        run->e_max[i] = -INFINITY; /* of a slider's corner it may stay below 0 */
-    }
+    start_contacts(run, t, latched);
 }
-
-/* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */
-static void set_contact_codes(Run *run, const signed char *state)
-{
-    for (int i = 0; i < N_CLEARANCES; i++)
-        run->compressing[i] = state[i] == CODE_IMPACT;
-}
-

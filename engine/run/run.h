@@ -131,6 +131,21 @@ typedef struct {
     int closed[AT_LEAST_ONE(N_CLEARANCES)], compressing[AT_LEAST_ONE(N_CLEARANCES)];
 } Beginning;
 
+/*
+ * Contacts of joints with play, and their list until it is fetched.
+ * Written by: run/latches.c, both/watch.h. Copied by: batch/many.c.
+ */
+typedef struct {
+    Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* the contact that lasts in each joint */
+    int compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
+    int rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
+    double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
+    Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* after them those that last at the end of the run */
+    int n_impacts, open_listed;
+    long onsets, grazes;
+    double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
+} Contacts;
+
 /* Events of the user that were found (user_events.c), until they are fetched. */
 typedef struct {
     double t[LISTED_EVENTS];
@@ -189,6 +204,7 @@ typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
     Memory memory;
+    Contacts contacts;
     EventList events;
     Envelope envelope;
     FilmErrors films;
@@ -197,24 +213,19 @@ typedef struct {
     MethodChoice choice;
     StepControl control;
     Asked asked;
-    Impact open[AT_LEAST_ONE(N_CLEARANCES)];      /* the contact going on in each joint */
-    int compressing[AT_LEAST_ONE(N_CLEARANCES)];  /* from onset until the penetration first stops growing */
-    double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
-    Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* behind them those that go on at the end of the run */
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
-    int n_impacts, open_listed, ready;
+    int ready;
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
     double lightest;           /* kg: the least mass of a body that has one */
-    long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
-    double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
+    long steps, evaluations, switches, rejected, jacobians, stiff_steps;
+    double phi_max, phi_dot_max;
     /* of methods that choose their step (adaptive.c) */
     double fixed, accept, stability;
     double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2], speed_rounded[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
-    int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */
     const Method *method;
     int crossed, skip, linear_ready;
     Linear linear;
