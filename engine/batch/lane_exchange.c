@@ -79,14 +79,14 @@ static void gather(Flow *flow, int k)
 #endif
     flow->h[k] = run->control.attempt.h;
     x->t[k] = run->t;
-    x->accept[k] = run->accept;
+    x->control.accept[k] = run->control.accept;
     for (int j = 0; j < N_Y; j++) {
         x->y[j][k] = run->y[j];
-        x->weight[j][k] = run->weight[j];
+        x->norm.weight[j][k] = run->norm.weight[j];
     }
 #if TAYLOR
     x->order = run->order;
-    x->fixed = run->fixed;
+    x->control.fixed = run->control.fixed;
 #else
     for (int j = 0; j < N_Y; j++)
         x->dy[j][k] = run->dy[j];

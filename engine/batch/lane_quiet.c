@@ -23,18 +23,18 @@ static void keep(Quiet *quiet, LaneRun *x, int k, const Batch *b, long i, const 
     quiet->sample[k] = t[b->done[i]];
     quiet->t_end[k] = t_end_of(b, i);
     quiet->steps[k] = 0;
-    quiet->unseen[k] = run->fixed > 0.0 || run->control.attempt.again ? 0 : one->unseen(run);
+    quiet->unseen[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0 : one->unseen(run);
     quiet->open[k] = -(quiet->unseen[k] > 0);
     quiet->here[k] = 1;
-    x->turned_over[k] = run->turned_over;
-    x->work_scale[k] = run->work_scale;
+    x->norm.turned_over[k] = run->norm.turned_over;
+    x->norm.work_scale[k] = run->norm.work_scale;
     for (int kind = 0; kind < 2; kind++) {
-        x->speed[kind][k] = run->speed[kind];
-        x->speed_floor[kind][k] = run->speed_floor[kind];
-        x->least[kind][k] = run->least[kind];
+        x->norm.speed[kind][k] = run->norm.speed[kind];
+        x->norm.speed_floor[kind][k] = run->norm.speed_floor[kind];
+        x->norm.least[kind][k] = run->norm.least[kind];
     }
     for (int j = 0; j < 2 * N_X; j++)
-        x->inverse_scale[j][k] = run->inverse_scale[j];
+        x->norm.inverse_scale[j][k] = run->norm.inverse_scale[j];
 }
 
 /* As far as the times of a run's steps are from zero, as open_attempt has it. */
@@ -47,11 +47,10 @@ static Lanes far_of(const Quiet *quiet, const LaneRun *x)
 static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lanes *h)
 {
     const Lanes t = x->t + step->h;
-    const LaneBits now = quiet->open & step->taken & (step->error <= x->accept) & (t < quiet->sample)
+    const LaneBits now = quiet->open & step->taken & (step->error <= x->control.accept) & (t < quiet->sample)
         & (step->h < quiet->t_end - x->t) & (step->h >= CRAWL_LENGTH * far_of(quiet, x))
         & ~not_finite(step->y, step->dy, N_Y);
-    for (int j = 2 * N_X; j < 2 * N_X + N_WORK; j++)
-        x->turned_over = pick(now, x->turned_over + lanes_fabs(step->y[j] - x->y[j]), x->turned_over);
+    note_works(x, now, step->y);
     for (int j = 0; j < N_Y; j++) {
         x->y[j] = pick(now, step->y[j], x->y[j]);
         x->dy[j] = pick(now, step->dy[j], x->dy[j]);
@@ -81,14 +80,14 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     for (int j = 0; j < N_Y; j++) {
         run->y[j] = x->y[j][k];
         run->dy[j] = x->dy[j][k];
-        run->weight[j] = x->weight[j][k];
+        run->norm.weight[j] = x->norm.weight[j][k];
     }
     for (int j = 0; j < N_WORK; j++)
         run->aside.power[j] = x->aside.power[j][k];
     run->t = x->t[k];
-    run->turned_over = x->turned_over[k];
-    run->speed[0] = x->speed[0][k];
-    run->speed[1] = x->speed[1][k];
+    run->norm.turned_over = x->norm.turned_over[k];
+    run->norm.speed[0] = x->norm.speed[0][k];
+    run->norm.speed[1] = x->norm.speed[1][k];
     run->steps += steps;
     run->evaluations += 2 * steps - !!run->series_ready;
     run->progress.ended[N_MARGINS] += steps;

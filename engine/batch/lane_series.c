@@ -7,7 +7,7 @@
 #include "../both/series.h"
 
 /* A step whose error is known only at its end is taken back where that is too large. */
-static void refuse_late(const LaneRun *run, LaneStep *step) { step->taken &= ~(step->error > run->accept); }
+static void refuse_late(const LaneRun *run, LaneStep *step) { step->taken &= ~(step->error > run->control.accept); }
 
 static void forget_end(const LaneRun *run) { (void)run; }
 

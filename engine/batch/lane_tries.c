@@ -29,7 +29,7 @@ static int is_refused(LaneRun *run, LaneStep *step)
     step->missed = (LaneBits){0};
 #endif
     step->lost = run->memory.rare & ~step->missed;
-    step->taken = ~(step->error > run->accept) & ~step->lost & ~step->missed;
+    step->taken = ~(step->error > run->control.accept) & ~step->lost & ~step->missed;
     run->memory.rare = (LaneBits){0};
     return !any_of(step->taken);
 }

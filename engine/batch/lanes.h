@@ -95,6 +95,7 @@ static inline void put_together(Lanes *g, const Lanes *film, int first, int last
 #define ClearanceOf LaneClearance
 #define ParametersOf LaneParameters
 #define StepOf LaneStep
+#define NormOf LaneNorm
 #define ComplexLinearOf LaneComplexLinear
 static inline Lanes real_of(double x) { return all_of(x); }
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
@@ -176,15 +177,26 @@ typedef struct {
 } LaneComplexLinear;
 #endif
 
+typedef struct {
+    Lanes weight[N_Y];
+#if TAYLOR
+    Lanes turned_over, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
+#endif
+} LaneNorm;
+
 /* Of a run by a method that chooses its step: what a step that is tried begins with. */
 typedef struct {
-    Lanes t, y[N_Y], dy[N_Y], weight[N_Y], accept, stability;
+    Lanes t, y[N_Y], dy[N_Y], stability;
+    LaneNorm norm;
+    struct {
+        Lanes accept;
+        double fixed; /* whether steps are: s, 0 */
+    } control;
     LaneMemory memory;
     LaneAside aside;
 #if TAYLOR
     int order;    /* the same in all lanes: a batch has one tolerance */
-    double fixed; /* whether steps are: s, 0 */
-    Lanes reach, turned_over, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
+    Lanes reach;
     Lanes series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
 #else
     LaneLinear linear;

@@ -217,7 +217,7 @@ static void give_state(const void *memory, Moving *state)
         state->contacts.open[i].t_peak = run->contacts.open[i].t_peak;
     }
 #if N_USER_EVENTS
-    memcpy(state->speed, run->speed, sizeof state->speed);
+    memcpy(state->norm.speed, run->norm.speed, sizeof state->norm.speed);
 #endif
     for (int i = 0; i < N_USER_EVENTS; i++)
         state->memory.event_side[i] = run->memory.event_side[i];
@@ -239,7 +239,7 @@ static void take_state(void *memory, const Moving *state)
         run->dy[k] = state->dy[k];
     }
 #if N_USER_EVENTS
-    memcpy(run->speed, state->speed, sizeof state->speed);
+    memcpy(run->norm.speed, state->norm.speed, sizeof state->norm.speed);
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) { /* neither an onset nor a separation was among these steps */
         run->contacts.compressing[i] = state->contacts.compressing[i] != 0;

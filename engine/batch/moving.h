@@ -1,7 +1,9 @@
 /* Text of a struct: what is carried from one step of rk4 to the next, by the names that a run has for it. */
 Number t, steps, evaluations, y[N_Y], dy[N_Y];
 #if N_USER_EVENTS
-Number speed[2];
+struct {
+    Number speed[2];
+} norm;
 #endif
 Number phi_max, phi_dot_max;
 struct {

@@ -7,6 +7,6 @@ static Real distance_from_rows(const RunOf *run, const Real *before, const Real 
 {
     Real most = real_of(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
-        most = real_max((real_abs(y[k] - before[k]) - DIGITS_OF_ROWS * real_abs(y[k])) * run->weight[k], most);
+        most = real_max((real_abs(y[k] - before[k]) - DIGITS_OF_ROWS * real_abs(y[k])) * run->norm.weight[k], most);
     return most;
 }

@@ -102,7 +102,7 @@ static Real dop853_error(const RunOf *run, const StepOf *step)
     const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
     Real five = real_of(0.0), three = real_of(0.0);
     for (int i = 0; i < N_Y; i++) {
-        const Real by = run->weight[i];
+        const Real by = run->norm.weight[i];
         const Real of_5 = 0.01312004499419488 * k[0][i] - 1.2251564463762044 * k[5][i]
             - 0.4957589496572502 * k[6][i] + 1.6643771824549864 * k[7][i] - 0.35032884874997366 * k[8][i]
             + 0.3341791187130175 * k[9][i] + 0.08192320648511571 * k[10][i] - 0.022355307863886294 * k[11][i];
@@ -147,7 +147,7 @@ static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
     if (status_last)
         return status_last;
     for (int i = 0; i < 2 * N_X; i++) {
-        const Real by = run->weight[i];
+        const Real by = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - step->k[DOP853_STAGES - 1][i]) * by, change);
         way = real_max(real_abs(step->y[i] - y[i]) * by, way);
     }

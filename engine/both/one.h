@@ -24,6 +24,7 @@ enum { /* bytes that the processor holds side by side: longer vectors go through
 #define ClearanceOf Clearance
 #define ParametersOf Parameters
 #define StepOf Step
+#define NormOf ErrorNorm
 #define ComplexLinearOf ComplexLinear
 
 /* a where it is true, else b. */

@@ -128,12 +128,13 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
     /* nearer they cannot be told apart; where no error is looked at, nearly so near */
     Real rounded = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
-        rounded = real_max(real_abs(run->y[i]) * run->weight[i], rounded);
+        rounded = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounded);
     rounded *= RADAU_ROUNDED;
-    const Real enough = real_max(pick(run->accept <= DBL_MAX, real_of(RADAU_ENOUGH), rounded), rounded);
+    const Real enough = real_max(pick(run->control.accept <= DBL_MAX, real_of(RADAU_ENOUGH), rounded), rounded);
     Truth active = is_not((Truth){0});
     *lost = (Truth){0};
-    const int controlled = any_of(run->accept <= DBL_MAX), patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
+    const int controlled = any_of(run->control.accept <= DBL_MAX);
+    const int patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
     const double hope = controlled ? 0.9 : 2.0; /* a step that has to be made gets over a bad guess */
     for (int pass = 0; pass < patience && any_of(active); pass++) {
         const int status = RADAU(rates)(run, h, active, z, p, step, f, force, &apart);
@@ -144,7 +145,7 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         for (int s = 0; s < RADAU_STAGES; s++)
             for (int i = 0; i < N_Y; i++) {
                 z[s][i] = pick(active, z[s][i] + change[s][i], z[s][i]);
-                way = real_max(real_abs(change[s][i]) * run->weight[i], way);
+                way = real_max(real_abs(change[s][i]) * run->norm.weight[i], way);
             }
         way = pick(active, way, real_of(0.0));
         if (is_odd(run, way))
@@ -176,7 +177,7 @@ static Real RADAU(error)(const RunOf *run, Real h, const Real *dy, const Real *b
         r[i] = dy[i] + bend[i];
     newton_solve(&run->linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r, u);
     for (int i = 0; i < N_Y; i++)
-        most = real_max(real_abs(u[i]) * run->weight[i], most);
+        most = real_max(real_abs(u[i]) * run->norm.weight[i], most);
     return most;
 }
 
@@ -206,11 +207,11 @@ static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
     }
     step->error = RADAU(error)(run, h, run->dy, bend, r, u);
     for (int i = 0; i < 2 * N_X; i++) { /* J u = u/eta - r */
-        change = real_max(real_abs(by * u[i] - r[i]) * run->weight[i], change);
-        way = real_max(real_abs(u[i]) * run->weight[i], way);
+        change = real_max(real_abs(by * u[i] - r[i]) * run->norm.weight[i], change);
+        way = real_max(real_abs(u[i]) * run->norm.weight[i], way);
     }
     run->stability = pick(way > MIN_RESOLVED, h * change / way, real_of(0.0));
-    const Truth large = step->error > run->accept;
+    const Truth large = step->error > run->control.accept;
     if (any_of(large)) { /* once more, at a state that errs as much: less is left of what is stiff and not wrong */
         Real y[N_Y], dy[N_Y];
         AsideOf aside;

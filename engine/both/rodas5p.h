@@ -121,15 +121,15 @@ static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         newton_solve(&run->linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages lie at one time: what f changes between them is J times their way */
             for (int i = 0; i < 2 * N_X; i++) {
-                change = real_max(real_abs(f[i] - before[i]) * run->weight[i], change);
-                way = real_max(real_abs(step->k[6][i]) * run->weight[i], way);
+                change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);
+                way = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], way);
             }
     }
     step->error = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
         step->y[i] = y[i] + step->k[7][i];
     for (int i = 0; i < N_Y; i++)
-        step->error = real_max(real_abs(step->k[7][i]) * run->weight[i], step->error);
+        step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
     if (is_odd(run, step->error))
         return NOT_FINITE;
     run->stability = pick(way > MIN_RESOLVED, h * change / way, real_of(0.0));

@@ -2,5 +2,5 @@
 static void note_speed(RunOf *run)
 {
     for (int k = 0; k < N_X; k++)
-        run->speed[is_angle[k]] = real_max(run->speed[is_angle[k]], real_abs(run->y[N_X + k]));
+        run->norm.speed[is_angle[k]] = real_max(run->norm.speed[is_angle[k]], real_abs(run->y[N_X + k]));
 }

@@ -18,8 +18,8 @@ static Real taylor_reach(const RunOf *run)
     const Real *last = run->series[n], *before = run->series[n - 1];
     Real most = real_of(0.0), most_before = real_of(0.0);
     for (int i = 0; i < N_Y; i++) {
-        most = real_max(most, real_abs(last[i]) * run->weight[i]);
-        most_before = real_max(most_before, real_abs(before[i]) * run->weight[i]);
+        most = real_max(most, real_abs(last[i]) * run->norm.weight[i]);
+        most_before = real_max(most_before, real_abs(before[i]) * run->norm.weight[i]);
     }
     return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));
 }
@@ -31,7 +31,7 @@ static Real taylor_reach_of_all(const RunOf *run)
     for (int k = 1; k <= run->order; k++) {
         Real most = real_of(0.0);
         for (int i = 0; i < N_Y; i++)
-            most = real_max(most, real_abs(run->series[k][i]) * run->weight[i]);
+            most = real_max(most, real_abs(run->series[k][i]) * run->norm.weight[i]);
         steepest = real_max(steepest, (real_log2(most) - TAYLOR_DECAY * (run->order - k)) / k);
     }
     return real_exp2(-steepest);
@@ -78,7 +78,7 @@ static Real taylor_defect(const RunOf *run, const StepOf *step, const Real *rate
     const int few = run->order - 4;
     Real most = real_of(0.0);
     for (int i = N_X; i < 2 * N_X; i++)
-        most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->weight[i]);
+        most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
     return most * (1.0 / (1 << (few < TAYLOR_DEFECT ? few : TAYLOR_DEFECT)));
 }
 
@@ -88,7 +88,7 @@ static Real taylor_defect(const RunOf *run, const StepOf *step, const Real *rate
  */
 static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
-    const int free = !(run->fixed > 0.0);
+    const int free = !(run->control.fixed > 0.0);
     Real rate[N_Y], defect;
     int status;
     if (free)

@@ -3,18 +3,29 @@
  */
 #include "speed.h"
 
+/* Add the works of a step, where it is taken, to the energy that was turned over; y: the state at its end. */
+static void note_works(RunOf *run, Truth taken, const Real *y)
+{
+    for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
+        const Real more = run->norm.turned_over + real_abs(y[k] - run->y[k]);
+        run->norm.turned_over = pick(taken, more, run->norm.turned_over);
+    }
+}
+
 /*
  * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
  * the energy that was turned over: nothing in the motion feels them, but a balance of energy does.
  */
 static void weigh(RunOf *run)
 {
-    const Real lengths = run->speed[0] + run->speed_floor[0], angles = run->speed[1] + run->speed_floor[1];
+    NormOf *norm = &run->norm;
+    const Real lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
     const Real of_speed[2] = {1.0 / lengths, 1.0 / angles};
     for (int k = 0; k < 2 * N_X; k++)
-        run->weight[k] = k < N_X ? run->inverse_scale[k] : run->inverse_scale[k] * of_speed[is_angle[k - N_X]];
+        norm->weight[k] = k < N_X ? norm->inverse_scale[k] : norm->inverse_scale[k] * of_speed[is_angle[k - N_X]];
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++)
-        run->weight[k] = 1.0 / (run->work_scale * run->turned_over);
+        norm->weight[k] = 1.0 / (norm->work_scale * norm->turned_over);
     for (int k = FIRST_STATE; k < N_Y; k++) /* deflections, as lengths are */
-        run->weight[k] = is_angle[0] ? run->inverse_scale[0] * (run->least[1] / run->least[0]) : run->inverse_scale[0];
+        norm->weight[k] = is_angle[0] ? norm->inverse_scale[0] * (norm->least[1] / norm->least[0])
+            : norm->inverse_scale[0];
 }

@@ -36,8 +36,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         return status;
     inner_peaks(run, step, share, p);
     turn_passed(run, step);
-    for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++)
-        run->turned_over += fabs(step->y[k] - run->y[k]);
+    note_works(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
         run->dy[k] = step->dy[k];
@@ -169,11 +168,12 @@ static int lacks_dense(Run *run, Step *step, const Parameters *p, const Samples 
 static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step *step, double *share, int *event)
 {
     const double t_end = out->t[out->n - 1], longer = PERIODS ? PERIOD_END : NEAR_END;
+    const int free = run->control.fixed <= 0.0;
     int status = 0;
     *share = first_event(run, step, p, event);
-    for (int k = 0; k < SHORTENED && !status && run->fixed <= 0.0 && lacks_dense(run, step, p, out); k++)
+    for (int k = 0; k < SHORTENED && !status && free && lacks_dense(run, step, p, out); k++)
         status = step_again(run, 0.25 * step->h, t_end, p, step, share, event);
-    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && run->fixed <= 0.0; k++) {
+    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && free; k++) {
         const double next = run->control.h, h = longer * *share * step->h;
         if (h <= run->tick)
             break; /* it lies at the step's beginning, where no row is another one */
@@ -209,7 +209,7 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
         *status = STOPPED;
     else if (lists_full(run))
         *status = EVENTS_FULL;
-    else if (run->fixed <= 0.0 && stalls(run, t_end))
+    else if (run->control.fixed <= 0.0 && stalls(run, t_end))
         *status = what_ends(run, STALLED, p);
     else
         open_attempt(run, t_end, p);

@@ -25,7 +25,7 @@ static int branches_fit(const Run *run, const Aside *aside)
 static double audit_weight(const Run *run, int k)
 {
     const int kind = is_angle[k % N_X];
-    return run->inverse_scale[k] / (k < N_X ? 1.0 : run->speed[kind] + run->speed_floor[kind]);
+    return run->norm.inverse_scale[k] / (k < N_X ? 1.0 : run->norm.speed[kind] + run->norm.speed_floor[kind]);
 }
 
 /* Whether a drive's second rate jumps, or is unbounded, where a step begins or ends: no polynomial follows it. */

@@ -30,7 +30,9 @@ static double defect_of(Run *run, const Step *step, const double *y, const doubl
 {
     const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
     const int rows = has_films() ? N_X : 2 * N_X; /* velocities of films: check_forces */
-    const double fast[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
+    const ErrorNorm *norm = &run->norm;
+    const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
+    const double fast[2] = {1.0 / lengths, 1.0 / angles};
     double missed[N_Y] = {0.0}, off[N_Y] = {0.0}, defect = known, least;
     for (int k = 0; k < rows; k++) {
         missed[k] = rate[k] - dy[k];
@@ -39,7 +41,7 @@ static double defect_of(Run *run, const Step *step, const double *y, const doubl
     for (int pass = 0; pass < 2; pass++) {
         defect = known, least = known * AUDIT_DEFECT;
         for (int k = 0; k < rows; k++) {
-            const double weight = run->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]); /* audit_weight */
+            const double weight = norm->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]); /* audit_weight */
             const double size = fabs(off[k]) * weight;
             if (size <= least)
                 continue;

@@ -26,7 +26,7 @@ static double fastest_rate(const Run *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
-        const double least = run->least[is_angle[k]], a = fabs(dy[N_X + k]);
+        const double least = run->norm.least[is_angle[k]], a = fabs(dy[N_X + k]);
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
     }
     return rate;
@@ -48,8 +48,8 @@ static void floor_speeds(Run *run, double left, const Parameters *p)
     if (rate * left > UNBOUNDED && !rates(run, run->t + left / UNBOUNDED, run->y, p, dy, &aside))
         rate = min_of(rate, fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
-        run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
-        run->speed_rounded[kind] = run->least[kind] * (rate > AT_ALL ? 0.01 * rate : 1.0 / left);
+        run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
+        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > AT_ALL ? 0.01 * rate : 1.0 / left);
     }
 }
 
@@ -83,7 +83,8 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
         status = settle_sides(run, -1, p);
     floor_speeds(run, left, p);
     note_speed(run);
-    run->turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->work_scale); /* weights are its inverse */
+    /* weights are its inverse */
+    run->norm.turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
     weigh(run);
 #if N_CORNERS
     if (!status)
@@ -122,15 +123,15 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     run->choice.automatic = automatic > 0;
     run->choice.implicit = METHODS[automatic];
     run->choice.patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
-    run->fixed = fixed;
+    run->control.fixed = fixed;
     run->control.error_before = MIN_LAST_ERROR;
     run->crossed = run->skip = -1;
-    run->accept = fixed > 0.0 ? INFINITY : 1.0;
+    run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
-        run->inverse_scale[k] = 1.0 / scale[k];
-    run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
-    run->least[0] = least[0];
-    run->least[1] = least[1];
+        run->norm.inverse_scale[k] = 1.0 / scale[k];
+    run->norm.work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
+    run->norm.least[0] = least[0];
+    run->norm.least[1] = least[1];
 #if TAYLOR
     run->order = taylor_order(scale[2 * N_X - 1]);
 #endif

@@ -49,7 +49,7 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
     const double rounded = RATE_ROUNDED / step->h;
     double off[2] = {0.0, 0.0}, largest[2], share = 0.0;
     largest[0] = most / run->lightest;
-    largest[1] = largest[0] * run->least[1] / run->least[0];
+    largest[1] = largest[0] * run->norm.least[1] / run->norm.least[0];
     for (int k = N_X; k < 2 * N_X && most > 0.0; k++) {
         const int kind = !!is_angle[k - N_X];
         off[kind] = max_of(off[kind], fabs(rate[k] - dy[k]) - rounded * fabs(run->y[k]));

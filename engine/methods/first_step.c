@@ -22,7 +22,7 @@ static int first_size(Run *run, double left, const Parameters *p)
     double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
     Aside aside;
     for (int k = 0; k < 2 * N_X; k++)
-        one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
+        one = max_of(one, fabs(run->dy[k]) * run->norm.weight[k]);
     double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, FIRST_SHARE * left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
@@ -30,7 +30,7 @@ static int first_size(Run *run, double left, const Parameters *p)
     if (status)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
-        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
+        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
     /* in the time one / two rates change by themselves: so many tolerances are gone in it; two may be subnormal */
     const double time = min_of(one / two, LONG_TIME), way = max_of(1.0, time * one);
     run->control.h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : FIRST_SHARE * left;
@@ -47,8 +47,8 @@ static int changes_within(Run *run, double h, const Parameters *p, double *chang
     const int status = rates(run, run->t + h, y, p, dy, &aside);
     *change = *size = 0.0;
     for (int k = N_X; k < 2 * N_X && !status; k++) {
-        *change = max_of(*change, fabs(dy[k] - run->dy[k]) * run->weight[k]);
-        *size = max_of(*size, fabs(run->dy[k]) * run->weight[k]);
+        *change = max_of(*change, fabs(dy[k] - run->dy[k]) * run->norm.weight[k]);
+        *size = max_of(*size, fabs(run->dy[k]) * run->norm.weight[k]);
     }
     return status;
 }
@@ -77,7 +77,8 @@ static int fit_first(Run *run, double left, const Parameters *p)
     const int corner = run->control.first >= &run->control.after_corner[0][0];
     const double onset = run->control.onset[stiff] > 0.0 ? run->control.onset[stiff] : stiff ? ONSET_STIFF : ONSET;
     const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
-    if (!run->control.first || run->fixed > 0.0 || run->method->own_length || (*run->control.first > 0.0 && !begins))
+    if (!run->control.first || run->control.fixed > 0.0 || run->method->own_length
+        || (*run->control.first > 0.0 && !begins))
         return 0;
     run->control.onset_share = 0.0;
     for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {

@@ -57,7 +57,8 @@ static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages
         d[2][i] = d[0][i] - d[1][i] - h * step->y[v];
         d[3][i] = 0.5 * h * h * run->dy[v] + d[1][i] - d[2][i];
         d[4][i] = 0.5 * h * h * step->dy[v] + d[1][i] + 2.0 * d[2][i] - d[3][i];
-        if (stages > 3 || 64.0 * DBL_EPSILON * fabs(run->y[i]) * run->weight[v] > h) /* rounding of positions over h */
+        /* rounding of positions over h */
+        if (stages > 3 || 64.0 * DBL_EPSILON * fabs(run->y[i]) * run->norm.weight[v] > h)
             continue;
         d[0][v] = step->y[v] - run->y[v];
         d[1][v] = h * run->dy[v] - d[0][v];

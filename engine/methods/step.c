@@ -31,7 +31,10 @@ static void margins_of(const Memory *memory, const Aside *aside, double *out)
 }
 
 /* The tolerance of a step, as a share; 0 where its length is given. */
-static double tolerance_of(const Run *run) { return run->fixed > 0.0 ? 0.0 : 1.0 / run->inverse_scale[2 * N_X - 1]; }
+static double tolerance_of(const Run *run)
+{
+    return run->control.fixed > 0.0 ? 0.0 : 1.0 / run->norm.inverse_scale[2 * N_X - 1];
+}
 
 /* What the stages saw of one margin, or of another number: the first's, and how far apart the others' are. */
 typedef struct {
@@ -134,7 +137,7 @@ static inline void pass_impulse(Run *run, const Parameters *p)
 
 /* Whether a step's error is no number; whether it is too large. */
 static int is_odd(const Run *run, double error) { return (void)run, !isfinite(error); }
-static int is_refused(const Run *run, const Step *step) { return step->error > run->accept; }
+static int is_refused(const Run *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
  * The end of a step: projected, with its right-hand side. What the projection moves is a part of the error. Where it is

@@ -187,10 +187,10 @@ static double within_flight(const Run *run, double h, const Parameters *p)
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
-    double h = run->fixed > 0.0 ? run->fixed : run->control.h;
-    if (run->skip >= 0 && run->fixed <= 0.0)
+    double h = run->control.fixed > 0.0 ? run->control.fixed : run->control.h;
+    if (run->skip >= 0 && run->control.fixed <= 0.0)
         h = min_of(h, run->control.pace);
-    if (run->fixed <= 0.0)
+    if (run->control.fixed <= 0.0)
         h = within_flight(run, up_to_parting(run, min_of(h, stride(run, NULL, p))), p);
     if (h > left * SAME_LENGTH)
         h = left;
@@ -214,16 +214,16 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 {
     const Method *method = step->method;
     Attempt *now = &run->control.attempt;
-    const int free = run->fixed <= 0.0;
-    const int fits = !tried && step->error <= run->accept && free;
+    const int free = run->control.fixed <= 0.0;
+    const int fits = !tried && step->error <= run->control.accept && free;
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
     if (fits && !is_film_known(run, step, at_ends)) {
         const double error = film_error(run, step, p);
         if (!(error > FALLING * now->of_films)) /* it is no rounding */
             step->error = max_of(step->error, error);
-        now->of_films = error > run->accept ? error : INFINITY;
+        now->of_films = error > run->control.accept ? error : INFINITY;
     }
-    const int good = !tried && step->error <= run->accept;
+    const int good = !tried && step->error <= run->control.accept;
     const double least = LEAST_LENGTH * now->far;
     *status = tried;
     if (tried == STOPPED || (tried && !free))

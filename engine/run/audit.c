@@ -30,7 +30,7 @@ static double draw(Audit *audit)
 }
 
 /* Whether steps are as long as a tolerance allows. */
-static int has_tolerance(const Run *run) { return run->fixed <= 0.0; }
+static int has_tolerance(const Run *run) { return run->control.fixed <= 0.0; }
 
 static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
 
@@ -61,7 +61,7 @@ static void record(Audit *audit, int check, double value, double limit, double t
  */
 static void check_closed(Run *run)
 {
-    double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * size_of(run));
+    double limit = max_of(audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * size_of(run));
     if (run->steps <= 1)
         run->audit.phi_start = run->phi_max;
     const double off = run->phi_max > run->audit.phi_start ? run->phi_max : 0.0;
@@ -84,13 +84,13 @@ static void check_rows(Run *run, double t, const double *all, int rates_too, con
     constraints(t, all, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = kept_row[i], length = row_is_length[row];
-        const double play = length ? run->least[0] : run->least[1];
+        const double play = length ? run->norm.least[0] : run->norm.least[1];
         const double limit = max_of(rtol * play, AUDIT_ROUNDING * (length ? size + far[0] : 1.0 + far[1]));
         record(audit, CHECK_position, fabs(phi[row]), limit, t, row);
     }
     if (!rates_too)
         return;
-    const double least = max_of(AUDIT_REST * run->speed_floor[0], 1e-300); /* m/s */
+    const double least = max_of(AUDIT_REST * run->norm.speed_floor[0], 1e-300); /* m/s */
     const double fast = max_of(max_of(speed[0], size * speed[1]), least), ahead = 1e-5 * size / fast;
     velocity_residuals(t, all, all + N_Q, ahead, p, missed, nu);
     for (int i = 0; i < N_ROWS; i++) {
@@ -218,7 +218,7 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
-        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->least[0], rounding) + located;
+        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->norm.least[0], rounding) + located;
         record(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }
 }

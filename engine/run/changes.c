@@ -97,7 +97,7 @@ static double energy_scale(const Run *run, const Parameters *p)
     double m[N_Q], sum = kinetic_energy(run, p);
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++)
-        sum += 0.5 * m[k] * run->speed_floor[k % 3 == 2] * run->speed_floor[k % 3 == 2];
+        sum += 0.5 * m[k] * run->norm.speed_floor[k % 3 == 2] * run->norm.speed_floor[k % 3 == 2];
     return sum;
 }
 
@@ -106,7 +106,7 @@ static double leap(const Run *run, const double *before)
 {
     double most = 0.0;
     for (int k = 0; k < N_Y; k++)
-        most = max_of(most, fabs(run->dy[k] - before[k]) * run->weight[k]);
+        most = max_of(most, fabs(run->dy[k] - before[k]) * run->norm.weight[k]);
     return most;
 }
 
@@ -121,7 +121,8 @@ static void pace_corner(Run *run, int corner, const double *before)
     const double way = run->t - run->control.t_crossed;
     const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->control.pace, way));
     const int again = run->crossed == corner && way < 1e-3 * run->control.h
-        && (meets[corner] || (run->fixed <= 0.0 && leap(run, before) * max_of(pace, run->control.h) < LEAST_LEAP));
+        && (meets[corner]
+            || (run->control.fixed <= 0.0 && leap(run, before) * max_of(pace, run->control.h) < LEAST_LEAP));
     run->skip = again ? corner : -1;
     run->control.pace = again ? pace : 0.0;
     run->crossed = corner;

@@ -22,7 +22,7 @@ static inline void look_back(Run *run)
         run->seen_steps = run->steps;
     }
     run->last_h = run->t - run->before_t;
-    run->force_found = min_of(1e-2, FORCE_FOUND / run->inverse_scale[2 * N_X - 1]);
+    run->force_found = min_of(1e-2, FORCE_FOUND / run->norm.inverse_scale[2 * N_X - 1]);
     run->goes_on = run->last_h > 0.0 && !run->control.attempt.again;
 }
 

@@ -189,6 +189,7 @@ typedef struct {
 /* The lengths of steps (methods/step_length.c, first_step.c, changes.c). */
 typedef struct {
     Attempt attempt;
+    double fixed, accept; /* the length of all steps, s, 0: they are chosen; the largest error of an accepted one */
     double last_step; /* s, up to an event where one ended it */
     double h, h_stiff, error_before, steep, t_crossed, pace;
     /*
@@ -199,6 +200,18 @@ typedef struct {
     /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; in 1 s, now */
     double onset[2], onset_share;
 } StepControl;
+
+/*
+ * The norm of errors: what tolerances are relative to.
+ * Written by: both/weigh.h, both/speed.h, methods/begin.c.
+ * Copied by: batch/many.c, batch/lane_exchange.c, batch/lane_quiet.c.
+ */
+typedef struct {
+    double inverse_scale[2 * N_X + 1], least[2]; /* 1 / tolerances; the smallest length, m, and angle that matter */
+    double speed[2], speed_floor[2], speed_rounded[2];
+    double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
+    double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
+} ErrorNorm;
 
 typedef struct {
     double t, y[N_Y], dy[N_Y];
@@ -212,6 +225,7 @@ typedef struct {
     Progress progress;
     MethodChoice choice;
     StepControl control;
+    ErrorNorm norm;
     Asked asked;
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int ready;
@@ -222,10 +236,7 @@ typedef struct {
     long steps, evaluations, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max;
     /* of methods that choose their step (adaptive.c) */
-    double fixed, accept, stability;
-    double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2], speed_rounded[2];
-    double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
-    double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
+    double stability;
     const Method *method;
     int crossed, skip, linear_ready;
     Linear linear;

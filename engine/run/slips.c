@@ -24,9 +24,10 @@ static int is_left_over(const Run *run, const double *way, double times)
 {
     int small = 1;
     for (int k = N_X; k < 2 * N_X; k++) {
-        const double turns = run->least[0] > 0.0 ? run->least[1] / run->least[0] : 1.0; /* rad/m; rk4 does not know */
+        const double *least = run->norm.least;
+        const double turns = least[0] > 0.0 ? least[1] / least[0] : 1.0; /* rad/m; rk4 does not know */
         const double located = is_angle[k - N_X] ? LEFT_SLIP * turns : LEFT_SLIP;
-        const double tolerance = run->weight[k] > 0.0 ? LEFT_OVER / run->weight[k] : 0.0;
+        const double tolerance = run->norm.weight[k] > 0.0 ? LEFT_OVER / run->norm.weight[k] : 0.0;
         small &= fabs(way[k] * times) <= max_of(tolerance, located);
     }
     return small;

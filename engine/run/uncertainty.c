@@ -37,14 +37,14 @@ static void add_closing(Run *run, double t, const double *y, const Parameters *p
  */
 static void rounding_errors(Run *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double size[2] = {0.0, 1.0}, speed[2] = {run->speed[0], run->speed[1]};
+    double size[2] = {0.0, 1.0}, speed[2] = {run->norm.speed[0], run->norm.speed[1]};
     for (int k = 0; k < N_X; k++) {
         size[is_angle[k]] = max_of(size[is_angle[k]], fabs(y[k]));
         speed[is_angle[k]] = max_of(speed[is_angle[k]], fabs(y[N_X + k]));
     }
     for (int k = 0; k < N_X; k++) {
         error[k] = ROUNDINGS * DBL_EPSILON * size[is_angle[k]];
-        error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->speed_rounded[is_angle[k]]);
+        error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->norm.speed_rounded[is_angle[k]]);
     }
     add_closing(run, t, y, p, error);
 }
@@ -68,7 +68,7 @@ static void add_stuck_slip(Run *run, double t, const double *y, const Parameters
             error[k] += fabs(way[k] * aside.friction[i].v / response);
     }
     for (int k = 0; k < N_X && status >= 0; k++) /* a place that is held may be 0: by lengths that count */
-        error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->least[is_angle[k]]);
+        error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->norm.least[is_angle[k]]);
 }
 #else
 static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)

@@ -111,7 +111,7 @@ static double same_time(const Run *run, double step)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X && !(step > 0.0); k++) {
-        const double least = run->least[is_angle[k]];
+        const double least = run->norm.least[is_angle[k]];
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(fabs(run->dy[N_X + k]) / least)));
     }
     const double near = min_of(RIGHT_AFTER, RIGHT_AFTER_SHARE * (step > 0.0 ? step : 1.0 / rate));

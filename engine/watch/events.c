@@ -40,9 +40,9 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     const int status = rates(run, step->t + step->h, step->y, p, dy, &aside);
     turn_passed(run, step); /* held until the step is taken: what lies inside it is on this side */
     for (int k = 0; k < 2 * N_X && !status; k++)
-        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
+        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
-        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
+        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     if (!status && all_finite(dy, N_Y))
         step->harm = most;
     if (step->harm < HARMLESS) {
@@ -234,7 +234,7 @@ static double first_in_long_step(Run *run, Step *step, double share, const Param
     int closed = 0, hidden = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
         closed |= run->memory.latch[i].closed;
-    if (!closed || !(share * step->h > LONG_STEP * run->control.last_step) || run->fixed > 0.0)
+    if (!closed || !(share * step->h > LONG_STEP * run->control.last_step) || run->control.fixed > 0.0)
         return share;
     for (int k = 0; k < N_MARGINS && !hidden; k++)
         hidden = watched_as[k] < 0 && !isfinite(begin_of(run, step, k).slope) && !follows_from_force(run, k)

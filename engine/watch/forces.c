@@ -37,7 +37,7 @@ static double slip_tolerance(Run *run, int i, const Parameters *p)
     Aside aside;
     for (int k = N_X; k < 2 * N_X; k++) {
         memcpy(y, run->y, sizeof y);
-        y[k] += 1.0 / run->weight[k];
+        y[k] += 1.0 / run->norm.weight[k];
         if (!rates(run, run->t, y, p, dy, &aside))
             sum += fabs(aside.friction[i].v - run->aside.friction[i].v);
     }

@@ -20,7 +20,7 @@ static void find_noise(Run *run, const Step *step, Noise *noise, const Parameter
         return;
     noise->known = 1;
     for (int k = 0; k < 2 * N_X; k++)
-        error[k] = 1.0 / run->weight[k];
+        error[k] = 1.0 / run->norm.weight[k];
     uncertainty(run, step->t, run->y, p, noise->rounding);
     error_of_watched(run, step->t, run->y, error, p, noise->tolerance);
     uncertainty(run, step->t + step->h, step->y, p, at_end);

@@ -31,7 +31,7 @@ static void noise(Run *run, const Step *step, const Parameters *p, double *chang
     double y[N_Y];
     Aside aside;
     for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->weight[k] : 0.0);
+        y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->norm.weight[k] : 0.0);
     look_at(run, step->t, y, p, &aside);
     for (int i = 0; i < N_WATCHED; i++)
         change[i] = fabs(margin(&run->memory, &aside, watched[i]) - margin(&run->memory, &run->aside, watched[i]));

@@ -29,7 +29,7 @@ static int follows(void *context, double share, int sure)
         if (follows_from_force(run, k) && margin(&run->memory, &aside, k) < 0.0)
             return 0;
     for (int k = 0; k < N_Y; k++)
-        most = max_of(most, fabs(step->h * dy[k] - (after[k] - before[k]) / (2.0 * apart)) * run->weight[k]);
+        most = max_of(most, fabs(step->h * dy[k] - (after[k] - before[k]) / (2.0 * apart)) * run->norm.weight[k]);
     return most < HARMLESS_DEFECT;
 }
 

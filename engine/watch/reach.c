@@ -16,7 +16,7 @@ static double root_width(const Run *run, const Step *step)
 static int may_lie_behind(const Run *run, int k)
 {
     const int corner = k - N_CLEARANCES;
-    if (run->fixed > 0.0 || watched_as[k] >= 0)
+    if (run->control.fixed > 0.0 || watched_as[k] >= 0)
         return 0;
     return corner < 0 ? gives(k) : corner < N_SWITCHES && meets[corner];
 }
