@@ -55,13 +55,13 @@ static void seat(Flow *flow, int k, int i)
 static void gather_past(LaneRun *x, int k, Run *run)
 {
     look_back(run);
-    x->last_h[k] = run->last_h;
-    x->falls[k] = run->falls;
-    x->force_found[k] = run->force_found;
-    x->goes_on[k] = -run->goes_on;
+    x->newton.last_h[k] = run->newton.last_h;
+    x->newton.falls[k] = run->newton.falls;
+    x->newton.force_found[k] = run->newton.force_found;
+    x->newton.goes_on[k] = -run->newton.goes_on;
     for (int j = 0; j < N_Y; j++) {
-        x->before_y[j][k] = run->before_y[j];
-        x->before_dy[j][k] = run->before_dy[j];
+        x->newton.before_y[j][k] = run->newton.before_y[j];
+        x->newton.before_dy[j][k] = run->newton.before_dy[j];
     }
 }
 #endif
@@ -185,13 +185,13 @@ static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
     run->evaluations += stages - 1;
 #if IMPLICIT_STAGES
     if (stiff > BY_RODAS5P) {
-        run->evaluations += (long)flow->x.asked[k] - stages + 1;
-        run->falls = flow->x.falls[k];
+        run->evaluations += (long)flow->x.newton.asked[k] - stages + 1;
+        run->newton.falls = flow->x.newton.falls[k];
     }
 #endif
-    if (stiff && !run->linear_ready) {
+    if (stiff && !run->newton.ready) {
         run->jacobians++;
-        run->linear_ready = ELSEWHERE;
+        run->newton.ready = ELSEWHERE;
     }
 }
 #endif

@@ -93,7 +93,7 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     run->progress.ended[N_MARGINS] += steps;
     run->progress.pace.steps += steps;
     run->choice.since += (int)steps;
-    run->choice.votes = run->progress.stuck = run->progress.crawl = run->linear_ready = run->series_ready = 0;
+    run->choice.votes = run->progress.stuck = run->progress.crawl = run->newton.ready = run->series_ready = 0;
     run->memory.held = 1;
     run->stability = 0.0;
     run->reach = quiet->reach[k];

@@ -24,7 +24,7 @@ static void forget_stages(LaneStep *step)
 static int is_refused(LaneRun *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !TAYLOR
-    step->missed = run->missed;
+    step->missed = run->newton.missed;
 #else
     step->missed = (LaneBits){0};
 #endif
@@ -101,9 +101,9 @@ static int is_odd(LaneRun *run, Lanes error)
 static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 {
     show_states(&run->memory, run->y);
-    linearize(run->t, run->y, run->y + N_X, &run->memory, p, run->dy + N_X, &run->aside, &run->linear,
+    linearize(run->t, run->y, run->y + N_X, &run->memory, p, run->dy + N_X, &run->aside, &run->newton.linear,
         &run->memory.rare);
-    newton_factor(hg, &run->linear, &run->memory.rare);
+    newton_factor(hg, &run->newton.linear, &run->memory.rare);
     return 0;
 }
 
@@ -114,8 +114,8 @@ static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 /* As those of methods/radau.c. */
 static int make_pair(LaneRun *run, Lanes eta, Lanes eta_i, LaneComplexLinear *pair)
 {
-    pair->p = run->linear.p;
-    pair->value = run->linear.value;
+    pair->p = run->newton.linear.p;
+    pair->value = run->newton.linear.value;
     newton_factor_complex(eta, eta_i, pair, &run->memory.rare);
     return 0;
 }
@@ -124,7 +124,7 @@ static void look_around(LaneRun *run) { (void)run; } /* gather_past has */
 
 static void count_rates(LaneRun *run, LaneBits active, int n)
 {
-    run->asked += pick(active, all_of(n), all_of(0.0));
+    run->newton.asked += pick(active, all_of(n), all_of(0.0));
 }
 
 static void begin_pass(LaneRun *run, LaneStep *step, LaneBits active, int n)
@@ -170,7 +170,7 @@ static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes
 
 static int stages_lost(LaneRun *run, LaneBits lost)
 {
-    run->missed = lost & ~run->memory.rare;
+    run->newton.missed = lost & ~run->memory.rare;
     return 0;
 }
 
@@ -180,8 +180,8 @@ static int stages_lost(LaneRun *run, LaneBits lost)
 static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
-    run->asked = all_of(0.0);
-    run->missed = (LaneBits){0};
+    run->newton.asked = all_of(0.0);
+    run->newton.missed = (LaneBits){0};
     if (stiff == BY_RADAU5)
         return radau5_try(run, h, p, step);
     if (stiff == BY_RADAU9)

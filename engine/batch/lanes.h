@@ -199,12 +199,14 @@ typedef struct {
     Lanes reach;
     Lanes series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
 #else
-    LaneLinear linear;
+    struct {
+        LaneLinear linear;
 #if IMPLICIT_STAGES
-    Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
-    Lanes asked; /* rates, of the step that is tried */
-    LaneBits goes_on, missed;
+        Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
+        Lanes asked; /* rates, of the step that is tried */
+        LaneBits goes_on, missed;
 #endif
+    } newton;
 #endif
 } LaneRun;
 

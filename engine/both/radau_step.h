@@ -5,15 +5,15 @@
 /* Guesses of the stages, less the beginning: as the last step's motion goes on, or as rates at the beginning lead. */
 static void RADAU(guess)(const RunOf *run, Real h, Real (*z)[N_Y])
 {
-    const Real H = run->last_h;
+    const Real H = run->newton.last_h;
     for (int i = 0; i < N_Y; i++) {
         /* Hermite's cubic, beyond the end of the step before, which was H long */
-        const Real way = run->before_y[i] - run->y[i], d0 = H * run->before_dy[i], d1 = H * run->dy[i];
+        const Real way = run->newton.before_y[i] - run->y[i], d0 = H * run->newton.before_dy[i], d1 = H * run->dy[i];
         const Real two = 3.0 * way + d0 + 2.0 * d1, three = 2.0 * way + d0 + d1;
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
             const Real led = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
-            z[s][i] = pick(run->goes_on, x * (d1 + x * (two + x * three)), led);
+            z[s][i] = pick(run->newton.goes_on, x * (d1 + x * (two + x * three)), led);
         }
     }
 }
@@ -52,7 +52,7 @@ static void RADAU(change)(const RunOf *run, Real h, const ComplexLinearOf *pairs
     }
     for (int i = 0; i < N_Y; i++)
         r[0][i] -= RADAU_TABLE.gamma * w[0][i];
-    newton_solve(&run->linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r[0], w[0]);
+    newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r[0], w[0]);
     for (int k = 0; 2 * k + 1 < RADAU_STAGES; k++) {
         const double re = RADAU_TABLE.pair[k][0], im = RADAU_TABLE.pair[k][1], square = re * re + im * im;
         Real *const x = w[2 * k + 1], *const y = w[2 * k + 2];
@@ -122,8 +122,8 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
     Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), apart;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
     /* how fast changes fell in another step tells less of this one: to the power 3/4 */
-    const Real known = real_sqrt(run->falls) * real_sqrt(real_sqrt(run->falls));
-    Real falls = pick(run->falls > 0.0, known, real_of(0.5));
+    const Real known = real_sqrt(run->newton.falls) * real_sqrt(real_sqrt(run->newton.falls));
+    Real falls = pick(run->newton.falls > 0.0, known, real_of(0.5));
     Real (*const z)[N_Y] = step->k;
     /* nearer they cannot be told apart; where no error is looked at, nearly so near */
     Real rounded = real_of(0.0);
@@ -156,12 +156,13 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         /* a film's force is linear in velocities by sectors of their direction: the first change may miss the sector */
         if (pass > has_films()) {
             /* it no longer falls */
-            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= run->force_found);
+            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= run->newton.force_found);
             *lost |= active & is_not(found | (falls < hope));
             active &= found | (falls < hope);
         }
-        found |= active & (falls * way <= enough * (1.0 - falls)) & (falls * apart <= run->force_found * (1.0 - falls));
-        run->falls = pick(found, real_max(falls, real_of(1e-3)), run->falls);
+        found |= active & (falls * way <= enough * (1.0 - falls))
+            & (falls * apart <= run->newton.force_found * (1.0 - falls));
+        run->newton.falls = pick(found, real_max(falls, real_of(1e-3)), run->newton.falls);
         active &= is_not(found);
         before = pick(active, way, real_of(1.0));
     }
@@ -175,7 +176,7 @@ static Real RADAU(error)(const RunOf *run, Real h, const Real *dy, const Real *b
     Real most = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
         r[i] = dy[i] + bend[i];
-    newton_solve(&run->linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r, u);
+    newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r, u);
     for (int i = 0; i < N_Y; i++)
         most = real_max(real_abs(u[i]) * run->norm.weight[i], most);
     return most;

@@ -118,7 +118,7 @@ static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
             note_stage(run, step, &aside, rodas5p_node[s]);
         }
         rodas5p_right(s, h, f, step->k, r);
-        newton_solve(&run->linear, hg, h * rodas5p_time[s], r, step->k[s]);
+        newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages lie at one time: what f changes between them is J times their way */
             for (int i = 0; i < 2 * N_X; i++) {
                 change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);

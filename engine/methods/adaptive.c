@@ -48,7 +48,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->steps++;
     run->stiff_steps += !!step->method->stiff;
     run->progress.ended[event < 0 ? N_MARGINS : event]++;
-    run->linear_ready = 0;
+    forget_linear(run);
 #if TAYLOR
     run->series_ready = 0;
 #endif

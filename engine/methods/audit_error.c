@@ -113,7 +113,7 @@ static void check_length(Run *run, Step *step, const Parameters *p)
     if (worst > 1.0) {
         if (make_linear(run, h, p))
             return;
-        newton_solve(&run->linear, h, 0.0, mean, error);
+        newton_solve(&run->newton.linear, h, 0.0, mean, error);
         worst = largest_error(run, step, error, limit, &most);
     }
     check_order(run, most, change);

@@ -51,7 +51,7 @@ static double defect_of(Run *run, const Step *step, const double *y, const doubl
         }
         if (pass || defect <= 1.0 || !step->method->stiff || has_films() || make_linear(run, h, p))
             break;
-        newton_solve(&run->linear, h, 0.0, missed, off);
+        newton_solve(&run->newton.linear, h, 0.0, missed, off);
     }
     return defect > known ? defect : 0.0;
 }

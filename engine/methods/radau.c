@@ -3,8 +3,8 @@
  */
 static int make_pair(Run *run, double eta, double eta_i, ComplexLinear *pair)
 {
-    pair->p = run->linear.p;
-    pair->value = run->linear.value;
+    pair->p = run->newton.linear.p;
+    pair->value = run->newton.linear.value;
     return newton_factor_complex(eta, eta_i, pair) ? NOT_FINITE : 0;
 }
 

@@ -6,16 +6,20 @@
 /* The equations linearized at the run's state, and Newton's matrix for a step. A Jacobian counts once a step. */
 static int make_linear(Run *run, double hg, const Parameters *p)
 {
-    if (run->linear_ready != HERE) {
+    if (run->newton.ready != HERE) {
         show_states(&run->memory, run->y);
-        const int lost = linearize_state(run->t, run->y, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
+        const int lost = linearize_state(run->t, run->y, &run->memory, p, run->dy + N_X, &run->aside,
+            &run->newton.linear);
         if (lost)
             return lost;
-        run->jacobians += !run->linear_ready;
-        run->linear_ready = HERE;
+        run->jacobians += !run->newton.ready;
+        run->newton.ready = HERE;
     }
-    return newton_factor(hg, &run->linear) ? NOT_FINITE : 0;
+    return newton_factor(hg, &run->newton.linear) ? NOT_FINITE : 0;
 }
+
+/* From a new state on. */
+static void forget_linear(Run *run) { run->newton.ready = 0; }
 
 #include "../both/rodas5p.h"
 

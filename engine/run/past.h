@@ -6,24 +6,24 @@
 
 #define FORCE_FOUND 5e2 /* of a film's force, times rtol: how well it is known where stages are found */
 
-/* Once a step, before it is tried; whether the motion goes on as it was, as run->goes_on. */
+/* Once a step, before it is tried; whether the motion goes on as it was, as run->newton.goes_on. */
 static inline void look_back(Run *run)
 {
-    Beginning *now = &run->now;
-    if (run->seen_steps != run->steps || now->t != run->t) {
-        run->before_t = run->seen_steps == run->steps - 1 && run->steps > 0 ? now->t : run->t;
+    Beginning *now = &run->newton.now;
+    if (run->newton.seen_steps != run->steps || now->t != run->t) {
+        run->newton.before_t = run->newton.seen_steps == run->steps - 1 && run->steps > 0 ? now->t : run->t;
         for (int i = 0; i < N_Y; i++) {
-            run->before_y[i] = now->y[i];
-            run->before_dy[i] = now->dy[i];
+            run->newton.before_y[i] = now->y[i];
+            run->newton.before_dy[i] = now->dy[i];
             now->y[i] = run->y[i];
             now->dy[i] = run->dy[i];
         }
         now->t = run->t;
-        run->seen_steps = run->steps;
+        run->newton.seen_steps = run->steps;
     }
-    run->last_h = run->t - run->before_t;
-    run->force_found = min_of(1e-2, FORCE_FOUND / run->norm.inverse_scale[2 * N_X - 1]);
-    run->goes_on = run->last_h > 0.0 && !run->control.attempt.again;
+    run->newton.last_h = run->t - run->newton.before_t;
+    run->newton.force_found = min_of(1e-2, FORCE_FOUND / run->norm.inverse_scale[2 * N_X - 1]);
+    run->newton.goes_on = run->newton.last_h > 0.0 && !run->control.attempt.again;
 }
 
 #endif

@@ -213,6 +213,23 @@ typedef struct {
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
 } ErrorNorm;
 
+/*
+ * Newton's matrix and, of methods whose stages are iterated, what their iterations begin with.
+ * Written by: methods/rodas5p.c, run/past.h, both/radau_step.h.
+ * Copied by: batch/lane_exchange.c, batch/lane_quiet.c, batch/lane_tries.c.
+ */
+typedef struct {
+    Linear linear;
+    int ready; /* where the equations are linearized at the run's state: HERE, ELSEWHERE, 0 */
+#if IMPLICIT_STAGES
+    /* where this step and the one before began, how far they are apart; how fast iterations ended last */
+    Beginning now;
+    long seen_steps;
+    double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls, force_found;
+    int goes_on;
+#endif
+} NewtonIteration;
+
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
@@ -226,6 +243,7 @@ typedef struct {
     MethodChoice choice;
     StepControl control;
     ErrorNorm norm;
+    NewtonIteration newton;
     Asked asked;
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int ready;
@@ -238,15 +256,7 @@ typedef struct {
     /* of methods that choose their step (adaptive.c) */
     double stability;
     const Method *method;
-    int crossed, skip, linear_ready;
-    Linear linear;
-#if IMPLICIT_STAGES
-    /* where this step and the one before began (past.h), how far they are apart; how fast iterations ended last */
-    Beginning now;
-    long seen_steps;
-    double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls, force_found;
-    int goes_on;
-#endif
+    int crossed, skip;
 #if TAYLOR
     int order, series_ready;                      /* of the series at the state; where it is made, as linear_ready */
     const double *series_lane;                    /* ELSEWHERE: its terms, of which each is so many numbers further */
