@@ -30,7 +30,7 @@ typedef struct {
 } Flow;
 /* What is empty at first. */
 #if TAYLOR
-#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneRun, series))
+#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneRun, series.terms))
 #else
 #define FLOW_BEGINS sizeof(Flow)
 #endif
@@ -85,7 +85,7 @@ static void gather(Flow *flow, int k)
         x->norm.weight[j][k] = run->norm.weight[j];
     }
 #if TAYLOR
-    x->order = run->order;
+    x->series.order = run->series.order;
     x->control.fixed = run->control.fixed;
 #else
     for (int j = 0; j < N_Y; j++)
@@ -170,11 +170,11 @@ static void scatter_step(const Flow *flow, int k, Step *step)
 static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
     (void)stiff;
-    run->evaluations += !run->series_ready;
-    run->series_ready = ELSEWHERE;
-    run->series_lane = (const double *)flow->x.series + k;
-    run->series_lanes = LANES;
-    run->reach = flow->x.reach[k];
+    run->evaluations += !run->series.ready;
+    run->series.ready = ELSEWHERE;
+    run->series.lane = (const double *)flow->x.series.terms + k;
+    run->series.lanes = LANES;
+    run->series.reach = flow->x.series.reach[k];
     run->control.attempt.h = flow->step.h[k];
 }
 #else

@@ -60,8 +60,8 @@ static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lan
     x->t = pick(now, t, x->t);
     note_speed(x);
     weigh(x);
-    quiet->reach = pick(now, x->reach, quiet->reach);
-    const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->reach;
+    quiet->reach = pick(now, x->series.reach, quiet->reach);
+    const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
     *h = pick(now, pick(next > left * SAME_LENGTH, left, next), *h);
     for (int k = 0; k < LANES; k++) {
         quiet->steps[k] -= now[k];
@@ -89,15 +89,15 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     run->norm.speed[0] = x->norm.speed[0][k];
     run->norm.speed[1] = x->norm.speed[1][k];
     run->steps += steps;
-    run->evaluations += 2 * steps - !!run->series_ready;
+    run->evaluations += 2 * steps - !!run->series.ready;
     run->progress.ended[N_MARGINS] += steps;
     run->progress.pace.steps += steps;
     run->choice.since += (int)steps;
-    run->choice.votes = run->progress.stuck = run->progress.crawl = run->newton.ready = run->series_ready = 0;
+    run->choice.votes = run->progress.stuck = run->progress.crawl = run->newton.ready = run->series.ready = 0;
     run->memory.held = 1;
     run->stability = 0.0;
-    run->reach = quiet->reach[k];
-    run->control.h = TAYLOR_AHEAD * run->reach;
+    run->series.reach = quiet->reach[k];
+    run->control.h = TAYLOR_AHEAD * run->series.reach;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],
         .open = 1};
 }

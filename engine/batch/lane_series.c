@@ -18,13 +18,13 @@ static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p,
 {
     SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
     TaylorValues at;
-    Lanes(*const c)[TAYLOR_Y] = run->series;
+    Lanes(*const c)[TAYLOR_Y] = run->series.terms;
     (void)stiff;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = run->y[i];
     taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->memory.rare);
-    series_orders(p, &at, run->order, c, factors[0], factors[1]);
-    run->memory.rare |= not_finite(c[run->order], NULL, N_Y);
-    run->reach = taylor_reach(run);
+    series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
+    run->memory.rare |= not_finite(c[run->series.order], NULL, N_Y);
+    run->series.reach = taylor_reach(run);
     return taylor_step(run, h, p, step);
 }

@@ -195,9 +195,11 @@ typedef struct {
     LaneMemory memory;
     LaneAside aside;
 #if TAYLOR
-    int order;    /* the same in all lanes: a batch has one tolerance */
-    Lanes reach;
-    Lanes series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
+    struct {
+        int order; /* the same in all lanes: a batch has one tolerance */
+        Lanes reach;
+        Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
+    } series;
 #else
     struct {
         LaneLinear linear;

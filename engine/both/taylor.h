@@ -14,8 +14,8 @@ enum { TAYLOR_DEFECT = 5 /* log2 of the defect, in tolerances, that the end of a
  */
 static Real taylor_reach(const RunOf *run)
 {
-    const int n = run->order;
-    const Real *last = run->series[n], *before = run->series[n - 1];
+    const int n = run->series.order;
+    const Real *last = run->series.terms[n], *before = run->series.terms[n - 1];
     Real most = real_of(0.0), most_before = real_of(0.0);
     for (int i = 0; i < N_Y; i++) {
         most = real_max(most, real_abs(last[i]) * run->norm.weight[i]);
@@ -28,11 +28,11 @@ static Real taylor_reach(const RunOf *run)
 static Real taylor_reach_of_all(const RunOf *run)
 {
     Real steepest = real_of(-INFINITY);
-    for (int k = 1; k <= run->order; k++) {
+    for (int k = 1; k <= run->series.order; k++) {
         Real most = real_of(0.0);
         for (int i = 0; i < N_Y; i++)
-            most = real_max(most, real_abs(run->series[k][i]) * run->norm.weight[i]);
-        steepest = real_max(steepest, (real_log2(most) - TAYLOR_DECAY * (run->order - k)) / k);
+            most = real_max(most, real_abs(run->series.terms[k][i]) * run->norm.weight[i]);
+        steepest = real_max(steepest, (real_log2(most) - TAYLOR_DECAY * (run->series.order - k)) / k);
     }
     return real_exp2(-steepest);
 }
@@ -40,19 +40,19 @@ static Real taylor_reach_of_all(const RunOf *run)
 /* The state so long after that of the run, and its rate of change: even powers and odd ones, each with its slope. */
 static inline void taylor_both(const RunOf *run, Real h, Real *y, Real *rate)
 {
-    const int top = run->order - run->order % 2;
+    const int top = run->series.order - run->series.order % 2;
     const Real square = h * h;
     Real all[TAYLOR_Y], slope[TAYLOR_Y];
     for (int i = 0; i < N_Y; i += SERIES_PART) {
-        SeriesPart even = *(const SeriesPart *)(run->series[top] + i), odd = {0.0};
+        SeriesPart even = *(const SeriesPart *)(run->series.terms[top] + i), odd = {0.0};
         SeriesPart even_slope = {0.0}, odd_slope = {0.0};
-        if (top < run->order)
-            odd = *(const SeriesPart *)(run->series[top + 1] + i);
+        if (top < run->series.order)
+            odd = *(const SeriesPart *)(run->series.terms[top + 1] + i);
         for (int k = top - 2; k >= 0; k -= 2) {
             even_slope = even + square * even_slope;
             odd_slope = odd + square * odd_slope;
-            even = *(const SeriesPart *)(run->series[k] + i) + square * even;
-            odd = *(const SeriesPart *)(run->series[k + 1] + i) + square * odd;
+            even = *(const SeriesPart *)(run->series.terms[k] + i) + square * even;
+            odd = *(const SeriesPart *)(run->series.terms[k + 1] + i) + square * odd;
         }
         *(SeriesPart *)(all + i) = even + h * odd;
         *(SeriesPart *)(slope + i) = odd + 2.0 * (h * even_slope + square * odd_slope);
@@ -75,7 +75,7 @@ static inline void taylor_at(const RunOf *run, Real h, Real *y)
  */
 static Real taylor_defect(const RunOf *run, const StepOf *step, const Real *rate)
 {
-    const int few = run->order - 4;
+    const int few = run->series.order - 4;
     Real most = real_of(0.0);
     for (int i = N_X; i < 2 * N_X; i++)
         most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
@@ -92,14 +92,14 @@ static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
     Real rate[N_Y], defect;
     int status;
     if (free)
-        h = real_min(h, run->reach);
+        h = real_min(h, run->series.reach);
     step->t = run->t, step->dense_ready = 0;
     forget_stages(step);
     run->stability = real_of(0.0);
     for (int again = 0;; again = 1) {
         step->h = h;
         taylor_both(run, h, step->y, rate);
-        step->error = free ? h / run->reach : real_of(0.0); /* its root: accepted where it is one at most */
+        step->error = free ? h / run->series.reach : real_of(0.0); /* its root: accepted where it is one at most */
         if (!again && is_refused(run, step))
             return 0;
         status = finish_step(run, step, p);
@@ -109,8 +109,8 @@ static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         const Truth large = defect > 1.0;
         if (again || !any_of(large))
             break;
-        run->reach = pick(large, real_min(run->reach, taylor_reach_of_all(run)), run->reach);
-        h = real_min(h, run->reach);
+        run->series.reach = pick(large, real_min(run->series.reach, taylor_reach_of_all(run)), run->series.reach);
+        h = real_min(h, run->series.reach);
         forget_end(run);
     }
     step->error = real_max(step->error, defect);

@@ -49,9 +49,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->stiff_steps += !!step->method->stiff;
     run->progress.ended[event < 0 ? N_MARGINS : event]++;
     forget_linear(run);
-#if TAYLOR
-    run->series_ready = 0;
-#endif
+    forget_series(run);
     note_speed(run);
     weigh(run);
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -132,7 +132,5 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     run->norm.work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
     run->norm.least[0] = least[0];
     run->norm.least[1] = least[1];
-#if TAYLOR
-    run->order = taylor_order(scale[2 * N_X - 1]);
-#endif
+    start_series(run, scale[2 * N_X - 1]);
 }

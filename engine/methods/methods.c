@@ -29,9 +29,7 @@ struct Method {
 #if IMPLICIT_STAGES
 #include "radau.c"
 #endif
-#if TAYLOR
 #include "taylor.c"
-#endif
 
 static const Method *const METHODS[] = {
     &dop853, &rodas5p,

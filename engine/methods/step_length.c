@@ -111,16 +111,6 @@ static void note_first(Run *run, const Step *step)
     run->control.first = NULL;
 }
 
-/* By a method whose steps are as long as they may be: how far one may look ahead next. */
-static void next_own_length(Run *run, const Step *step, int again)
-{
-#if TAYLOR
-    run->control.h = again ? step->h : TAYLOR_AHEAD * run->reach;
-#else
-    (void)run, (void)step, (void)again;
-#endif
-}
-
 /*
  * By which share a step may become longer, as errors were seen to grow from an accepted step to the longer one that was
  * refused before it: of stiff motion that can be a far higher power than the method's, and would be refused again.
@@ -138,8 +128,8 @@ static double share_as_seen(Run *run, const Step *step, int again)
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
 static void next_length(Run *run, const Step *step, int again, int whole)
 {
-    if (step->method->own_length) {
-        next_own_length(run, step, again);
+    if (step->method->own_length) { /* as far as one may look ahead */
+        run->control.h = again ? step->h : length_ahead(run);
         return;
     }
     const double error = told_error(step), power = step->method->power;

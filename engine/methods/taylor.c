@@ -4,6 +4,7 @@
  * A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor methods,
  * Experimental Mathematics 14 (2005), section 3.
  */
+#if TAYLOR
 #define TAYLOR_EFFORT 0.7 /* orders by e-fold of the tolerance */
 enum { TAYLOR_LEAST = 4 };
 
@@ -28,21 +29,21 @@ static void forget_end(Run *run) { run->evaluations--; }
 /* The series at the state of the run, and how far it is good for; once for all steps that are tried there. */
 static int taylor_expand(Run *run, const Parameters *p)
 {
-    if (run->series_ready == HERE)
+    if (run->series.ready == HERE)
         return 0;
-    const int n = run->order, status = taylor_series(run->t, run->y, p, n, run->series);
+    const int n = run->series.order, status = taylor_series(run->t, run->y, p, n, run->series.terms);
     if (status)
         return status;
-    run->evaluations += run->series_ready != ELSEWHERE;
-    run->reach = taylor_reach(run);
-    run->series_ready = HERE;
+    run->evaluations += run->series.ready != ELSEWHERE;
+    run->series.reach = taylor_reach(run);
+    run->series.ready = HERE;
     return 0;
 }
 
 static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
 {
     const int status = taylor_expand(run, p);
-    if (status || !all_finite(run->series[run->order], N_Y)) {
+    if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
         step->method = &dop853; /* links in one line: its right-hand sides know a way */
         return dop853_try(run, h, p, step);
     }
@@ -54,13 +55,13 @@ static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
 /* The series of a step that was tried in a lane: all that is wanted of it is an end, until somebody looks inside. */
 static void taylor_fetch(Run *run)
 {
-    const double *from = run->series_lane;
-    if (run->series_ready != ELSEWHERE)
+    const double *from = run->series.lane;
+    if (run->series.ready != ELSEWHERE)
         return;
-    for (int k = 0; k <= run->order; k++)
+    for (int k = 0; k <= run->series.order; k++)
         for (int i = 0; i < N_Y; i++)
-            run->series[k][i] = from[(k * TAYLOR_Y + i) * run->series_lanes];
-    run->series_ready = HERE;
+            run->series.terms[k][i] = from[(k * TAYLOR_Y + i) * run->series.lanes];
+    run->series.ready = HERE;
 }
 
 /* The series in shares of the step: who looks for bounds reads it. */
@@ -71,7 +72,7 @@ static int taylor_dense(Run *run, const Parameters *p, Step *step)
     taylor_fetch(run);
     for (int k = 1; k <= TAYLOR_ORDERS; k++, power *= step->h)
         for (int i = 0; i < N_Y; i++)
-            step->dense[k - 1][i] = k <= run->order ? run->series[k][i] * power : 0.0;
+            step->dense[k - 1][i] = k <= run->series.order ? run->series.terms[k][i] * power : 0.0;
     return 0;
 }
 
@@ -83,3 +84,17 @@ static void taylor_interpolate(const Run *run, const Step *step, double s, doubl
 static const Method taylor = {.name = "taylor", .try = taylor_try, .dense = taylor_dense,
     .interpolate = taylor_interpolate, .power = 1.0 / TAYLOR_ORDERS, .unstable = INFINITY, .bounded = INFINITY,
     .degree = TAYLOR_ORDERS, .heard = taylor_heard, .n_heard = COUNT_OF(taylor_heard), .own_length = 1};
+
+/* The tolerance of a step, as a share, determines the order. */
+static void start_series(Run *run, double share) { run->series.order = taylor_order(share); }
+
+/* From a new state on. */
+static void forget_series(Run *run) { run->series.ready = 0; }
+
+/* How long a step may be that is tried next: far enough to look ahead. */
+static double length_ahead(const Run *run) { return TAYLOR_AHEAD * run->series.reach; }
+#else
+static inline void start_series(Run *run, double share) { (void)run, (void)share; }
+static inline void forget_series(Run *run) { (void)run; }
+static inline double length_ahead(const Run *run) { return (void)run, INFINITY; }
+#endif

@@ -230,6 +230,20 @@ typedef struct {
 #endif
 } NewtonIteration;
 
+#if TAYLOR
+/*
+ * Taylor series of the motion at the run's state.
+ * Written by: methods/taylor.c, both/taylor.h.
+ * Copied by: batch/lane_exchange.c, batch/lane_quiet.c, batch/lane_series.c.
+ */
+typedef struct {
+    int order, ready;   /* where it is made, as of NewtonIteration */
+    const double *lane; /* ELSEWHERE: its terms, of which each is `lanes` numbers further */
+    int lanes;
+    double reach, terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the longest step that it is good for, s */
+} Series;
+#endif
+
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
@@ -244,6 +258,9 @@ typedef struct {
     StepControl control;
     ErrorNorm norm;
     NewtonIteration newton;
+#if TAYLOR
+    Series series;
+#endif
     Asked asked;
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int ready;
@@ -257,12 +274,6 @@ typedef struct {
     double stability;
     const Method *method;
     int crossed, skip;
-#if TAYLOR
-    int order, series_ready;                      /* of the series at the state; where it is made, as linear_ready */
-    const double *series_lane;                    /* ELSEWHERE: its terms, of which each is so many numbers further */
-    int series_lanes;
-    double reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the longest step that it is good for, s; its terms */
-#endif
     Step step;
     Looked looked;
     Audit audit;
