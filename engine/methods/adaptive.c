@@ -58,8 +58,8 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     status = watch(run, p);
     if (N_CORNERS > 0 && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         run->phi_dot_max = drift;
-    if (!status && event < 0 && run->skip >= 0) { /* away from the corner, on whichever side */
-        run->skip = -1;
+    if (!status && event < 0 && run->roots.skip >= 0) { /* away from the corner, on whichever side */
+        watch_all(run);
         status = settle_sides(run, -1, p);
     }
     take_sides(run, run->t, run->y, &run->aside, p);
@@ -94,7 +94,7 @@ static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, 
 static int tape_step(Run *run, Step *step, double share, int jumps, const Parameters *p)
 {
     const long evaluations = run->evaluations;
-    const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->tick) / step->h;
+    const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.tick) / step->h;
     const double beside = max_of(BESIDE * share, located);
     if (!run->tape.rows)
         return 0;
@@ -173,7 +173,7 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
         status = step_again(run, 0.25 * step->h, t_end, p, step, share, event);
     for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && free; k++) {
         const double next = run->control.h, h = longer * *share * step->h;
-        if (h <= run->tick)
+        if (h <= run->roots.tick)
             break; /* it lies at the step's beginning, where no row is another one */
         if (!PERIODS && !misses_film_at(run, step, *share, p))
             break;
@@ -231,7 +231,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
     /* what is so near is at the event */
-    const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick);
+    const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.tick);
     status = sample_step(run, step, t_new - close, p, out);
     const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (N_CORNERS > 0 && t_new == t_end);
     if (!status)

@@ -228,9 +228,9 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
     find_zeros(run, step, share, event, p);
-    const int ends = event >= 0 && share < 1.0, known = ends && run->steps > 0 && run->looked.beyond == share;
+    const int ends = event >= 0 && share < 1.0, known = ends && run->steps > 0 && run->roots.looked.beyond == share;
     if (known)
-        check_state_inside(run, step, share, 0, run->looked.y, run->looked.dy, &run->looked.aside, p);
+        check_state_inside(run, step, share, 0, run->roots.looked.y, run->roots.looked.dy, &run->roots.looked.aside, p);
     if (places || (ends && !known) || measured) {
         const Memory memory = run->memory;
         if (ends && !known)

@@ -76,7 +76,7 @@ static double lightest_mass(const Parameters *p)
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
-    run->tick = min_of(1e-12, 1e-11 * left);
+    set_tick(run, left);
     run->lightest = has_films() ? lightest_mass(p) : INFINITY;
     hold_sides(run);
     if (!status)
@@ -125,7 +125,7 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     run->choice.patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
     run->control.fixed = fixed;
     run->control.error_before = MIN_LAST_ERROR;
-    run->crossed = run->skip = -1;
+    start_roots(run);
     run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];

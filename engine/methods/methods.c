@@ -59,6 +59,8 @@ static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y]
             to[k][i] = lane[(k * N_Y + i) * lanes];
 }
 
+static void forget_looked(Run *run); /* watch/roots.c */
+
 /* The interpolant of a step, made once. 0, or why there is none: a stage of its own may not be computable. */
 static int make_dense(Run *run, const Parameters *p, Step *step)
 {
@@ -68,8 +70,7 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     if (step->dense_ready == FAILED)
         return step->dense_status;
     step->dense_ready = HERE;
-    run->looked.n = 0;
-    run->looked.beyond = NAN;
+    forget_looked(run);
     if (there) {
         take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
         run->evaluations += step->method->more;

@@ -142,7 +142,7 @@ static void next_length(Run *run, const Step *step, int again, int whole)
     factor = min_of(most, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
     note_first(run, step);
-    if (step->h * factor > run->control.h || (whole && run->skip < 0) || factor < 1.0)
+    if (step->h * factor > run->control.h || (whole && run->roots.skip < 0) || factor < 1.0)
         run->control.h = step->h * factor;
 }
 
@@ -178,8 +178,8 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
     double h = run->control.fixed > 0.0 ? run->control.fixed : run->control.h;
-    if (run->skip >= 0 && run->control.fixed <= 0.0)
-        h = min_of(h, run->control.pace);
+    if (run->roots.skip >= 0 && run->control.fixed <= 0.0)
+        h = min_of(h, run->roots.pace);
     if (run->control.fixed <= 0.0)
         h = within_flight(run, up_to_parting(run, min_of(h, stride(run, NULL, p))), p);
     if (h > left * SAME_LENGTH)

@@ -215,7 +215,7 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
             record(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
             continue;
         }
-        const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
+        const double located = 4.0 * (run->roots.tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
         const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->norm.least[0], rounding) + located;
@@ -224,7 +224,10 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
 }
 
 /* How far behind its zero an event may be located, s. */
-static double located_within(const Run *run) { return AUDIT_LOCATED * (run->tick + 2.0 * DBL_EPSILON * fabs(run->t)); }
+static double located_within(const Run *run)
+{
+    return AUDIT_LOCATED * (run->roots.tick + 2.0 * DBL_EPSILON * fabs(run->t));
+}
 
 static int make_dense(Run *run, const Parameters *p, Step *step);
 static int state_at(Run *run, const Step *step, double share, const Parameters *p, double *y, double *dy, Aside *aside);
@@ -254,7 +257,7 @@ static void check_branches(Run *run, Step *step, double t, const double *y, cons
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(aside->g[k]));
     for (int k = 0; k < N_SWITCHES && run->steps > AUDIT_SETTLED; k++) {
         const double g = run->memory.side[k] * aside->g[k];
-        if (!(g < 0.0) || step->passed[k] || k == run->skip || meets[k]
+        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
             || !is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
             continue;
         const Seen seen = seen_of(step, N_CLEARANCES + k);

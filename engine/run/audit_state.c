@@ -40,7 +40,7 @@ static void check_sides(Run *run, const Parameters *p)
         return;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->skip || meets[k]) {
+        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || meets[k]) {
             audit->wrong[k] = 0;
             continue;
         }

@@ -2,7 +2,6 @@
  * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
  * mode; a drive whose rate jumps moves the linkage by an impulse.
  */
-#define LEAST_LEAP 1e-3 /* of a tolerance: a corner that changes less in a step is none that counts */
 #define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
 
 /* Sides of all corners that act; the one that was just crossed keeps what it was given. */
@@ -101,34 +100,6 @@ static double energy_scale(const Run *run, const Parameters *p)
     return sum;
 }
 
-/* By how many tolerances a second the other side's rates differ from those before. */
-static double leap(const Run *run, const double *before)
-{
-    double most = 0.0;
-    for (int k = 0; k < N_Y; k++)
-        most = max_of(most, fabs(run->dy[k] - before[k]) * run->norm.weight[k]);
-    return most;
-}
-
-/*
- * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
- * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
- * grows from there: the corner's branches meet, so that little is wrong with the held one so near. They do by their
- * expressions, or but for rounding: what another side does in such a step is no tolerance by far.
- */
-static void pace_corner(Run *run, int corner, const double *before)
-{
-    const double way = run->t - run->control.t_crossed;
-    const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->control.pace, way));
-    const int again = run->crossed == corner && way < 1e-3 * run->control.h
-        && (meets[corner]
-            || (run->control.fixed <= 0.0 && leap(run, before) * max_of(pace, run->control.h) < LEAST_LEAP));
-    run->skip = again ? corner : -1;
-    run->control.pace = again ? pace : 0.0;
-    run->crossed = corner;
-    run->control.t_crossed = run->t;
-}
-
 #if N_CORNERS
 /*
  * Sides of all corners as they are at `ahead`, right behind this time; the one that was just crossed keeps its own,
@@ -157,7 +128,7 @@ static int settle_beyond(Run *run, double ahead, int crossed, const Parameters *
 /* What the corner of a drive changes, and all others that lie at the same time: first sides, then velocities. */
 static int change_drives(Run *run, int corner, const Parameters *p)
 {
-    const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->tick);
+    const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.tick);
     int status = settle_beyond(run, ahead, corner, p);
     if (status)
         return status;

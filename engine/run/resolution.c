@@ -36,7 +36,7 @@ static double least_gap(const Run *run, const Parameters *p)
 static double least_bounce(const Run *run, const Parameters *p, int i, double gap)
 {
     const double pressed = max_of(outward_rate(&run->aside.clearance[i]), 0.0), e = restitution_of(p, i);
-    const double width = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->tick);
+    const double width = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->roots.tick);
     const double slow = 4.0 / max_of(LOSSLESS, 1.0 - e * e);
     const double height = max_of(LEAST_HEIGHT, slow) * gap, flight = max_of(LEAST_FLIGHT, slow) * width;
     return max_of(threshold_of(p, i), max_of(sqrt(2.0 * pressed * height), pressed * flight));

@@ -191,7 +191,7 @@ typedef struct {
     Attempt attempt;
     double fixed, accept; /* the length of all steps, s, 0: they are chosen; the largest error of an accepted one */
     double last_step; /* s, up to an event where one ended it */
-    double h, h_stiff, error_before, steep, t_crossed, pace;
+    double h, h_stiff, error_before, steep;
     /*
      * Lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's).
@@ -230,6 +230,17 @@ typedef struct {
 #endif
 } NewtonIteration;
 
+/*
+ * Root finding: how near zeros of event functions are located, and the switch that was crossed last.
+ * Written by: watch/roots.c, watch/events.c.
+ */
+typedef struct {
+    double tick; /* s, to which times of events are told apart; less where the whole run is short */
+    int crossed, skip; /* the switch that was crossed last; one that the next step does not watch, -1: none */
+    double t_crossed, pace; /* s: when it was; the length with which steps start again that do not watch it */
+    Looked looked;
+} RootFinding;
+
 #if TAYLOR
 /*
  * Taylor series of the motion at the run's state.
@@ -258,11 +269,11 @@ typedef struct {
     StepControl control;
     ErrorNorm norm;
     NewtonIteration newton;
+    RootFinding roots;
 #if TAYLOR
     Series series;
 #endif
     Asked asked;
-    double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int ready;
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
@@ -273,9 +284,7 @@ typedef struct {
     /* of methods that choose their step (adaptive.c) */
     double stability;
     const Method *method;
-    int crossed, skip;
     Step step;
-    Looked looked;
     Audit audit;
 } Run;
 

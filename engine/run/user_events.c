@@ -18,7 +18,7 @@ static int note_event(Run *run, int i, double t, const double *now, const Parame
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
-    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->tick; k--)
+    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->roots.tick; k--)
         if (run->events.number[k] == i)
             return 0; /* steps do not tell these times apart: it is the same zero, which rounding leads across again */
     if (run->events.n < LISTED_EVENTS)

@@ -16,6 +16,9 @@ static void turn_passed(Run *run, const Step *step)
             run->memory.side[k] *= -1.0;
 }
 
+/* From now on every switch is watched. */
+static void watch_all(Run *run) { run->roots.skip = -1; }
+
 /*
  * Corners of contact laws that the step crossed for good, near enough to its end: their branches meet, so that what
  * the held one did wrong is at most the step times what the rates differ by at its end. Where that is harmless the
@@ -30,7 +33,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     step->harm = INFINITY;
     for (int k = 0; k < N_SWITCHES; k++) {
         const int margin_of = N_CLEARANCES + k;
-        const int may_pass = k == run->skip || (meets[k] && watched_as[margin_of] < 0);
+        const int may_pass = k == run->roots.skip || (meets[k] && watched_as[margin_of] < 0);
         step->passed[k] = may_pass && margin(&run->memory, &step->aside, margin_of) < 0.0;
         crossed |= step->passed[k];
     }
@@ -54,7 +57,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     }
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
-    run->skip = -1; /* one that was to be left alone as well: its wrong branch does harm */
+    watch_all(run); /* one that was to be left alone as well: its wrong branch does harm */
     return 0;
 }
 
@@ -62,7 +65,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
 static int is_passed(const Run *run, const Step *step, int k)
 {
     const int corner = k - N_CLEARANCES;
-    return corner >= 0 && corner < N_SWITCHES && (corner == run->skip || step->passed[corner]);
+    return corner >= 0 && corner < N_SWITCHES && (corner == run->roots.skip || step->passed[corner]);
 }
 
 /* The stage at which margin k was lowest; 1: none. */
@@ -133,7 +136,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
         const int slot = look_in(run, step, first, *event, p);
         int found = -1;
         for (int k = 0; k < N_MARGINS && slot >= 0; k++)
-            if (run->looked.margin[slot][k] < 0.0 && k != *event && !is_passed(run, step, k)
+            if (run->roots.looked.margin[slot][k] < 0.0 && k != *event && !is_passed(run, step, k)
                 && !isfinite(begin_of(run, step, k).slope) && margin(&run->memory, &run->aside, k) >= 0.0
                 && is_resolved_at(run, step, first, k, p))
                 found = k;
@@ -271,4 +274,38 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
     run->events.pole = user_event >= 0 && is_pole(run, step, share, user_event, p);
 #endif
     return share;
+}
+
+static void start_roots(Run *run) { run->roots.crossed = run->roots.skip = -1; }
+
+/* left: of the run, s. */
+static void set_tick(Run *run, double left) { run->roots.tick = min_of(1e-12, 1e-11 * left); }
+
+#define LEAST_LEAP 1e-3 /* of a tolerance: a corner that changes less in a step is none that counts */
+/* By how many tolerances a second the other side's rates differ from those before. */
+static double leap(const Run *run, const double *before)
+{
+    double most = 0.0;
+    for (int k = 0; k < N_Y; k++)
+        most = max_of(most, fabs(run->dy[k] - before[k]) * run->norm.weight[k]);
+    return most;
+}
+
+/*
+ * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
+ * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
+ * grows from there: the corner's branches meet, so that little is wrong with the held one so near. They do by their
+ * expressions, or but for rounding: what another side does in such a step is no tolerance by far.
+ */
+static void pace_corner(Run *run, int corner, const double *before)
+{
+    const double way = run->t - run->roots.t_crossed;
+    const double pace = 20.0 * max_of(100.0 * run->roots.tick, max_of(run->roots.pace, way));
+    const int again = run->roots.crossed == corner && way < 1e-3 * run->control.h
+        && (meets[corner]
+            || (run->control.fixed <= 0.0 && leap(run, before) * max_of(pace, run->control.h) < LEAST_LEAP));
+    run->roots.skip = again ? corner : -1;
+    run->roots.pace = again ? pace : 0.0;
+    run->roots.crossed = corner;
+    run->roots.t_crossed = run->t;
 }

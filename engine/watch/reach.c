@@ -9,7 +9,7 @@
 /* The share to which a zero is located: 4 ulp of the time, or a tick. */
 static double root_width(const Run *run, const Step *step)
 {
-    return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->tick) / step->h;
+    return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->roots.tick) / step->h;
 }
 
 /* Whether margin k may be found behind its zero: of a contact that gives, of a corner where branches meet. */

@@ -12,10 +12,10 @@ static void interpolate(const Run *run, const Step *step, double s, double *y)
 /* State, projected, and right-hand side at share s of the step. */
 static int state_at(Run *run, const Step *step, double s, const Parameters *p, double *y, double *dy, Aside *aside)
 {
-    if (s == run->looked.beyond) {
-        memcpy(y, run->looked.y, sizeof run->looked.y);
-        memcpy(dy, run->looked.dy, sizeof run->looked.dy);
-        *aside = run->looked.aside;
+    if (s == run->roots.looked.beyond) {
+        memcpy(y, run->roots.looked.y, sizeof run->roots.looked.y);
+        memcpy(dy, run->roots.looked.dy, sizeof run->roots.looked.dy);
+        *aside = run->roots.looked.aside;
         return 0;
     }
     interpolate(run, step, s, y);
@@ -46,8 +46,8 @@ static int play(Run *run, double t, const double *y, const Parameters *p, Aside 
 static int play_in(Run *run, const Step *step, double s, const Parameters *p, Aside *aside)
 {
     double y[N_Y];
-    if (s == run->looked.beyond) {
-        *aside = run->looked.aside;
+    if (s == run->roots.looked.beyond) {
+        *aside = run->roots.looked.aside;
         return 0;
     }
 #if N_FRICTIONS
@@ -68,7 +68,14 @@ static double margin_slope(const Run *run, const Step *step, const Aside *aside,
     return (run->memory.latch[k].closed ? step->h : -step->h) * aside->clearance[k].deltadot;
 }
 
-/* Where in run->looked a share is, with all margins or those of joints with play alone; -1: nowhere. */
+/* Forget the samples of another step. */
+static void forget_looked(Run *run)
+{
+    run->roots.looked.n = 0;
+    run->roots.looked.beyond = NAN;
+}
+
+/* Where in run->roots.looked a share is, with all margins or those of joints with play alone; -1: nowhere. */
 static int slot_of(const Looked *looked, double s, int joints_alone)
 {
     for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
@@ -79,20 +86,20 @@ static int slot_of(const Looked *looked, double s, int joints_alone)
 
 static int note_look(Run *run, const Step *step, double s, const Aside *aside, int joints_alone)
 {
-    const int slot = run->looked.n++ % N_LOOKED;
-    run->looked.share[slot] = s;
-    run->looked.joints_alone[slot] = joints_alone;
+    const int slot = run->roots.looked.n++ % N_LOOKED;
+    run->roots.looked.share[slot] = s;
+    run->roots.looked.joints_alone[slot] = joints_alone;
     for (int i = 0; i < (joints_alone ? N_CLEARANCES : N_MARGINS); i++)
-        run->looked.margin[slot][i] = margin(&run->memory, aside, i);
+        run->roots.looked.margin[slot][i] = margin(&run->memory, aside, i);
     for (int i = 0; i < N_CLEARANCES; i++)
-        run->looked.slope[slot][i] = margin_slope(run, step, aside, i);
+        run->roots.looked.slope[slot][i] = margin_slope(run, step, aside, i);
     return slot;
 }
 
 /* As slot_of() for all margins, looked at if they have not been. k: the margin for whose zero is looked, -1: none. */
 static int look_in(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
-    Looked *looked = &run->looked;
+    Looked *looked = &run->roots.looked;
     double y[N_Y], dy[N_Y];
     Aside aside;
     int slot = slot_of(looked, s, 0);
@@ -111,7 +118,7 @@ static int look_in(Run *run, const Step *step, double s, int k, const Parameters
 static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
     const int slot = look_in(run, step, s, k, p);
-    return slot < 0 ? NAN : run->looked.margin[slot][k];
+    return slot < 0 ? NAN : run->roots.looked.margin[slot][k];
 }
 
 /* A margin at share s of a step, and its slope there; NAN where that is not known. */
@@ -124,17 +131,18 @@ static Place place_at(Run *run, const Step *step, double s, int k, const Paramet
     const int slot = look_in(run, step, s, k, p);
     if (slot < 0)
         return (Place){s, NAN, NAN};
-    return (Place){s, run->looked.margin[slot][k], k < N_CLEARANCES ? run->looked.slope[slot][k] : NAN};
+    return (Place){s, run->roots.looked.margin[slot][k], k < N_CLEARANCES ? run->roots.looked.slope[slot][k] : NAN};
 }
 
 /* The same of a joint with play, of which no more than its margin is known afterwards. */
 static Place gap_at(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
-    int slot = slot_of(&run->looked, s, 1);
+    int slot = slot_of(&run->roots.looked, s, 1);
     Aside aside;
     if (slot < 0 && !play_in(run, step, s, p, &aside))
         slot = note_look(run, step, s, &aside, 1);
-    return slot < 0 ? (Place){s, NAN, NAN} : (Place){s, run->looked.margin[slot][k], run->looked.slope[slot][k]};
+    const Looked *looked = &run->roots.looked;
+    return slot < 0 ? (Place){s, NAN, NAN} : (Place){s, looked->margin[slot][k], looked->slope[slot][k]};
 }
 
 /* Where the polynomial s(f) through n places of different f meets f = 0 (Neville's scheme). */
