@@ -170,7 +170,7 @@ static void scatter_step(const Flow *flow, int k, Step *step)
 static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
     (void)stiff;
-    run->evaluations += !run->series.ready;
+    run->counts.evaluations += !run->series.ready;
     run->series.ready = ELSEWHERE;
     run->series.lane = (const double *)flow->x.series.terms + k;
     run->series.lanes = LANES;
@@ -182,15 +182,15 @@ static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
     const int stages = stiff == BY_RADAU9 ? 5 : stiff == BY_RADAU5 ? 3 : stiff ? RODAS5P_STAGES : DOP853_STAGES;
     (void)flow, (void)k;
-    run->evaluations += stages - 1;
+    run->counts.evaluations += stages - 1;
 #if IMPLICIT_STAGES
     if (stiff > BY_RODAS5P) {
-        run->evaluations += (long)flow->x.newton.asked[k] - stages + 1;
+        run->counts.evaluations += (long)flow->x.newton.asked[k] - stages + 1;
         run->newton.falls = flow->x.newton.falls[k];
     }
 #endif
     if (stiff && !run->newton.ready) {
-        run->jacobians++;
+        run->counts.jacobians++;
         run->newton.ready = ELSEWHERE;
     }
 }
@@ -211,7 +211,7 @@ static void scatter(const Flow *flow, int k, int stiff)
 #else
     const int counts = flow->step.taken[k] != 0;
 #endif
-    run->evaluations += counts; /* of a series the end alone may be what refuses it */
+    run->counts.evaluations += counts; /* of a series the end alone may be what refuses it */
     if (!flow->step.taken[k])
         return;
     run->stability = flow->x.stability[k];

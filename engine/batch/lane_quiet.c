@@ -88,8 +88,8 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     run->norm.turned_over = x->norm.turned_over[k];
     run->norm.speed[0] = x->norm.speed[0][k];
     run->norm.speed[1] = x->norm.speed[1][k];
-    run->steps += steps;
-    run->evaluations += 2 * steps - !!run->series.ready;
+    run->counts.steps += steps;
+    run->counts.evaluations += 2 * steps - !!run->series.ready;
     run->progress.ended[N_MARGINS] += steps;
     run->progress.pace.steps += steps;
     run->choice.since += (int)steps;

@@ -156,7 +156,7 @@ static void advance(Side *side)
     const int first = first_of(side);
     const long i = side->number[first];
     double h;
-    const double t_new = step_end(times_of(b, i)[0], t_end_of(b, i), b->step[i], side->x.steps[first] + 1.0, &h);
+    const double t_new = step_end(times_of(b, i)[0], t_end_of(b, i), b->step[i], side->x.counts.steps[first] + 1.0, &h);
     const int sampled = times_of(b, i)[b->done[i]] < t_new + h;
     LaneRun before;
     const LaneBits parted = alone(side, h, t_new);

@@ -48,13 +48,13 @@ static LaneBits happens(const LaneRun *run, double h, const LaneTrial *trial, co
 static LaneBits lane_step(LaneRun *run, double h, double t_new, const LaneParameters *p, int keep, LaneRun *before)
 {
     LaneTrial trial;
-    const Lanes evaluations = run->evaluations;
+    const Lanes evaluations = run->counts.evaluations;
     run->memory.rare = (LaneBits){0};
     rk4_trial(run, h, p, &trial);
     run->memory.rare |= not_finite(trial.dy, trial.y, N_Y) | happens(run, h, &trial, p);
     if (keep || any_of(run->memory.rare)) {
         *before = *run;
-        before->evaluations = evaluations;
+        before->counts.evaluations = evaluations;
     }
     for (int j = 0; j < N_Y; j++) {
         run->y[j] = trial.y[j];
@@ -64,13 +64,13 @@ static LaneBits lane_step(LaneRun *run, double h, double t_new, const LaneParame
     note_speed(run);
 #endif
     run->t = all_of(t_new);
-    run->steps += 1.0;
+    run->counts.steps += 1.0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         watch_turn(run, i, h, &run->aside.clearance[i], &trial.aside.clearance[i]);
         note_turn(run, i, trial.aside.clearance[i].deltadot);
     }
     run->aside = trial.aside;
-    accept_state(run->t, run->y, &run->memory, p, &run->aside, &run->phi_max, &run->phi_dot_max);
+    accept_state(run->t, run->y, &run->memory, p, &run->aside, &run->residuals.phi_max, &run->residuals.phi_dot_max);
     for (int i = 0; i < N_CLEARANCES; i++)
         watch_joint(run, i);
     return run->memory.rare;

@@ -194,8 +194,9 @@ static void end_single(const Batch *b, long i, int status, void *run) { end_run(
 static void give_state(const void *memory, Moving *state)
 {
     const Run *run = memory;
-    *state = (Moving){.t = run->t, .steps = (double)run->steps, .evaluations = (double)run->evaluations,
-        .phi_max = run->phi_max, .phi_dot_max = run->phi_dot_max,
+    *state = (Moving){.t = run->t,
+        .counts = {.steps = (double)run->counts.steps, .evaluations = (double)run->counts.evaluations},
+        .residuals = {.phi_max = run->residuals.phi_max, .phi_dot_max = run->residuals.phi_dot_max},
         .contacts = {.ratio_min = run->contacts.ratio_min, .ratio_max = run->contacts.ratio_max,
             .ratio_outside = run->contacts.ratio_outside}};
     for (int k = 0; k < N_Y; k++) {
@@ -227,10 +228,10 @@ static void take_state(void *memory, const Moving *state)
 {
     Run *run = memory;
     run->t = state->t;
-    run->steps = (long)state->steps;
-    run->evaluations = (long)state->evaluations;
-    run->phi_max = state->phi_max;
-    run->phi_dot_max = state->phi_dot_max;
+    run->counts.steps = (long)state->counts.steps;
+    run->counts.evaluations = (long)state->counts.evaluations;
+    run->residuals.phi_max = state->residuals.phi_max;
+    run->residuals.phi_dot_max = state->residuals.phi_dot_max;
     run->contacts.ratio_min = state->contacts.ratio_min;
     run->contacts.ratio_max = state->contacts.ratio_max;
     run->contacts.ratio_outside = state->contacts.ratio_outside;
@@ -327,7 +328,8 @@ static long unseen_single(const void *memory)
 {
     const Run *run = memory;
     const long steps = run->tape.rows || run->envelope.rows ? 0 : unseen_steps(&run->progress.pace);
-    const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->steps; /* steps before a check */
+    /* steps before a check */
+    const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
     return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
 }
 

@@ -1,11 +1,17 @@
 /* Text of a struct: what is carried from one step of rk4 to the next, by the names that a run has for it. */
-Number t, steps, evaluations, y[N_Y], dy[N_Y];
+Number t;
+struct {
+    Number steps, evaluations;
+} counts;
+Number y[N_Y], dy[N_Y];
 #if N_USER_EVENTS
 struct {
     Number speed[2];
 } norm;
 #endif
-Number phi_max, phi_dot_max;
+struct {
+    Number phi_max, phi_dot_max;
+} residuals;
 struct {
     Number ratio_min, ratio_max, ratio_outside;
     Number F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];

@@ -43,35 +43,33 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     }
     run->aside = step->aside;
     run->control.last_step = t_new - run->t;
-    run->progress.stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->progress.stuck + 1 : 0;
+    note_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
     run->t = t_new;
-    run->steps++;
-    run->stiff_steps += !!step->method->stiff;
-    run->progress.ended[event < 0 ? N_MARGINS : event]++;
+    count_step(run, !!step->method->stiff);
     forget_linear(run);
     forget_series(run);
     note_speed(run);
     weigh(run);
     for (int i = 0; i < N_CLEARANCES; i++)
         note_turn(run, i, run->aside.clearance[i].deltadot);
-    const double drift = run->phi_dot_max; /* at the corner of a drive rates are those before the impulse */
+    const double drift = run->residuals.phi_dot_max; /* at the corner of a drive rates are those before the impulse */
     status = watch(run, p);
     if (N_CORNERS > 0 && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
-        run->phi_dot_max = drift;
+        set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the corner, on whichever side */
         watch_all(run);
         status = settle_sides(run, -1, p);
     }
     take_sides(run, run->t, run->y, &run->aside, p);
     if (!status && event >= 0)
-        status = run->progress.stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
+        status = is_stuck(run) ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);
 }
 
 /* Samples of the step before `t_new`, from its interpolant. */
 static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, const Samples *out)
 {
-    const long evaluations = run->evaluations;
+    const long evaluations = run->counts.evaluations;
     for (; *out->done < out->n && out->t[*out->done] < t_new; ++*out->done) {
         const double t = out->t[*out->done];
         double now[N_Y];
@@ -83,7 +81,7 @@ static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, 
         hold_slips(run, t, now, p);
         store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
     }
-    run->evaluations = evaluations; /* samples are output, not integration */
+    restore_evaluations(run, evaluations); /* samples are output, not integration */
     return 0;
 }
 
@@ -93,7 +91,7 @@ static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, 
  */
 static int tape_step(Run *run, Step *step, double share, int jumps, const Parameters *p)
 {
-    const long evaluations = run->evaluations;
+    const long evaluations = run->counts.evaluations;
     const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.tick) / step->h;
     const double beside = max_of(BESIDE * share, located);
     if (!run->tape.rows)
@@ -109,7 +107,7 @@ static int tape_step(Run *run, Step *step, double share, int jumps, const Parame
         project_state(run, t, now, p);
         tape_row(run, t, now, p);
     }
-    run->evaluations = evaluations; /* as of samples */
+    restore_evaluations(run, evaluations); /* as of samples */
     return status;
 }
 
@@ -119,15 +117,6 @@ static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
     run->tape.jumped |= jumped;
     if (!jumped || is_last)
         tape_row(run, run->t, run->y, p);
-}
-
-/* Whether the run no longer advances; what ends its steps is counted anew with each look at its pace. */
-static int stalls(Run *run, double t_end)
-{
-    const int stalled = creeps(&run->progress.pace, run->t, t_end);
-    for (int k = 0; k < N_MARGINS && !stalled && run->progress.pace.steps % PACE_STEPS == 1; k++)
-        run->progress.ended[k] = 0;
-    return stalled;
 }
 
 #ifndef PERIODS
@@ -150,10 +139,10 @@ static int step_again(Run *run, double h, double t_end, const Parameters *p, Ste
 /* Whether the interpolant of a step is needed, for an event or a sample, and could not be made. */
 static int lacks_dense(Run *run, Step *step, const Parameters *p, const Samples *out)
 {
-    const long evaluations = run->evaluations; /* samples are output, not integration */
+    const long evaluations = run->counts.evaluations; /* samples are output, not integration */
     const int needed = step->dense_ready == FAILED || out->t[*out->done] < step->t + step->h;
     const int failed = needed && make_dense(run, p, step);
-    run->evaluations = evaluations;
+    restore_evaluations(run, evaluations);
     return failed;
 }
 
@@ -241,7 +230,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
         audit_step(run, step, share, event, p);
     const int listed = run->events.n;
 #if N_CORNERS
-    const double drift = run->phi_dot_max;
+    const double drift = run->residuals.phi_dot_max;
 #endif
     if (!status)
         status = commit(run, step, share, t_new, event, p);
@@ -250,7 +239,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     run->memory.held = 1;
 #if N_CORNERS
     if (!status && run->t == t_end) {
-        run->phi_dot_max = drift; /* which branch a rate has at a jump's own time says nothing */
+        set_phi_dot_max(run, drift); /* which branch a rate has at a jump's own time says nothing */
         status = pass_jumps_here(run, p);
     }
 #endif

@@ -55,7 +55,7 @@ static void check_order(Run *run, double error, double change)
     audit->errors += error;
     audit->changes += change;
     const double limit = AUDIT_ORDER * max_of(1.0, sqrt(tolerance_of(run) / AUDIT_LOOSE));
-    if (audit->measured >= AUDIT_ENOUGH && audit->errors / audit->measured * (double)run->steps > AUDIT_SUM)
+    if (audit->measured >= AUDIT_ENOUGH && audit->errors / audit->measured * (double)run->counts.steps > AUDIT_SUM)
         record(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
 }
 
@@ -94,7 +94,7 @@ static void check_length(Run *run, Step *step, const Parameters *p)
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
             return;
-    if (run->steps == 0 || run->memory.way != AT_ONCE || make_dense(run, p, step))
+    if (run->counts.steps == 0 || run->memory.way != AT_ONCE || make_dense(run, p, step))
         return; /* a start off its constraints is projected by the first step */
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {

@@ -68,7 +68,7 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
 {
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
-        const double passed = max_of(min_of(fabs(t), step->h * (double)(run->steps + 1)), step->h);
+        const double passed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
         const int bounded = !step->method->stiff && run->stability > 1.0;
         double off = 0.0, most = 0.0, allowed = max_of(AUDIT_DRIFT / passed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
@@ -102,7 +102,7 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
     for (int i = 0; i < N_CLEARANCES; i++)
         most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
     const double share = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
-    if (where >= 0 && has_tolerance(run) && run->steps > 0 && (share <= limit || !meets_jump(run, step, p)))
+    if (where >= 0 && has_tolerance(run) && run->counts.steps > 0 && (share <= limit || !meets_jump(run, step, p)))
         record(&run->audit, CHECK_force, share, limit, t, where);
 }
 
@@ -131,7 +131,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     Aside aside;
     if (make_dense(run, p, step))
         return;
-    if (run->steps == 0) { /* a start off its constraints is projected by the first step alone */
+    if (run->counts.steps == 0) { /* a start off its constraints is projected by the first step alone */
         interpolate(run, step, theta, y);
         if (rates(run, t, y, p, dy, &aside))
             return;
@@ -189,7 +189,7 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->away[i] |= max_of(fabs(before), inside) > noise;
-        const int begins_beyond = run->steps == 0 && run->memory.event_side[i] * after > 0.0; /* begin_beyond */
+        const int begins_beyond = run->counts.steps == 0 && run->memory.event_side[i] * after > 0.0; /* begin_beyond */
         const int far = share * step->h > located_within(run); /* from a pole too: nearer, it grows and falls at once */
         audit->event_before[i] = audit->ended == i && far && is_known(run, step, 0, i, p) ? before : 0.0;
         audit->crossed[i] = share >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
@@ -217,18 +217,20 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     Audit *audit = &run->audit;
     if (!audit->level)
         return;
-    const long evaluations = run->evaluations;
+    const long evaluations = run->counts.evaluations;
     const int dense_ready = step->dense_ready;
     const double h = share * step->h;
-    const int all = audit->level == AUDIT_FULL, due = run->steps >= audit->due, whole = share >= 1.0 && event < 0;
+    const int all = audit->level == AUDIT_FULL, due = run->counts.steps >= audit->due;
+    const int whole = share >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->control.last_step || (whole && h > AUDIT_LONGEST * audit->longest))
         && !step->method->own_length
-        && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->steps;
+        && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->counts.steps;
     const int by_turn = (int)(audit->turns % 2);
     const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
     find_zeros(run, step, share, event, p);
-    const int ends = event >= 0 && share < 1.0, known = ends && run->steps > 0 && run->roots.looked.beyond == share;
+    const int ends = event >= 0 && share < 1.0;
+    const int known = ends && run->counts.steps > 0 && run->roots.looked.beyond == share;
     if (known)
         check_state_inside(run, step, share, 0, run->roots.looked.y, run->roots.looked.dy, &run->roots.looked.aside, p);
     if (places || (ends && !known) || measured) {
@@ -243,12 +245,13 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
             check_length(run, step, p);
         if (drawn || (due && whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
-            audit->due = run->steps + 1 + (long)(2.0 * draw(audit) * first * mean_interval(step->method));
+            audit->due = run->counts.steps + 1 + (long)(2.0 * draw(audit) * first * mean_interval(step->method));
         }
         audit->longer += is_longer;
         run->memory = memory;
     }
-    run->evaluations = evaluations; /* a check is not integration: what it made is made again, and counted, by others */
+    /* a check is not integration: what it made is made again, and counted, by others */
+    restore_evaluations(run, evaluations);
     step->dense_ready = dense_ready;
 }
 

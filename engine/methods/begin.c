@@ -62,22 +62,12 @@ static int rests_on_law(const Run *run)
     return found;
 }
 
-/* The least mass of a body that has one, kg. */
-static double lightest_mass(const Parameters *p)
-{
-    double m[N_Q], lightest = INFINITY;
-    mass_matrix(p, m);
-    for (int k = 0; k < N_Q; k += 3)
-        lightest = m[k] > 0.0 ? min_of(lightest, m[k]) : lightest;
-    return lightest;
-}
-
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
     set_tick(run, left);
-    run->lightest = has_films() ? lightest_mass(p) : INFINITY;
+    start_films(run, p);
     hold_sides(run);
     if (!status)
         status = settle_sides(run, -1, p);

@@ -48,7 +48,7 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
 {
     const double rounded = RATE_ROUNDED / step->h;
     double off[2] = {0.0, 0.0}, largest[2], share = 0.0;
-    largest[0] = most / run->lightest;
+    largest[0] = most / run->films.lightest;
     largest[1] = largest[0] * run->norm.least[1] / run->norm.least[0];
     for (int k = N_X; k < 2 * N_X && most > 0.0; k++) {
         const int kind = !!is_angle[k - N_X];
@@ -96,7 +96,7 @@ static double film_error(Run *run, Step *step, const Parameters *p)
     const double share = make_dense(run, p, step) ? -1.0 : film_share_at(run, step, step->method->between, ends, p);
     if (share < 0.0)
         return 0.0;
-    run->films.h = step->h, run->films.steps = run->steps;
+    run->films.h = step->h, run->films.steps = run->counts.steps;
     run->films.error = share / film_limit(run);
     if (step->method->stiff == BY_RODAS5P)
         run->films.error *= RODAS5P_FILM;
@@ -157,7 +157,7 @@ static int is_film_known(const Run *run, const Step *step, double at_ends)
     if (!step->method->stiff || !has_films())
         return 1;
     return run->films.error < FILM_SMALL && at_ends < FILM_SMALL && step->h < FILM_LONGER * run->films.h
-        && !run->control.first && run->steps - run->films.steps < FILM_STEPS;
+        && !run->control.first && run->counts.steps - run->films.steps < FILM_STEPS;
 }
 
 /*
@@ -167,4 +167,19 @@ static int is_film_known(const Run *run, const Step *step, double at_ends)
 static int misses_film(const Run *run, const Step *step, double at_ends)
 {
     return at_ends > 1.0 && film_error_at_ends(run, step, 1.0) > 1.0;
+}
+
+/* The least mass of a body that has one, kg. */
+static double lightest_mass(const Parameters *p)
+{
+    double m[N_Q], lightest = INFINITY;
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k += 3)
+        lightest = m[k] > 0.0 ? min_of(lightest, m[k]) : lightest;
+    return lightest;
+}
+
+static void start_films(Run *run, const Parameters *p)
+{
+    run->films.lightest = has_films() ? lightest_mass(p) : INFINITY;
 }

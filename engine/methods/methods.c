@@ -73,7 +73,7 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     forget_looked(run);
     if (there) {
         take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
-        run->evaluations += step->method->more;
+        count_evaluations(run, step->method->more);
         return 0;
     }
     if (step->stages_lane)

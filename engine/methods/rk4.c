@@ -81,7 +81,7 @@ static int rk4_part(Run *run, double h, double t_new, const Parameters *p, const
 static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
 {
     Trial trial;
-    run->steps++;
+    count_step(run, 0);
     if (t_new - run->t < h * SAME_LENGTH) /* what is left of one in which lists were full */
         h = t_new - run->t;
 #endif
@@ -154,13 +154,14 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         sample_here(run, step, p, &out);
         if (*done == n || i == limit)
             return 0;
-        const double t_new = step_end(t[0], t[n - 1], step, (double)run->steps + 1.0, &h);
+        const double t_new = step_end(t[0], t[n - 1], step, (double)run->counts.steps + 1.0, &h);
         if (run->asked.stop)
             return STOPPED;
         if (lists_full(run))
             return EVENTS_FULL;
         status = rk4_step(run, h, t_new, p, &out);
-        run->steps -= status == EVENTS_FULL;
+        if (status == EVENTS_FULL)
+            take_back_step(run);
 #if N_USER_EVENTS
         if (!status && t_new >= t[n - 1])
             status = end_on_zeros(run, step, p);

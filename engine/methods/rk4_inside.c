@@ -140,7 +140,7 @@ static void locate_graze(Run *run, const Beginning *from, int i, const Clearance
  */
 static void locate_inside(Run *run, const Beginning *from, const Clearance *before, const Parameters *p)
 {
-    const long evaluations = run->evaluations;
+    const long evaluations = run->counts.evaluations;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const int closed = run->memory.latch[i].closed;
         const double low = before[i].delta, high = run->aside.clearance[i].delta;
@@ -154,5 +154,5 @@ static void locate_inside(Run *run, const Beginning *from, const Clearance *befo
             move_contact(run, i, t);
         }
     }
-    run->evaluations = evaluations; /* output, not integration */
+    restore_evaluations(run, evaluations); /* output, not integration */
 }

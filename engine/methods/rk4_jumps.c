@@ -65,7 +65,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
     int status = 0;
     if (t_new - run->t < h * SAME_LENGTH)
         h = t_new - run->t;
-    run->steps++;
+    count_step(run, 0);
     const double last = ahead_of(max_of(t_new, run->t + h));
     while (!status && next_jump(run->t, last, p, &before, &after)) {
         if (after > ahead_of(t_new)) { /* no stage may be rounded beyond it */

@@ -12,7 +12,8 @@ static int make_linear(Run *run, double hg, const Parameters *p)
             &run->newton.linear);
         if (lost)
             return lost;
-        run->jacobians += !run->newton.ready;
+        if (!run->newton.ready)
+            count_jacobian(run);
         run->newton.ready = HERE;
     }
     return newton_factor(hg, &run->newton.linear) ? NOT_FINITE : 0;

@@ -152,7 +152,7 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
     memcpy(before, step->y, sizeof before);
     project_rows(run, step->t + step->h, step->y, p);
     const double missed = distance_from_rows(run, before, step->y);
-    if (missed > max_of(FAR_FROM_ROWS, ROWS_ROUNDED / tolerance_of(run)) && run->steps > 0
+    if (missed > max_of(FAR_FROM_ROWS, ROWS_ROUNDED / tolerance_of(run)) && run->counts.steps > 0
         && run->control.attempt.strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
     hold_contacts(run, step->t + step->h, step->y, p);

@@ -29,7 +29,7 @@
 #define SHRINK_STRIDE 0.5       /* and tried again with this share of its length */
 #define PULSE_PART 0.5          /* of the part of a step up to a pulse that it missed: the next length */
 #define MIN_PARTING 0.1         /* of a step: a contact that ends sooner does not change its length */
-enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8, MAX_PATIENCE = 4096,
+enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     WORTHWHILE = 400 /* steps of a method that lasted: the next return to it is as easy as the first */,
     VOTES = 3 /* steps in a row against the explicit method, until the stiff one takes over */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
@@ -219,7 +219,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     if (tried == STOPPED || (tried && !free))
         return 1;
     if (good && !method->stiff && free && run->stability > method->unstable) {
-        run->rejected++;
+        count_rejected(run);
         if (run->choice.automatic && !now->given_up)
             change_method(run);
         else
@@ -228,33 +228,31 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     }
     if (good && free && STRIDE_SLACK * stride(run, step, p) < now->h) {
         now->again = 1;
-        run->rejected++;
+        count_rejected(run);
         now->h *= SHRINK_STRIDE;
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
     if (good && free && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < SHORTENED) {
         now->again = 1;
-        run->rejected++;
+        count_rejected(run);
         now->h *= SHRINK_UNRESOLVED;
         return again(run);
     }
     const double pulse = good && free && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
     if (pulse > 0.0 && now->shortened++ < SHORTENED) {
         now->again = 1;
-        run->rejected++;
+        count_rejected(run);
         now->h *= max_of(SHRINK_UNRESOLVED, PULSE_PART * pulse);
         return again(run);
     }
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
-        /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
-        run->progress.crawl = now->h < CRAWL_LENGTH * now->far ? run->progress.crawl + 1 : 0;
-        *status = run->progress.crawl > MAX_CRAWL ? what_ends(run, TOO_SMALL, p) : 0;
+        *status = note_crawl(run, now->h < CRAWL_LENGTH * now->far) ? what_ends(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;
-    run->rejected++;
+    count_rejected(run);
     now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink(run, step);
     if (now->h > least)
         return again(run);

@@ -22,7 +22,7 @@ typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
 static void refuse_late(const Run *run, const Step *step) { (void)run, (void)step; }
 
 /* The end of a step is made once more: both count as one, as in lanes. */
-static void forget_end(Run *run) { run->evaluations--; }
+static void forget_end(Run *run) { count_evaluations(run, -1); }
 
 #include "../both/taylor.h"
 
@@ -34,7 +34,7 @@ static int taylor_expand(Run *run, const Parameters *p)
     const int n = run->series.order, status = taylor_series(run->t, run->y, p, n, run->series.terms);
     if (status)
         return status;
-    run->evaluations += run->series.ready != ELSEWHERE;
+    count_evaluations(run, run->series.ready != ELSEWHERE);
     run->series.reach = taylor_reach(run);
     run->series.ready = HERE;
     return 0;

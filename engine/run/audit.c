@@ -62,9 +62,9 @@ static void record(Audit *audit, int check, double value, double limit, double t
 static void check_closed(Run *run)
 {
     double limit = max_of(audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * size_of(run));
-    if (run->steps <= 1)
-        run->audit.phi_start = run->phi_max;
-    const double off = run->phi_max > run->audit.phi_start ? run->phi_max : 0.0;
+    if (run->counts.steps <= 1)
+        run->audit.phi_start = run->residuals.phi_max;
+    const double off = run->residuals.phi_max > run->audit.phi_start ? run->residuals.phi_max : 0.0;
     for (int k = 0; k < N_X && !(off < limit); k++)
         limit = max_of(limit, is_angle[k] ? 0.0 : AUDIT_ROUNDING * fabs(run->y[k]));
     record(&run->audit, CHECK_position, off, limit, run->t, -1);
@@ -255,7 +255,7 @@ static void check_branches(Run *run, Step *step, double t, const double *y, cons
         return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(aside->g[k]));
-    for (int k = 0; k < N_SWITCHES && run->steps > AUDIT_SETTLED; k++) {
+    for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
             || !is_resolved(run, t, y, aside, N_CLEARANCES + k, p))

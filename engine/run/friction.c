@@ -99,7 +99,7 @@ static int switch_friction(Run *run, const Parameters *p)
         double *mode = &run->memory.mode[i];
         if (indicator(&run->memory, &run->aside, i) > 0.0)
             continue;
-        run->switches++;
+        count_switch(run);
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
             *mode = friction->force > 0.0 ? -1.0 : 1.0;
         else

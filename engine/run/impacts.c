@@ -54,7 +54,7 @@ static int used_up(const Run *run)
 
 static int answer_here(Run *run, const Parameters *p, Answer *contacts)
 {
-    run->evaluations += 1 + contacts->n;
+    count_evaluations(run, 1 + contacts->n);
     return find_answer(motion_of_laws, N_Y, run->t, run->y, &run->memory, p, contacts);
 }
 

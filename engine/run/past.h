@@ -10,8 +10,9 @@
 static inline void look_back(Run *run)
 {
     Beginning *now = &run->newton.now;
-    if (run->newton.seen_steps != run->steps || now->t != run->t) {
-        run->newton.before_t = run->newton.seen_steps == run->steps - 1 && run->steps > 0 ? now->t : run->t;
+    if (run->newton.seen_steps != run->counts.steps || now->t != run->t) {
+        const int follows = run->newton.seen_steps == run->counts.steps - 1 && run->counts.steps > 0;
+        run->newton.before_t = follows ? now->t : run->t;
         for (int i = 0; i < N_Y; i++) {
             run->newton.before_y[i] = now->y[i];
             run->newton.before_dy[i] = now->dy[i];
@@ -19,7 +20,7 @@ static inline void look_back(Run *run)
             now->dy[i] = run->dy[i];
         }
         now->t = run->t;
-        run->newton.seen_steps = run->steps;
+        run->newton.seen_steps = run->counts.steps;
     }
     run->newton.last_h = run->t - run->newton.before_t;
     run->newton.force_found = min_of(1e-2, FORCE_FOUND / run->norm.inverse_scale[2 * N_X - 1]);

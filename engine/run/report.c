@@ -77,17 +77,17 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 {
     const Run *run = memory;
     *t = run->t;
-    counts[COUNT_steps] = run->steps;
-    counts[COUNT_right_hand_sides] = run->evaluations;
+    counts[COUNT_steps] = run->counts.steps;
+    counts[COUNT_right_hand_sides] = run->counts.evaluations;
     counts[COUNT_onsets] = run->contacts.onsets;
     counts[COUNT_grazes] = run->contacts.grazes;
     counts[COUNT_ratio_outside] = (long)run->contacts.ratio_outside;
-    counts[COUNT_switches] = run->switches;
-    counts[COUNT_rejected] = run->rejected;
-    counts[COUNT_jacobians] = run->jacobians;
-    counts[COUNT_stiff_steps] = run->stiff_steps;
-    numbers[RESIDUAL_phi_max] = run->phi_max;
-    numbers[RESIDUAL_phi_dot_max] = run->phi_dot_max;
+    counts[COUNT_switches] = run->counts.switches;
+    counts[COUNT_rejected] = run->counts.rejected;
+    counts[COUNT_jacobians] = run->counts.jacobians;
+    counts[COUNT_stiff_steps] = run->counts.stiff_steps;
+    numbers[RESIDUAL_phi_max] = run->residuals.phi_max;
+    numbers[RESIDUAL_phi_dot_max] = run->residuals.phi_dot_max;
     numbers[RESIDUAL_ratio_min] = run->contacts.ratio_min;
     numbers[RESIDUAL_ratio_max] = run->contacts.ratio_max;
     for (int i = 0; i < N_CLEARANCES; i++, peaks += N_PEAK) {

@@ -65,7 +65,7 @@ static void see_slips(Run *run, const Parameters *p)
         double dy[N_Y];
         Aside aside;
         changed = 0;
-        run->evaluations++;
+        count_evaluations(run, 1);
         if (motion_of_laws(run->t, run->y, &run->memory, p, dy, &aside))
             return; /* whoever asks next is told */
         for (int k = 0; k < N_SWITCHES; k++)
@@ -92,7 +92,7 @@ static int slips_behind(Run *run, const Answer *blow, const double *impulse, dou
         for (int i = 0; i < N_X; i++)
             y[N_X + i] += blow->way[k][N_X + i] * impulse[k];
     }
-    run->evaluations++;
+    count_evaluations(run, 1);
     const int status = motion_of_laws(run->t, y, &now, p, dy, &aside);
     for (int k = 0; k < blow->n; k++) {
         const Clearance *joint = &aside.clearance[blow->joint[k]];
@@ -110,7 +110,7 @@ static int answer_along(Run *run, const Answer *blow, int j, const double *base,
     Memory now = run->memory;
     Aside aside;
     now.latch[blow->joint[j]].along = unit;
-    run->evaluations += 2;
+    count_evaluations(run, 2);
     int status = motion_of_laws(run->t, run->y, &now, p, pushed, &aside);
     now.latch[blow->joint[j]].along = 0.0;
     for (int i = 0; i < N_Y; i++)
@@ -201,7 +201,7 @@ static int rub_in_blow(Run *run, const Answer *blow, const double *meeting, doub
         unit += mass[k];
     for (int k = 0; k < blow->n; k++)
         run->memory.latch[blow->joint[k]].force = 0.0;
-    run->evaluations++;
+    count_evaluations(run, 1);
     int status = motion_of_laws(run->t, run->y, &run->memory, p, base, &before);
     solve_part(blow, pushes, meeting, stop);
     status = status ? status : slips_behind(run, blow, stop, unit, p, rub->plastic, none);

@@ -21,13 +21,13 @@ static int motion_of_laws(double t, const double *y, Memory *memory, const Param
 
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
 {
-    run->evaluations++;
+    count_evaluations(run, 1);
     if (given_up(&run->asked))
         return STOPPED;
 #if N_RIGID
     int joint[N_RIGID];
     const int n = list_closed(&run->memory, joint);
-    run->evaluations += n ? n + 1 : 0;
+    count_evaluations(run, n ? n + 1 : 0);
     return rates_in_contact(motion_of_laws, N_Y, t, y, &run->memory, p, dy, aside);
 #else
     return motion_of_laws(t, y, &run->memory, p, dy, aside);
@@ -54,7 +54,8 @@ static int watch(Run *run, const Parameters *p)
     double sum = 0.0;
     for (int k = 0; k < N_Y; k++)
         sum += run->dy[k] + run->y[k];
-    const int lost = accept_state(run->t, run->y, &run->memory, p, aside, &run->phi_max, &run->phi_dot_max);
+    const int lost = accept_state(run->t, run->y, &run->memory, p, aside, &run->residuals.phi_max,
+        &run->residuals.phi_dot_max);
     if (lost)
         return lost;
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -162,9 +162,12 @@ typedef struct {
     long steps, stride; /* in that row; in a row that is complete */
 } Envelope;
 
-/* Errors of films' forces (methods/defect.c): the last one that was measured, that step's length, steps before it. */
+/*
+ * Errors of films' forces: the last one that was measured, that step's length, steps before it; the least mass of a
+ * body that has one, kg. Written by: methods/defect.c.
+ */
 typedef struct {
-    double error, h;
+    double error, h, lightest;
     long steps;
 } FilmErrors;
 
@@ -173,7 +176,20 @@ typedef struct {
     long unlooked, in_vain;
 } NearSingular;
 
-/* Whether time still advances (asked.c): its pace, steps that each margin ended since the pace was taken. */
+/* What is counted on the way. Written by: run/step_log.h. Copied by: batch/. */
+typedef struct {
+    long steps, evaluations, switches, rejected, jacobians, stiff_steps;
+} Counts;
+
+/* The largest residuals of the constraint equations. Written by: run/run.c, run/step_log.h. Copied by: batch/. */
+typedef struct {
+    double phi_max, phi_dot_max;
+} Residuals;
+
+/*
+ * Whether time still advances: its pace, steps that each margin ended since the pace was taken.
+ * Written by: run/step_log.h, run/asked.c. Copied by: batch/lane_quiet.c.
+ */
 typedef struct {
     Pace pace;
     long ended[N_MARGINS + 1];
@@ -264,6 +280,8 @@ typedef struct {
     Envelope envelope;
     FilmErrors films;
     NearSingular near;
+    Counts counts;
+    Residuals residuals;
     Progress progress;
     MethodChoice choice;
     StepControl control;
@@ -278,9 +296,6 @@ typedef struct {
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
-    double lightest;           /* kg: the least mass of a body that has one */
-    long steps, evaluations, switches, rejected, jacobians, stiff_steps;
-    double phi_max, phi_dot_max;
     /* of methods that choose their step (adaptive.c) */
     double stability;
     const Method *method;
@@ -297,6 +312,7 @@ static inline int has_films(void)
     return found;
 }
 
+#include "step_log.h"
 #if IMPLICIT_STAGES
 #include "past.h"
 #endif

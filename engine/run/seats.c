@@ -19,7 +19,7 @@ static int seat(Run *run, double t, double *y, const Parameters *p, Answer *cont
         int status = find_answer(motion_of_laws, N_Y, t, y, &now, p, contacts);
         if (!status)
             status = motion_of_laws(t, y, &now, p, dy, &aside);
-        run->evaluations += contacts->n + 2;
+        count_evaluations(run, contacts->n + 2);
         if (status)
             return status;
         for (int k = 0; k < contacts->n; k++) {

@@ -100,6 +100,6 @@ static int begin_run(Run *run, const Parameters *p)
     if (next_jump(run->t, ahead_of(run->t), p, &before, &after))
         project_state(run, after, run->y, p);
     const int status = begin(run, p);
-    run->phi_dot_max = 0.0; /* rates are those beyond the jump */
+    set_phi_dot_max(run, 0.0); /* rates are those beyond the jump */
     return status;
 }

@@ -34,7 +34,7 @@ static int play(Run *run, double t, const double *y, const Parameters *p, Aside 
     double dy[N_Y];
     return rates(run, t, y, p, dy, aside);
 #else
-    run->evaluations++;
+    count_evaluations(run, 1);
     if (given_up(&run->asked))
         return STOPPED;
     show_states(&run->memory, y);
