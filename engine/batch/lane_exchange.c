@@ -214,6 +214,6 @@ static void scatter(const Flow *flow, int k, int stiff)
     run->counts.evaluations += counts; /* of a series the end alone may be what refuses it */
     if (!flow->step.taken[k])
         return;
-    run->stability = flow->x.stability[k];
+    run->choice.stability = flow->x.choice.stability[k];
     scatter_step(flow, k, step);
 }

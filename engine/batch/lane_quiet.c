@@ -95,7 +95,7 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     run->choice.since += (int)steps;
     run->choice.votes = run->progress.stuck = run->progress.crawl = run->newton.ready = run->series.ready = 0;
     run->memory.held = 1;
-    run->stability = 0.0;
+    run->choice.stability = 0.0;
     run->series.reach = quiet->reach[k];
     run->control.h = TAYLOR_AHEAD * run->series.reach;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],

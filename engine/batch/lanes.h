@@ -186,7 +186,10 @@ typedef struct {
 
 /* Of a run by a method that chooses its step: what a step that is tried begins with. */
 typedef struct {
-    Lanes t, y[N_Y], dy[N_Y], stability;
+    Lanes t, y[N_Y], dy[N_Y];
+    struct {
+        Lanes stability;
+    } choice;
     LaneNorm norm;
     struct {
         Lanes accept;

@@ -54,11 +54,11 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
     run->began = i + 1;
     gudgeon_run_tape(run, tape.rows, tape.capacity);
     set_contact_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
-    run->events.stop = b->stop;
+    gudgeon_run_stop(run, b->stop);
     start_audit(run, b->audit, b->size[i]);
     if (b->trace)
         start_trace(run, (TraceRow *)b->trace + i * b->trace_rows, b->trace_rows);
-    set_cancellation(b, &run->asked);
+    set_cancellation(b, &run->cancellation);
     if (b->choice >= 0)
         gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
             b->fixed ? b->step[i] : 0.0);
@@ -305,13 +305,13 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
     const Samples out = samples_of(b, i);
     int status = 0;
     if (tried != NOT_YET) {
-        run->step.method = run->method;
+        run->step.method = run->choice.method;
         if (tried != UNTRIED)
             way_as_usual(run);
         const int found = tried == TRIED ? 0 : tried == MISSED ? NOT_FOUND : try_step(run, p, &run->step);
         if (!is_settled(run, found, p, &run->step, &status))
             return GOES_ON;
-        run->control.attempt.open = 0;
+        close_attempt(run);
         if (!status)
             status = take_step(run, p, &out);
     }

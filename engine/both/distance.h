@@ -1,4 +1,7 @@
-/* How far a step ends from the constraint equations before it is projected: an error that no estimate sees. */
+/*
+ * What is measured of a step that is tried: how stiff the equations are in it, and how far it ends from the constraint
+ * equations before it is projected, an error that no estimate sees.
+ */
 #define FAR_FROM_ROWS 10.0 /* tolerances, that the end of a step may lie from the rows; as a rule it is less than one */
 #define DIGITS_OF_ROWS 1e-10 /* of a coordinate or velocity: that may be rounding, of what flies off many tolerances */
 
@@ -10,3 +13,6 @@ static Real distance_from_rows(const RunOf *run, const Real *before, const Real 
         most = real_max((real_abs(y[k] - before[k]) - DIGITS_OF_ROWS * real_abs(y[k])) * run->norm.weight[k], most);
     return most;
 }
+
+/* h rho: the length of a step times the largest rate at which its stages saw rates change. */
+static inline void note_stability(RunOf *run, Real stability) { run->choice.stability = stability; }

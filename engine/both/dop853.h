@@ -151,7 +151,7 @@ static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         change = real_max(real_abs(step->dy[i] - step->k[DOP853_STAGES - 1][i]) * by, change);
         way = real_max(real_abs(step->y[i] - y[i]) * by, way);
     }
-    run->stability = pick(way > MIN_RESOLVED, h * change / way, real_of(0.0));
+    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     return 0;
 }
 

@@ -211,7 +211,7 @@ static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         change = real_max(real_abs(by * u[i] - r[i]) * run->norm.weight[i], change);
         way = real_max(real_abs(u[i]) * run->norm.weight[i], way);
     }
-    run->stability = pick(way > MIN_RESOLVED, h * change / way, real_of(0.0));
+    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     const Truth large = step->error > run->control.accept;
     if (any_of(large)) { /* once more, at a state that errs as much: less is left of what is stiff and not wrong */
         Real y[N_Y], dy[N_Y];

@@ -132,6 +132,6 @@ static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
     if (is_odd(run, step->error))
         return NOT_FINITE;
-    run->stability = pick(way > MIN_RESOLVED, h * change / way, real_of(0.0));
+    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     return is_refused(run, step) ? 0 : finish_step(run, step, p);
 }

@@ -95,7 +95,7 @@ static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         h = real_min(h, run->series.reach);
     step->t = run->t, step->dense_ready = 0;
     forget_stages(step);
-    run->stability = real_of(0.0);
+    note_stability(run, real_of(0.0));
     for (int again = 0;; again = 1) {
         step->h = h;
         taylor_both(run, h, step->y, rate);

@@ -42,7 +42,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         run->dy[k] = step->dy[k];
     }
     run->aside = step->aside;
-    run->control.last_step = t_new - run->t;
+    set_last_step(run, t_new - run->t);
     note_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
     run->t = t_new;
     count_step(run, !!step->method->stiff);
@@ -114,7 +114,7 @@ static int tape_step(Run *run, Step *step, double share, int jumps, const Parame
 /* The end of a step that is taken; where something changed there, it follows with the next step if there is one. */
 static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
 {
-    run->tape.jumped |= jumped;
+    mark_jump(run, jumped);
     if (!jumped || is_last)
         tape_row(run, run->t, run->y, p);
 }
@@ -128,7 +128,7 @@ static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
 /* A step of length h instead, and its first event. */
 static int step_again(Run *run, double h, double t_end, const Parameters *p, Step *step, double *share, int *event)
 {
-    run->control.h = h;
+    set_length(run, h);
     open_attempt(run, t_end, p);
     const int status = accepted_step(run, p, step);
     if (!status)
@@ -167,7 +167,7 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
         if (!PERIODS && !misses_film_at(run, step, *share, p))
             break;
         status = step_again(run, h, t_end, p, step, share, event);
-        run->control.h = next;
+        set_length(run, next);
     }
     return status;
 }
@@ -183,7 +183,7 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
     *status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
     if (!*status && begins)
         tape_jump(run, p);
-    run->tape.jumped |= begins;
+    mark_jump(run, begins);
     if (run->control.attempt.open)
         return !last; /* it was under way */
     if (*status)
@@ -192,7 +192,7 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
         store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
     if (*out->done == out->n || last)
         return 0;
-    if (run->asked.stop)
+    if (run->cancellation.stop)
         *status = STOPPED;
     else if (lists_full(run))
         *status = EVENTS_FULL;
@@ -215,7 +215,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     double share;
     choose(run);
     int status = event_of_step(run, out, p, step, &share, &event);
-    if (status || run->asked.stop)
+    if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* what was found meanwhile means nothing */
     const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
@@ -225,7 +225,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (N_CORNERS > 0 && t_new == t_end);
     if (!status)
         status = tape_step(run, step, share, jumps, p);
-    run->asked.hold = 1;
+    defer_stop(&run->cancellation);
     if (AUDITS && !status)
         audit_step(run, step, share, event, p);
     const int listed = run->events.n;
@@ -251,14 +251,8 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
         status = audit_state(run, listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
         tape_end(run, jumps, status == ENDED || run->t == t_end, p);
-    run->asked.hold = 0;
+    allow_stop(&run->cancellation);
     return status;
-}
-
-/* The same method here: a run may have begun in another library of the same texts (runtime/loading/behind.py). */
-static const Method *own_method(const Method *method)
-{
-    return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
 /*
@@ -272,8 +266,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
     const Parameters *p = (const Parameters *)parameters;
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
-    run->method = own_method(run->method);
-    run->choice.implicit = own_method(run->choice.implicit);
+    relink_choice(run);
     run->step.method = own_method(run->step.method);
     for (long i = 0; wants_step(run, i == limit, p, &out, &status); i++) {
         status = accepted_step(run, p, &run->step);

@@ -49,7 +49,7 @@ static int meets_jump(const Run *run, const Step *step, const Parameters *p)
 static void check_order(Run *run, double error, double change)
 {
     Audit *audit = &run->audit;
-    if (!(run->stability < 1.0 && change < INFINITY))
+    if (!(run->choice.stability < 1.0 && change < INFINITY))
         return;
     audit->measured++;
     audit->errors += error;

@@ -69,7 +69,7 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
         const double passed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
-        const int bounded = !step->method->stiff && run->stability > 1.0;
+        const int bounded = !step->method->stiff && run->choice.stability > 1.0;
         double off = 0.0, most = 0.0, allowed = max_of(AUDIT_DRIFT / passed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
             const double weight = audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);

@@ -95,8 +95,8 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     if (!status)
         status = leave_zeros(run, p);
 #endif
-    if (run->method->own_length)
-        run->control.h = left;
+    if (run->choice.method->own_length)
+        set_length(run, left);
     return status;
 }
 
@@ -109,14 +109,9 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     double fixed)
 {
     Run *run = memory;
-    run->method = METHODS[method];
-    run->choice.automatic = automatic > 0;
-    run->choice.implicit = METHODS[automatic];
-    run->choice.patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
-    run->control.fixed = fixed;
-    run->control.error_before = MIN_LAST_ERROR;
+    start_choice(run, method, automatic);
+    start_control(run, fixed);
     start_roots(run);
-    run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
     run->norm.work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */

@@ -33,7 +33,7 @@ static int first_size(Run *run, double left, const Parameters *p)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
     /* in the time one / two rates change by themselves: so many tolerances are gone in it; two may be subnormal */
     const double time = min_of(one / two, LONG_TIME), way = max_of(1.0, time * one);
-    run->control.h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : FIRST_SHARE * left;
+    run->control.h = two > 0.0 ? max_of(time * pow(way, -run->choice.method->power), h) : FIRST_SHARE * left;
     return 0;
 }
 
@@ -73,11 +73,11 @@ static double better_by(const Run *run, double h, double change, double size, do
  */
 static int fit_first(Run *run, double left, const Parameters *p)
 {
-    const int stiff = !!run->method->stiff, begins = run->control.rough > 0.0;
+    const int stiff = !!run->choice.method->stiff, begins = run->control.rough > 0.0;
     const int corner = run->control.first >= &run->control.after_corner[0][0];
     const double onset = run->control.onset[stiff] > 0.0 ? run->control.onset[stiff] : stiff ? ONSET_STIFF : ONSET;
     const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
-    if (!run->control.first || run->control.fixed > 0.0 || run->method->own_length
+    if (!run->control.first || run->control.fixed > 0.0 || run->choice.method->own_length
         || (*run->control.first > 0.0 && !begins))
         return 0;
     run->control.onset_share = 0.0;

@@ -41,11 +41,11 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     note_speed(run);
 #endif
     int status = 0;
-    run->asked.hold = 1;
+    defer_stop(&run->cancellation);
     for (int i = 0; i < N_CLEARANCES; i++)
         watch_turn(run, i, h, &before.clearance[i], &run->aside.clearance[i]);
     if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p)) {
-        run->tape.jumped = 1;
+        mark_jump(run, 1);
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
     }
     if (!status)
@@ -56,7 +56,7 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
         tape_row(run, t_new, run->y, p);
     if (!status && sampled)
         sample_inside(run, &run->from, p, out);
-    run->asked.hold = 0;
+    allow_stop(&run->cancellation);
     return status;
 }
 
@@ -90,7 +90,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         if (status)
             return status;
         const double share = friction_event(run, h, p, &trial);
-        if (run->asked.stop)
+        if (run->cancellation.stop)
             return STOPPED;
         if (share >= 1.0) {
             const int ended = rk4_events(run, h, &trial, p, out);
@@ -98,7 +98,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         }
         const int ended = share < 0.0 ? NOT_FINITE : rk4_events(run, share * h, &trial, p, out);
         int failed = ended ? ended : accept(run, share * h, run->t + share * h, &trial, p, out);
-        run->asked.hold = 1;
+        defer_stop(&run->cancellation);
         const Held before = held_before(run);
         if (!failed)
             failed = switch_friction(run, p);
@@ -108,7 +108,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
             failed = note_arrivals(run, &before, 1e-4 * h, p);
         if (!failed)
             tape_jump(run, p);
-        run->asked.hold = 0;
+        allow_stop(&run->cancellation);
         if (failed)
             return failed;
         h = N_CORNERS ? way_to(run->t, t_new) : t_new - run->t;
@@ -155,7 +155,7 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         if (*done == n || i == limit)
             return 0;
         const double t_new = step_end(t[0], t[n - 1], step, (double)run->counts.steps + 1.0, &h);
-        if (run->asked.stop)
+        if (run->cancellation.stop)
             return STOPPED;
         if (lists_full(run))
             return EVENTS_FULL;

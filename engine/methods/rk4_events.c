@@ -80,15 +80,15 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
         if (run->events.stop && event_stops[i])
             end = min_of(end, share[i]);
     }
-    if (run->asked.stop)
+    if (run->cancellation.stop)
         return STOPPED; /* what was found meanwhile means nothing */
-    run->asked.hold = 1;
+    defer_stop(&run->cancellation);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], value[i]);
         if (share[i] <= end && isfinite(share[i]))
             rk4_note_event(run, i, share[i], h, p);
     }
-    run->asked.hold = 0;
+    allow_stop(&run->cancellation);
     if (!isfinite(end))
         return 0;
     Trial last;

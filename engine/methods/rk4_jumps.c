@@ -29,7 +29,7 @@ static int is_unbounded(Run *run, double t, double apart, const Parameters *p)
 static int pass_jump(Run *run, double t, double apart, const Parameters *p)
 {
     run->t = t;
-    run->asked.hold = 1;
+    defer_stop(&run->cancellation);
     pass_impulse(run, p);
     int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     if (!status && is_unbounded(run, t, apart, p))
@@ -42,7 +42,7 @@ static int pass_jump(Run *run, double t, double apart, const Parameters *p)
         status = note_leaps(run, NULL, p);
     if (!status)
         tape_jump(run, p);
-    run->asked.hold = 0;
+    allow_stop(&run->cancellation);
     return status;
 }
 
@@ -84,7 +84,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         h = way_to(run->t, t_new);
         if (!status && h > 0.0 && lists_full(run))
             return EVENTS_FULL;
-        if (!status && h > 0.0 && run->asked.stop)
+        if (!status && h > 0.0 && run->cancellation.stop)
             return STOPPED;
     }
     if (!status && h > 0.0)

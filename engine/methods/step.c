@@ -111,6 +111,23 @@ static int can_close(Run *run, int open, double t, const double *y, const Parame
 #include "../both/distance.h"
 #include "near.c"
 
+/* What follows begins with a step as long as fitted when the like of it began before: *known, 0 if it never did. */
+static void begin_with(Run *run, double *known, double rough)
+{
+    if (*known > 0.0)
+        run->control.h = *known;
+    run->control.first = known;
+    run->control.rough = rough;
+}
+
+/* The next step's length; that of the step that is tried now; that of the last one up to where it ended. */
+static void set_length(Run *run, double h) { run->control.h = h; }
+static inline void set_attempt(Run *run, double h) { run->control.attempt.h = h; }
+static void set_last_step(Run *run, double h) { run->control.last_step = h; }
+
+/* The stiff method's length from before an event says nothing about what follows. */
+static void forget_stiff_length(Run *run) { run->control.h_stiff = 0.0; }
+
 /* Back onto everything that is held. */
 static void project_state(Run *run, double t, double *y, const Parameters *p)
 {

@@ -44,15 +44,44 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define STEEPEST 30.0 /* power of a step's length, as which its error may be seen to grow */
 #define FADES 0.95    /* what is left of that power after a step */
 
+/* The same method here: a run may have begun in another library of the same texts (runtime/loading/behind.py). */
+static const Method *own_method(const Method *method)
+{
+    return method ? METHODS[gudgeon_method(method->name)] : NULL;
+}
+
+static void relink_choice(Run *run)
+{
+    run->choice.method = own_method(run->choice.method);
+    run->choice.implicit = own_method(run->choice.implicit);
+}
+
+/* Begin with a method (gudgeon_method), and the stiff one that the run may change to; 0: it may not. */
+static void start_choice(Run *run, int method, int automatic)
+{
+    run->choice.method = METHODS[method];
+    run->choice.automatic = automatic > 0;
+    run->choice.implicit = METHODS[automatic];
+    run->choice.patience = automatic && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
+}
+
+/* fixed: the length of all steps, s; 0: errors choose it. */
+static void start_control(Run *run, double fixed)
+{
+    run->control.fixed = fixed;
+    run->control.error_before = MIN_LAST_ERROR;
+    run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
+}
+
 /* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
 static void change_method(Run *run)
 {
-    const int stiff = run->method->stiff;
+    const int stiff = run->choice.method->stiff;
     if (!stiff)
         run->choice.patience = run->choice.since > WORTHWHILE ? PATIENCE
             : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
-    run->method = stiff ? EXPLICIT : run->choice.implicit;
+    run->choice.method = stiff ? EXPLICIT : run->choice.implicit;
     run->choice.votes = 0;
     run->choice.since = 0;
 }
@@ -63,8 +92,9 @@ static void choose(Run *run)
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
         && run->control.h < WORTH * run->control.h_stiff;
-    const int stiff = run->method->stiff;
-    const int against = stiff ? run->stability < SLACK : run->stability > run->method->bounded || slower;
+    const int stiff = run->choice.method->stiff;
+    const double stability = run->choice.stability;
+    const int against = stiff ? stability < SLACK : stability > run->choice.method->bounded || slower;
     run->choice.votes = against ? run->choice.votes + 1 : 0;
     run->choice.since++;
     if (run->choice.automatic && run->choice.votes >= (stiff ? run->choice.patience : VOTES))
@@ -135,8 +165,8 @@ static void next_length(Run *run, const Step *step, int again, int whole)
     const double error = told_error(step), power = step->method->power;
     double factor = SAFETY * rough_exp2(power
         * (LAST_ERROR_EXPONENT * rough_log2(run->control.error_before) - ERROR_EXPONENT * rough_log2(error)));
-    if (!step->method->stiff && run->stability > 1.0)
-        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / run->stability);
+    if (!step->method->stiff && run->choice.stability > 1.0)
+        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / run->choice.stability);
     factor = min_of(factor, share_as_seen(run, step, again));
     const double most = again ? 1.0 /* [1] */ : step->looked ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(most, max_of(MIN_GROWTH, factor));
@@ -185,13 +215,13 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     if (h > left * SAME_LENGTH)
         h = left;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
-        .stiff = run->method->stiff, .of_films = INFINITY};
+        .stiff = run->choice.method->stiff, .of_films = INFINITY};
 }
 
 /* Another one, as long as attempt->h. */
 static int again(Run *run)
 {
-    run->control.attempt.stiff = run->method->stiff;
+    run->control.attempt.stiff = run->choice.method->stiff;
     return 0;
 }
 
@@ -218,12 +248,12 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     *status = tried;
     if (tried == STOPPED || (tried && !free))
         return 1;
-    if (good && !method->stiff && free && run->stability > method->unstable) {
+    if (good && !method->stiff && free && run->choice.stability > method->unstable) {
         count_rejected(run);
         if (run->choice.automatic && !now->given_up)
             change_method(run);
         else
-            now->h *= method->bounded / run->stability;
+            now->h *= method->bounded / run->choice.stability;
         return again(run);
     }
     if (good && free && STRIDE_SLACK * stride(run, step, p) < now->h) {
@@ -272,13 +302,15 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 
 static int try_step(Run *run, const Parameters *p, Step *step)
 {
-    step->method = run->method;
+    step->method = run->choice.method;
     step->stages_lane = NULL;
     int status;
-    for (first_way(run); other_way(run, status = run->method->try(run, run->control.attempt.h, p, step));)
+    for (first_way(run); other_way(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
         ;
     return status;
 }
+
+static void close_attempt(Run *run) { run->control.attempt.open = 0; }
 
 /* Steps as long as run->control.attempt has them, until one is accepted; 0, or what went wrong. */
 static int accepted_step(Run *run, const Parameters *p, Step *step)
@@ -286,6 +318,6 @@ static int accepted_step(Run *run, const Parameters *p, Step *step)
     int status;
     while (!is_settled(run, try_step(run, p, step), p, step, &status))
         ;
-    run->control.attempt.open = 0;
+    close_attempt(run);
     return status;
 }

@@ -48,7 +48,7 @@ static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
         return dop853_try(run, h, p, step);
     }
     const int ended = taylor_step(run, h, p, step);
-    run->control.attempt.h = step->h;
+    set_attempt(run, step->h);
     return ended;
 }
 

@@ -28,6 +28,10 @@ void set_asked(Asked *x, int (*ask)(void *), void *whom, double every);
 int creeps(Pace *x, double t, double t_end);
 long unseen_steps(const Pace *x);
 
+/* What is under way comes to its end before a request to stop counts; from now on it counts at once. */
+static inline void defer_stop(Asked *x) { x->hold = 1; }
+static inline void allow_stop(Asked *x) { x->hold = 0; }
+
 /* Once each right-hand side: whether to give up. */
 static inline int given_up(Asked *x) { return ++x->count > x->look && ask_now(x); }
 

@@ -1,6 +1,5 @@
 /*
  * The record of a run's audit: of each check the largest value as a multiple of its limit, and where it was found.
- * Written by audit.c, audit_state.c, methods/audit_error.c and methods/audit_step.c alone.
  */
 #ifndef GUDGEON_AUDIT_H
 #define GUDGEON_AUDIT_H
@@ -14,6 +13,7 @@ typedef struct {
     int where;       /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
 } AuditRecord;
 
+/* Written by: run/audit.c, run/audit_state.c, methods/audit_error.c, methods/audit_step.c. */
 typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
     long due;                      /* number of steps after which a step is checked inside next */

@@ -49,15 +49,6 @@ static int keeps_sign(Run *run, int i, const double *before, const Parameters *p
 }
 #endif
 
-/* What follows begins with a step as long as fitted when the like of it began before: *known, 0 if it never did. */
-static void begin_with(Run *run, double *known, double rough)
-{
-    if (*known > 0.0)
-        run->control.h = *known;
-    run->control.first = known;
-    run->control.rough = rough;
-}
-
 static int count_closed(const Run *run)
 {
     int count = 0;
@@ -74,7 +65,7 @@ static void cross_contact(Run *run, int i, double floor)
     else
         close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
     begin_with(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
-    run->control.h_stiff = 0.0;
+    forget_stiff_length(run);
 }
 
 static void cross(Run *run, int k, const Parameters *p)

@@ -9,8 +9,6 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
     store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, latched, state);
 }
 
-void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->events.stop = stop; }
-
 /*
  * Of a run that no longer advances: s that its last PACE_STEPS steps gained, how many these are, whether they are far
  * shorter than those before; how many of them ended at contacts, corners of forces, frictions, events of the user.
@@ -40,36 +38,6 @@ int gudgeon_run_listed(const void *memory)
     int n = run->contacts.n_impacts + run->events.n;
     for (int i = 0; i < N_CLEARANCES; i++)
         n += run->memory.latch[i].closed;
-    return n;
-}
-
-/*
- * Moves the oldest user events, at most `capacity`, from the list into these arrays, with the states there as rows of
- * samples; returns how many.
- */
-int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
-    signed char *state)
-{
-    Run *run = memory;
-    const int n = run->events.n < capacity ? run->events.n : capacity, left = run->events.n - n;
-    for (int i = 0; i < n; i++) {
-        t[i] = run->events.t[i];
-        event[i] = run->events.number[i];
-    }
-#if N_USER_EVENTS
-    EventStates *at = event_states(run);
-    memcpy(y, at->y, (size_t)n * sizeof at->y[0]);
-    memcpy(latched, at->latched, (size_t)n * sizeof at->latched[0]);
-    memcpy(state, at->state, (size_t)n * sizeof at->state[0]);
-    memmove(at->y, at->y + n, (size_t)left * sizeof at->y[0]);
-    memmove(at->latched, at->latched + n, (size_t)left * sizeof at->latched[0]);
-    memmove(at->state, at->state + n, (size_t)left * sizeof at->state[0]);
-#else
-    (void)y, (void)latched, (void)state;
-#endif
-    memmove(run->events.t, run->events.t + n, (size_t)left * sizeof run->events.t[0]);
-    memmove(run->events.number, run->events.number + n, (size_t)left * sizeof run->events.number[0]);
-    run->events.n = left;
     return n;
 }
 

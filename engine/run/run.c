@@ -22,7 +22,7 @@ static int motion_of_laws(double t, const double *y, Memory *memory, const Param
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
 {
     count_evaluations(run, 1);
-    if (given_up(&run->asked))
+    if (given_up(&run->cancellation))
         return STOPPED;
 #if N_RIGID
     int joint[N_RIGID];
@@ -247,7 +247,7 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
     *run = (Run){.t = t};
     from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
     read_memory(latched, &run->memory);
-    run->memory.asked = &run->asked;
+    run->memory.asked = &run->cancellation;
     if (CONTINUES)
         run->memory.least = run->memory.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */

@@ -118,7 +118,7 @@ typedef struct {
     signed char *state;
 } Samples;
 
-/* States that Python fetches (tape.c); nobody wants any: NULL. */
+/* States that Python fetches; rows NULL: none are. Written by: run/tape.c. */
 typedef struct {
     double *rows;
     long n, capacity;
@@ -146,7 +146,7 @@ typedef struct {
     double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
 } Contacts;
 
-/* Events of the user that were found (user_events.c), until they are fetched. */
+/* Events of the user that were found, until they are fetched. Written by: run/user_events.c. */
 typedef struct {
     double t[LISTED_EVENTS];
     int number[LISTED_EVENTS], n;
@@ -155,7 +155,7 @@ typedef struct {
     unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether an event was reported to be no number */
 } EventList;
 
-/* The envelope of forces and paths (trace.c); rows NULL: none is recorded. */
+/* The envelope of forces and paths; rows NULL: none is recorded. Written by: run/trace.c. */
 typedef struct {
     TraceRow *rows;
     long row, n_rows;   /* the row that is being filled, of so many */
@@ -171,7 +171,7 @@ typedef struct {
     long steps;
 } FilmErrors;
 
-/* Singular positions (methods/near.c). */
+/* Singular positions. Written by: methods/near.c. */
 typedef struct {
     long unlooked, in_vain;
 } NearSingular;
@@ -196,13 +196,21 @@ typedef struct {
     int stuck, crawl;
 } Progress;
 
-/* Which method makes the next step: `auto` changes to the stiff one and back (methods/step_length.c). */
+/*
+ * Which method makes the next step: `auto` changes to the stiff one and back.
+ * Written by: methods/step_length.c, both/distance.h. Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
+ */
 typedef struct {
-    const Method *implicit; /* which of the stiff ones `auto` takes */
+    const Method *method, *implicit; /* of the next step; which of the stiff ones `auto` takes */
+    double stability; /* h rho of the last step that was tried: its length times the largest rate of the motion */
     int automatic, votes, patience, since;
 } MethodChoice;
 
-/* The lengths of steps (methods/step_length.c, first_step.c, changes.c). */
+/*
+ * The lengths of steps.
+ * Written by: methods/step.c, methods/step_length.c, methods/first_step.c.
+ * Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
+ */
 typedef struct {
     Attempt attempt;
     double fixed, accept; /* the length of all steps, s, 0: they are chosen; the largest error of an accepted one */
@@ -271,6 +279,10 @@ typedef struct {
 } Series;
 #endif
 
+/*
+ * The integrator: parts, of which each is written by the files alone that its struct's head comment names
+ * (tests/engine/test_owners.py), and what all files may change. State: t, y, dy, aside, memory, ready, began, from, step.
+ */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
@@ -291,14 +303,11 @@ typedef struct {
 #if TAYLOR
     Series series;
 #endif
-    Asked asked;
+    Asked cancellation;
     int ready;
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
-    /* of methods that choose their step (adaptive.c) */
-    double stability;
-    const Method *method;
     Step step;
     Audit audit;
 } Run;

@@ -28,6 +28,8 @@ static void tape_row(Run *run, double t, const double *y, const Parameters *p)
     tape->jumped = 0;
 }
 
+static void mark_jump(Run *run, int jumped) { run->tape.jumped |= jumped; }
+
 /* The present state, behind something that changed. */
 static void tape_jump(Run *run, const Parameters *p)
 {

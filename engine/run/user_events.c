@@ -13,6 +13,9 @@ static void list_event(Run *run, int i, double t)
     }
 }
 
+/* Whether the event that ends a step is not a zero but a pole. */
+static inline void set_pole(Run *run, int is_pole) { run->events.pole = is_pole; }
+
 /* User event i at time t with the state there; whether it ends the run. */
 static int note_event(Run *run, int i, double t, const double *now, const Parameters *p)
 {
@@ -259,3 +262,35 @@ static int note_arrivals(Run *run, const Held *before, double ahead, const Param
     return (void)run, (void)before, (void)ahead, (void)p, 0;
 }
 #endif
+
+void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->events.stop = stop; }
+
+/*
+ * Moves the oldest user events, at most `capacity`, from the list into these arrays, with the states there as rows of
+ * samples; returns how many.
+ */
+int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
+    signed char *state)
+{
+    Run *run = memory;
+    const int n = run->events.n < capacity ? run->events.n : capacity, left = run->events.n - n;
+    for (int i = 0; i < n; i++) {
+        t[i] = run->events.t[i];
+        event[i] = run->events.number[i];
+    }
+#if N_USER_EVENTS
+    EventStates *at = event_states(run);
+    memcpy(y, at->y, (size_t)n * sizeof at->y[0]);
+    memcpy(latched, at->latched, (size_t)n * sizeof at->latched[0]);
+    memcpy(state, at->state, (size_t)n * sizeof at->state[0]);
+    memmove(at->y, at->y + n, (size_t)left * sizeof at->y[0]);
+    memmove(at->latched, at->latched + n, (size_t)left * sizeof at->latched[0]);
+    memmove(at->state, at->state + n, (size_t)left * sizeof at->state[0]);
+#else
+    (void)y, (void)latched, (void)state;
+#endif
+    memmove(run->events.t, run->events.t + n, (size_t)left * sizeof run->events.t[0]);
+    memmove(run->events.number, run->events.number + n, (size_t)left * sizeof run->events.number[0]);
+    run->events.n = left;
+    return n;
+}

@@ -30,6 +30,7 @@ enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is con
 /*
  * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
  * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ * Written by: run/asked.h, run/asked.c.
  */
 typedef struct {
     int (*ask)(void *whom); /* nonzero: stop */

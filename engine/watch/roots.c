@@ -35,7 +35,7 @@ static int play(Run *run, double t, const double *y, const Parameters *p, Aside 
     return rates(run, t, y, p, dy, aside);
 #else
     count_evaluations(run, 1);
-    if (given_up(&run->asked))
+    if (given_up(&run->cancellation))
         return STOPPED;
     show_states(&run->memory, y);
     return play_here(t, y, &run->memory, p, aside);
