@@ -1,0 +1,51 @@
+/*
+ * The engine on the equation x'' = -x, with a joint whose penetration is x - offset: a test calls functions of a part.
+ * What else a scene defines is declared but not defined, and no test calls it.
+ */
+#include "model.h"
+#include "engine/engine.c"
+#include <stdio.h>
+
+#pragma weak absolute_accelerations
+#pragma weak accept_state
+#pragma weak constraints
+#pragma weak drives_jump
+#pragma weak from_absolute
+#pragma weak jacobian
+#pragma weak linearize_state
+#pragma weak mass_matrix
+#pragma weak motion_here
+#pragma weak newton_factor
+#pragma weak newton_solve
+#pragma weak read_memory
+#pragma weak same_start
+#pragma weak start_values
+#pragma weak to_absolute
+#pragma weak velocity_residuals
+#pragma weak velocity_rhs
+
+static int failures;
+#define CHECK(truth) \
+    ((truth) ? (void)0 : (void)(failures++, fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #truth)))
+#define CLOSE(x, y, tolerance) (fabs((x) - (y)) <= (tolerance))
+
+int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    (void)t, (void)memory;
+    *aside = (Aside){.clearance = {{.delta = y[0] - p->offset, .e = y[0], .deltadot = y[1]}}, .g = {NAN}};
+    for (int k = 0; k < N_Y; k++)
+        dy[k] = 0.0;
+    dy[0] = y[1];
+    dy[1] = -y[0];
+    return 0;
+}
+
+int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside)
+{
+    double dy[N_Y];
+    return motion(t, y, memory, p, dy, aside);
+}
+
+double radial_clearance(const Parameters *p, int i) { return (void)i, p->radius; }
+double deepest(const Parameters *p, int i) { return (void)i, p->radius; }
+double slowest_impact(const Parameters *p, int i) { return (void)p, (void)i, 1e-3; }

@@ -1,0 +1,83 @@
+/* Contacts: their begins and ends on straight lines and parabolas, their list and its fetching, their peaks. */
+#include "part.h"
+
+static Run run;
+static const Parameters p = {.radius = 1.0};
+
+/* A step from t to t + h, in which the penetration grows from d0 at the rate r0 to d1 at r1. */
+static int passes(double t, double h, double d0, double r0, double d1, double r1)
+{
+    const Clearance before = {.delta = d0, .deltadot = r0}, after = {.delta = d1, .deltadot = r1};
+    const unsigned char touched = 0;
+    run.t = t + h;
+    run.aside.clearance[0] = after;
+    return update_latches(&run, t, h, &before, &after, &touched, &p);
+}
+
+static void begins_and_ends(void)
+{
+    const Contacts *contacts = &run.contacts;
+    CHECK(!passes(0.0, 1.0, -2.0, 1.0, -1.0, 1.0));
+    CHECK(passes(1.0, 4.0, -1.0, 1.0, 3.0, 1.0) == 1); /* a line: zero at a quarter of the step */
+    CHECK(run.memory.latch[0].closed && CLOSE(contacts->open[0].t_on, 2.0, 1e-15));
+    CHECK(CLOSE(contacts->open[0].deltadot, 1.0, 1e-14) && contacts->onsets == 1 && contacts->compressing[0]);
+    CHECK(!passes(5.0, 1.0, 3.0, 1.0, 3.0, -1.0) && !contacts->compressing[0]);
+    CHECK(passes(6.0, 2.0, 3.0, -2.0, -1.0, -2.0) == 1);
+    CHECK(!run.memory.latch[0].closed && contacts->n_impacts == 1);
+    CHECK(CLOSE(contacts->impacts[0].t_on, 2.0, 1e-15) && CLOSE(contacts->impacts[0].t_off, 7.5, 1e-14));
+
+    /* the rate of an onset is at least the floor of the law */
+    CHECK(passes(8.0, 1.0, -1e-6, 2e-6, 1e-6, 2e-6) && contacts->open[0].deltadot == slowest_impact(&p, 0));
+}
+
+static void peaks(void)
+{
+    double height;
+    CHECK(cubic_top(0.0, 1.0, 0.0, -1.0, &height) == 0.5 && CLOSE(height, 0.25, 1e-16)); /* s (1 - s) */
+    raise_force(&run, 0, 1.0, 5.0);
+    raise_force(&run, 0, 2.0, 4.0);
+    CHECK(run.contacts.F_peak[0] == 5.0 && run.contacts.t_peak[0] == 1.0);
+    raise_contact_force(&run, 0, 2.0, 4.0);
+    CHECK(run.contacts.open[0].F_peak == 4.0 && run.contacts.open[0].t_peak == 2.0);
+
+    /* deltadot/deltadot_minus of a contact that lasts, outside of [-1, 1] once */
+    run.memory.latch[0].deltadot_minus = 2.0;
+    run.aside.clearance[0] = (Clearance){.F_n = 3.0, .F_t = 4.0, .e = 0.5, .deltadot = 1.0};
+    watch_joint(&run, 0);
+    run.aside.clearance[0].deltadot = -3.0;
+    watch_joint(&run, 0);
+    CHECK(run.contacts.ratio_max == 0.5 && run.contacts.ratio_min == -1.5 && run.contacts.ratio_outside == 1.0);
+    CHECK(run.contacts.open[0].F_peak == 5.0 && run.contacts.e_max[0] == 0.5);
+}
+
+static void lists(void)
+{
+    double numbers[N_IMPACT_COLUMNS * (LISTED_IMPACTS + 1)];
+    int joints[LISTED_IMPACTS + 1];
+    list_graze(&run, &(Impact){3.0, 3.5, 1.0, 9.0, 3.25, 0}, 0.75);
+    CHECK(run.contacts.n_impacts == 2 && run.contacts.F_peak[0] == 9.0 && run.contacts.e_max[0] == 0.75);
+    CHECK(gudgeon_run_impacts(&run, 0, 1, numbers, joints) == 1); /* the oldest first */
+    CHECK(CLOSE(numbers[IMPACT_t_off], 7.5, 1e-14) && run.contacts.n_impacts == 1);
+    CHECK(gudgeon_run_impacts(&run, 1, 10, numbers, joints) == 2); /* with the one that lasts, once */
+    CHECK(numbers[IMPACT_F_peak] == 9.0 && isnan(numbers[N_IMPACT_COLUMNS + IMPACT_t_off]));
+    CHECK(gudgeon_run_impacts(&run, 1, 10, numbers, joints) == 0);
+
+    /* an impulse is added to the last one of the same joint at the same time */
+    const Impact bounce = {run.t, run.t, 1.0, 2.0, run.t, 0};
+    CHECK(!list_impact(&run, &bounce, 0, 1) && !list_impact(&run, &bounce, 1, 0));
+    CHECK(run.contacts.n_impacts == 1 && run.contacts.impacts[0].F_peak == 4.0);
+    while (run.contacts.n_impacts < LISTED_IMPACTS)
+        CHECK(!list_contact(&run, &bounce));
+    CHECK(lists_full(&run) && list_contact(&run, &bounce) == CHATTERING && run.contacts.n_impacts == LISTED_IMPACTS);
+}
+
+int main(void)
+{
+    const double latched[N_MEMORY] = {NAN};
+    start_contacts(&run, 0.0, latched);
+    CHECK(run.contacts.e_max[0] == -INFINITY && run.contacts.ratio_min == INFINITY);
+    begins_and_ends();
+    peaks();
+    lists();
+    return failures;
+}
