@@ -15,9 +15,7 @@
 #include "methods/step.c"
 #include "run/audit.c"
 #include "run/audit_state.c"
-#if N_CORNERS
 #include "watch/jumps.c"
-#endif
 #include "methods/rk4.c"
 #include "methods/methods.c"
 #include "watch/reach.c"

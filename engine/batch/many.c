@@ -285,13 +285,8 @@ static void samples_single(const Batch *b, long i, const Moving *before, void *m
 
 static int jumps_single(const Batch *b, long i, double t0, double t1)
 {
-#if N_CORNERS
     double before, after;
     return next_jump(t0, ahead_of(t1), (const Parameters *)(b->p_motion + i * b->numbers), &before, &after);
-#else
-    (void)b, (void)i, (void)t0, (void)t1;
-    return 0;
-#endif
 }
 
 /*

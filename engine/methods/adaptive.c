@@ -229,24 +229,18 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     if (AUDITS && !status)
         audit_step(run, step, share, event, p);
     const int listed = run->events.n;
-#if N_CORNERS
     const double drift = run->residuals.phi_dot_max;
-#endif
     if (!status)
         status = commit(run, step, share, t_new, event, p);
     if (!status && event >= 0)
         status = fit_first(run, t_end - run->t, p);
     run->memory.held = 1;
-#if N_CORNERS
-    if (!status && run->t == t_end) {
+    if (N_CORNERS > 0 && !status && run->t == t_end) {
         set_phi_dot_max(run, drift); /* which branch a rate has at a jump's own time says nothing */
         status = pass_jumps_here(run, p);
     }
-#endif
-#if N_USER_EVENTS
     if (!status && run->t == t_end)
         status = end_on_zeros(run, 0.0, p);
-#endif
     if (AUDITS && (!status || status == ENDED))
         status = audit_state(run, listed, p) ? AUDITED : status;
     if (!status || status == ENDED)

@@ -19,8 +19,10 @@ static int leave_zeros(Run *run, const Parameters *p)
     }
     return 0;
 }
-
+#else
+static inline int leave_zeros(Run *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
+
 /* 1/s: over one time that speeds of the state and accelerations `dy` take for the smallest length that matters. */
 static double fastest_rate(const Run *run, const double *dy)
 {
@@ -76,14 +78,10 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     /* weights are its inverse */
     run->norm.turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
     weigh(run);
-#if N_CORNERS
     if (!status)
         status = pass_jumps_here(run, p); /* to the sides that hold there */
-#endif
-#if N_USER_EVENTS
     if (!status)
         status = begin_beyond(run, 0.0, p);
-#endif
     if (!status && !(run->control.h > 0.0)) {
         status = first_size(run, left, p);
         if (!status && rests_on_law(run)) { /* its force may have begun right before the start: as at an onset */
@@ -91,10 +89,8 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
             status = fit_first(run, left, p);
         }
     }
-#if N_USER_EVENTS
     if (!status)
         status = leave_zeros(run, p);
-#endif
     if (run->choice.method->own_length)
         set_length(run, left);
     return status;

@@ -133,17 +133,40 @@ static int change_drives(Run *run, int corner, const Parameters *p)
     return status ? status : note_leaps(run, NULL, p);
 }
 
+/*
+ * A start, or an end, at the jump of a drive's rate, or right before it, is beyond that: it holds what follows. User
+ * events that the impulse leads across their zeros are noted.
+ */
+static int pass_jumps_here(Run *run, const Parameters *p)
+{
+    double before[N_SWITCHES + 1];
+    int some = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        before[k] = run->memory.side[k];
+    int status = settle_beyond(run, ahead_of(run->t), -1, p);
+    for (int k = 0; k < N_SWITCHES; k++)
+        some |= before[k] != run->memory.side[k];
+    if (status || !some)
+        return status;
+    pass_impulse(run, p);
+    status = settle_beyond(run, ahead_of(run->t), -1, p);
+    if (!status)
+        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    if (!status)
+        status = meet(run, -1, p);
+    return status ? status : note_leaps(run, NULL, p);
+}
+#else
+static inline int change_drives(Run *run, int corner, const Parameters *p) { return settle_sides(run, corner, p); }
+static inline int pass_jumps_here(Run *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
+
 /* The side of a corner, and what the other one moves at once. */
 static int change_side(Run *run, int corner, const Parameters *p)
 {
     double before[N_Y];
     memcpy(before, run->dy, sizeof before);
-#if N_CORNERS
     const int status = change_drives(run, corner, p);
-#else
-    const int status = settle_sides(run, corner, p);
-#endif
     pace_corner(run, corner, before);
     return status;
 }
@@ -188,32 +211,6 @@ static int change(Run *run, int event, const Parameters *p)
     return ended ? ended : held_now ? held_now : status;
 }
 
-#if N_CORNERS
-/*
- * A start, or an end, at the jump of a drive's rate, or right before it, is beyond that: it holds what follows. User
- * events that the impulse leads across their zeros are noted.
- */
-static int pass_jumps_here(Run *run, const Parameters *p)
-{
-    double before[N_SWITCHES + 1];
-    int some = 0;
-    for (int k = 0; k < N_SWITCHES; k++)
-        before[k] = run->memory.side[k];
-    int status = settle_beyond(run, ahead_of(run->t), -1, p);
-    for (int k = 0; k < N_SWITCHES; k++)
-        some |= before[k] != run->memory.side[k];
-    if (status || !some)
-        return status;
-    pass_impulse(run, p);
-    status = settle_beyond(run, ahead_of(run->t), -1, p);
-    if (!status)
-        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-    if (!status)
-        status = meet(run, -1, p);
-    return status ? status : note_leaps(run, NULL, p);
-}
-
-#endif
 /* A free journal never lies outside its bearing, nor a free corner in its wall, whatever the method thought. */
 static int check_contacts(const Run *run, const Parameters *p)
 {

@@ -227,10 +227,6 @@ static int begin(Run *run, const Parameters *p)
     return status ? status : watch(run, p);
 }
 
-#if !N_CORNERS
-static int begin_run(Run *run, const Parameters *p) { return begin(run, p); }
-#endif
-
 size_t gudgeon_run_size(void)
 {
 #if N_USER_EVENTS

@@ -182,7 +182,15 @@ static int begin_beyond(Run *run, double step, const Parameters *p)
         return status;
     return rates(run, run->t, run->y, p, run->dy, &run->aside);
 }
-
+#else
+static inline int end_on_zeros(Run *run, double step, const Parameters *p)
+{
+    return (void)run, (void)step, (void)p, 0;
+}
+static inline int begin_beyond(Run *run, double step, const Parameters *p)
+{
+    return (void)run, (void)step, (void)p, 0;
+}
 #endif
 
 /*

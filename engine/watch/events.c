@@ -269,10 +269,8 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
         share = first_counting(run, step, p, event);
     }
     share = first_in_long_step(run, step, share, p, event);
-#if N_USER_EVENTS
     const int user_event = *event - (N_MARGINS - N_USER_EVENTS);
     set_pole(run, user_event >= 0 && is_pole(run, step, share, user_event, p));
-#endif
     return share;
 }
 

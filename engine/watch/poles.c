@@ -35,4 +35,9 @@ static int is_pole(Run *run, const Step *step, double share, int i, const Parame
     }
     return isinf(aside.event[i]);
 }
+#else
+static inline int is_pole(Run *run, const Step *step, double share, int i, const Parameters *p)
+{
+    return (void)run, (void)step, (void)share, (void)i, (void)p, 0;
+}
 #endif
