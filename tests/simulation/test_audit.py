@@ -148,7 +148,7 @@ def test_a_contact_that_is_missed(tmp_path: Path) -> None:
     assert not reported(right, 0.05)
     wrong = mutant(
         right, tmp_path,
-        ("engine/watch/events.c", "is_gap ? has_zero(run", "is_gap ? run->onsets % 3 != 2 && has_zero(run"),
+        ("engine/watch/events.c", "is_gap ? has_zero(run", "is_gap ? run->contacts.onsets % 3 != 2 && has_zero(run"),
         ("engine/methods/step_length.c", "!run->memory.latch[i].closed && joint->deltadot < 0.0)", "0)"),
     )  # fmt: skip
     found = reported(wrong, 0.05)
@@ -172,7 +172,7 @@ def test_film_forces_between_the_ends_of_steps(tmp_path: Path) -> None:
     wrong = mutant(
         right, tmp_path,
         ("engine/methods/radau.c", "i < N_X && !has_films()", "i < N_X"),
-        ("engine/both/radau_step.h", " & (falls * apart <= run->force_found * (1.0 - falls))", ""),
+        ("engine/both/radau_step.h", "& (falls * apart <= run->newton.force_found * (1.0 - falls))", ""),
         NO_FILM_ERROR,
     )  # fmt: skip
     assert "check force" in reported(wrong, 0.05, method="radau5")
@@ -182,7 +182,7 @@ def test_an_event_that_is_lost(tmp_path: Path) -> None:
     """Every zero is taken for a pole."""
     right = loader(tmp_path)(SPRING.format(events="zero: {zero: b.x}"))
     assert not reported(right, 2.0)
-    edit = ("engine/watch/events.c", "&& is_pole(run, step, share, user_event, p);", ";")
+    edit = ("engine/watch/events.c", "&& is_pole(run, step, share, user_event, p));", ");")
     assert "check event" in reported(mutant(right, tmp_path, edit), 2.0)
 
 
