@@ -11,12 +11,11 @@ from dataclasses import replace
 from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.generator.equations.masses import refuse_massless
 from gudgeon.generator.equations.model import Model, make_model
+from gudgeon.generator.equations.notes import refuse_massless
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.mechanism.mechanism import Mechanism
-from gudgeon.generator.mechanism.scene import Scene, make_scene
-from gudgeon.generator.reading import Overrides, Seconds, read_scene, stage
+from gudgeon.generator.mechanism import Mechanism, Scene, make_scene
+from gudgeon.generator.reader.read import Overrides, Seconds, read_scene, stage
 from gudgeon.generator.redundancy import find_redundancy, refuse_singular_masses
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import Begun, emit
@@ -57,7 +56,7 @@ def closed_linkage(
 
 
 def _letters(model: Model) -> Any:
-    from gudgeon.generator.targets.latex.shown import Letters
+    from gudgeon.generator.targets.latex.to_html import Letters
 
     return Letters(model)
 

@@ -14,8 +14,8 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.generator.equations.model import make_model
-from gudgeon.generator.mechanism.mechanism import Quantity
-from gudgeon.generator.reading import read_scene
+from gudgeon.generator.mechanism import Quantity
+from gudgeon.generator.reader.read import read_scene
 from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.language.tokens import Token
 from gudgeon.language.tree import Number

@@ -13,11 +13,10 @@ from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFra
 from gudgeon.generator.ir.differentiation import partial
 from gudgeon.generator.ir.finite_slopes import Upon
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
+from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
-from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import Freezable, Place
 from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 

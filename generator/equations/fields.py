@@ -9,7 +9,7 @@ import sympy as sp
 
 from gudgeon.errors import Location
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
-from gudgeon.generator.mechanism.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
+from gudgeon.generator.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
 from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
 from gudgeon.generator.symbols.numbers import Owned, Slots

@@ -11,11 +11,9 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector, is_massless
-from gudgeon.generator.mechanism.scene import Scene
-from gudgeon.generator.symbols.freezable import Freezable
+from gudgeon.generator.mechanism import GROUND, Body, PointRef, Scene, Vector, is_massless
 from gudgeon.generator.symbols.numbers import Slots
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.storage import Freezable, Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)

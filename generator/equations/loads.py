@@ -1,7 +1,12 @@
-"""Force elements at work: their loads as generalized forces (virtual work of each load)."""
+"""Forces at work: the generalized forces of force elements, and slip velocities that friction may hold at zero.
+
+Stick's row is v = J q̇ − speed = 0 on velocity level: J q̈ = γ − 2α v. The friction force f acts on the
+second body along u, so its generalized force is Jᵀ f: −Jᵀ λ in stick, −Jᵀ kinetic sgn v in slip.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -9,8 +14,9 @@ import sympy as sp
 
 from gudgeon.generator.equations.fields import ElementFields
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
-from gudgeon.generator.kinds.forces.force_type import Loads, element_types
-from gudgeon.generator.mechanism.mechanism import ForceElement
+from gudgeon.generator.kinds.forces.force_type import Loads, Slip, element_types
+from gudgeon.generator.mechanism import ForceElement
+from gudgeon.generator.symbols.symbols import Symbols
 
 
 class PointLoad(NamedTuple):
@@ -51,3 +57,22 @@ def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> Ap
     targets = tuple(geometry.point(ref) for ref in element.targets)
     loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)
+
+
+@dataclass(frozen=True)
+class Friction:
+    """One sliding contact; `jacobian` is J by coordinate, `gamma` what J q̈ must be at constant slip."""
+
+    name: str
+    slip: Slip
+    jacobian: Mapping[sp.Symbol, sp.Expr]
+    gamma: sp.Expr
+
+
+def make_friction(
+    name: str, slip: Slip, pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
+) -> Friction:
+    """J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t; `pairs` are coordinates with their velocities."""
+    jacobian = {q: entry for q, v in pairs if (entry := sp.expand(symbols.diff(slip.v, v))) != 0}
+    gamma = -sum((symbols.diff(slip.v, q) * v for q, v in pairs), sp.Integer(0)) - symbols.diff(slip.v, t)
+    return Friction(name, slip, jacobian, sp.expand(gamma))

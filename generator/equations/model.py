@@ -2,6 +2,12 @@
 
 Every member is in the derived symbols of the geometry (cos θ, arms, drive angles) but for the
 properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇, t and parameters.
+
+Events of the user: where an expression of t and motion crosses zero, a run records the time, or ends.
+
+A crossing is a change of sign: "rising" from below zero to above it, "falling" the other way, "both" either. A
+zero that is touched and left on the side from which it was reached is none, and a run does not cross a zero on
+which it starts: so it goes on from where an event ended another.
 """
 
 from __future__ import annotations
@@ -13,21 +19,94 @@ from typing import Any
 
 import sympy as sp
 
+from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.constraints import Constraints, Row
-from gudgeon.generator.equations.events import Event, make_event, refuse_constant
-from gudgeon.generator.equations.friction import Friction, make_friction
+from gudgeon.generator.equations.fields import VariableNames
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
-from gudgeon.generator.equations.lettered import lettered
-from gudgeon.generator.equations.loads import AppliedElement, apply_element
+from gudgeon.generator.equations.loads import AppliedElement, Friction, apply_element, make_friction
 from gudgeon.generator.equations.own_laws import check_own_laws
 from gudgeon.generator.equations.play import Clearance, make_clearances
-from gudgeon.generator.equations.start import start_values
 from gudgeon.generator.ir.finite_slopes import as_written
-from gudgeon.generator.mechanism.mechanism import Joint
-from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.mechanism import EventSpec, Joint, Quantity, Scene
+from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.symbols import Symbols
 from gudgeon.language.units import dimension
+
+SIGNS = {"rising": 1, "falling": -1, "both": 0}
+
+
+@dataclass(frozen=True)
+class Event:
+    """`expression` is in t and the symbols of bodies and points; action: "record" or "stop"."""
+
+    name: str
+    expression: sp.Expr
+    action: str
+    direction: str
+
+
+def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
+    """One event of a scene. Raises BadValueError for an expression that is finite for no motion."""
+    expression = quantity_to_sympy(event.zero, VariableNames(geometry, t))
+    return Event(event.name, expression, event.action, event.direction)
+
+
+def refuse_constant(event: EventSpec, made: Event, geometry: Geometry, t: sp.Symbol) -> None:
+    """Raise BadValueError where nothing that moves is left in the expression; geometry: of absolute coordinates."""
+    moving = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
+    if not geometry.symbols.explicit(made.expression).free_symbols & moving:
+        message, hint = f"{event.zero.address} never changes: its terms cancel", "expected an expression that varies"
+        raise BadValueError(message, event.zero.where, hint)
+
+
+class Lettered(sp.Matrix):
+    """A matrix like any other; `str`, `repr`, `sympy.latex` and notebooks ask `letters` how its entries are written."""
+
+    letters: Callable[[], Any] | None = None  # gives an object with latex(matrix) and text(matrix)
+
+    def _latex(self, printer: Any) -> str:
+        return str(self.letters().latex(self) if self.letters else printer._print_MatrixBase(self))
+
+    def _sympystr(self, printer: Any) -> str:
+        return str(self.letters().text(self) if self.letters else printer._print_MatrixBase(self))
+
+    def __str__(self) -> str:
+        return repr(self) if self.letters else super().__str__()
+
+
+def lettered(matrix: sp.Matrix, letters: Callable[[], Any] | None) -> Lettered:
+    """The same entries; without letters as SymPy prints them."""
+    found = Lettered._fromrep(matrix._rep)
+    found.letters = letters
+    return found
+
+
+def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
+    """Return the quantities of `guess`, `set` and `rates`, each with its sign; after the last two those of journals."""
+    start, apart = model.scene.mechanism.start, apart_rows(model)
+    slides = {c.joint.name for c in model.clearances if c.wall}
+    signs = [-1 if model.all_rows[k].owner in slides else 1 for k, _, _ in apart]
+    return {
+        "guess": [(quantity, 1) for quantity in start.guess.values()],
+        "set": [*((quantity, 1) for quantity in start.set.values()),
+                *((e, sign) for (_, e, _), sign in zip(apart, signs, strict=True))],
+        "rates": [*((quantity, 1) for quantity in start.rates.values()),
+                  *((rate, sign) for (_, _, rate), sign in zip(apart, signs, strict=True))],
+    }  # fmt: skip
+
+
+def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
+    """Rows of Φ that the start holds apart: where they are, and the eccentricity e and its rate there.
+
+    Φ of such a joint is r_i − r_j = −e (physics.md, section 3), so that Φ + e = 0 and Φ_q v = ν − ė. That of a slider
+    is its offset and its tilt, which are −e there (`start_kernel`).
+    """
+    given, found = model.scene.mechanism.start.play, []
+    for name in model.scene.play:
+        rows = [k for k, row in enumerate(model.all_rows) if row.owner == name and name in given]
+        found += [(k, given[name].e[axis], given[name].rate[axis]) for axis, k in enumerate(rows)]
+    return found
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import PairSymbols
-from gudgeon.generator.mechanism.mechanism import Bearing, Guide, Joint
+from gudgeon.generator.mechanism import Bearing, Guide, Joint
 from gudgeon.generator.symbols.numbers import Slots
 
 

@@ -8,10 +8,9 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.equations.force_law import force_of
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.own_laws import check_numbers, number_of
+from gudgeon.generator.equations.own_laws import check_numbers, force_of, number_of
 from gudgeon.generator.equations.places import Place, Wall, places_of
 from gudgeon.generator.kinds.laws.built import build
 from gudgeon.generator.kinds.laws.law import (
@@ -26,8 +25,8 @@ from gudgeon.generator.kinds.laws.law import (
     State,
     laws,
 )
-from gudgeon.generator.mechanism.mechanism import Joint, LawUse, Play
-from gudgeon.generator.symbols.contours import contour_of
+from gudgeon.generator.mechanism import Joint, LawUse, Play
+from gudgeon.generator.symbols.curves import contour_of
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
 from gudgeon.language.units import VELOCITY

@@ -15,9 +15,8 @@ from typing import ClassVar
 import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
-from gudgeon.generator.equations.friction import Friction
 from gudgeon.generator.equations.geometry import PointFrame
-from gudgeon.generator.equations.loads import PointLoad
+from gudgeon.generator.equations.loads import Friction, PointLoad
 from gudgeon.generator.equations.model import Model
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)

@@ -10,7 +10,7 @@ from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import DEPTHS, MAPPING, POINTS, RESULTS, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.format.shapes import OVERRIDE
-from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import unknown_name
 
 _AXES = {"x": 0, "y": 1}

@@ -14,6 +14,7 @@ from gudgeon.generator.field import (
     LAW,
     OF_MOTION,
     OF_RESULTS,
+    OF_TIME,
     PLACE,
     POINTS,
     RESULTS,
@@ -30,8 +31,6 @@ from gudgeon.generator.field import (
     vector,
     word,
 )
-from gudgeon.generator.format.measures import BEARING, GUIDE
-from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import Law, called
@@ -49,6 +48,78 @@ from gudgeon.language.units import (
     VELOCITY,
     Dimension,
 )
+
+
+def _value(dimension: Dimension | None, meaning: str = "where it is at each time, without jumps") -> tuple[Field, ...]:
+    return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
+
+
+DRIVES: Mapping[str, Kind] = {
+    "angle": Kind(
+        "angle of a body, or of one relative to another",
+        _value(DIMENSIONLESS),
+        "bodies",
+        (1, 2),
+        ("rotation", "theta", "motor", "turn"),
+    ),
+    "coordinate": Kind(
+        "x or y of a body's centre of mass, in ground axes, or theta",
+        _value(None, "where it is at each time, without jumps: a length, of theta an angle"),
+        "coordinates",
+        (1,),
+        ("position", "translation", "displacement", "x", "y"),
+    ),
+    "distance": Kind("distance of two points", _value(LENGTH), "points", (2,), ("length", "actuator", "cylinder")),
+}
+
+
+BEARING = record(
+    "bearing", "a pin in a hole",
+    number(
+        "radius", "radius of the hole", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "a bearing's radius is positive"),),
+    ),
+    number(
+        "clearance", "radial clearance: radius of the hole − radius of the pin", LENGTH, required=True,
+        bounds=(
+            Bound(">", 0.0, "a clearance is positive"),
+            Bound("<", "radius", "a clearance is smaller than the bearing's radius"),
+        ),
+    ),
+    number(
+        "length", "length of the pin in the hole", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
+    ),
+    name_in("materials", "bearing_material", "of the hole"),
+    name_in("materials", "journal_material", "of the pin"),
+)  # fmt: skip
+
+GUIDE = record(
+    "guide", "a block in a slot with parallel walls: what a translational joint with play is",
+    number(
+        "gap", "half of what the slot is wider than the slider", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "a gap is positive"),),
+    ),
+    number(
+        "half_length", "half the slider's length, along the axis", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "half a length is positive"),),
+    ),
+    number(
+        "half_height", "half the slider's height, across the axis", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "half a height is positive"),),
+    ),
+    number(
+        "corner_radius", "radius of the slider's corners, within its length and height", LENGTH, otherwise="sharp ones",
+        bounds=(
+            Bound(">", 0.0, "a corner's radius is positive"),
+            Bound("<", "half_length", "a corner's radius is less than half the slider's length"),
+            Bound("<=", "half_height", "a corner's radius is at most half the slider's height"),
+        ),
+    ),
+    name_in("materials", "guide_material", "of the slot"),
+    name_in("materials", "slider_material", "of the slider"),
+)  # fmt: skip
+
 
 FORMAT = "gudgeon/1"
 IDEAL = "ideal"  # the scene without play

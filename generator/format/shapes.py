@@ -27,7 +27,7 @@ from gudgeon.generator.field import (
     Field,
 )
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
-from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest, unknown_name
 
 MOST_FINDINGS = 50

@@ -13,8 +13,7 @@ from collections.abc import Iterable, Mapping
 
 import sympy as sp
 
-from gudgeon.generator.ir.far_quotients import written
-from gudgeon.generator.ir.finite_slopes import finite_slope, flat_at_zero, has_distance, overflowing
+from gudgeon.generator.ir.finite_slopes import finite_slope, flat_at_zero, has_distance, overflowing, written
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import base_name, is_division
 from gudgeon.generator.ir.statements import Statement

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.ir.statements import Line
-from gudgeon.generator.symbols.from_expressions import derivative_at
-from gudgeon.generator.symbols.functions import CLASSES
+from gudgeon.generator.symbols.from_expressions import CLASSES, derivative_at
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k

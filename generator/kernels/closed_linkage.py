@@ -7,8 +7,7 @@ from collections.abc import Callable
 import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
-from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.start import start_values
+from gudgeon.generator.equations.model import Model, start_values
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, result, source
 from gudgeon.generator.ir.statements import Statement

@@ -1,24 +1,40 @@
-"""Functions of the state whose zeros end a step: a scene's own corners and its user events, apart from the rest.
+"""What a step must not miss: corners and user events, pulses of time, and for `rk4` the corners of drives.
 
-A step may be long where the motion is smooth, and an expression may change its sign many times meanwhile. So each is
-looked at along a step (engine/watch/watched.c), by bounds over its parts. This is the part of the
-right-hand side that they need: mostly no more than the positions in them.
+Corners and events are functions of the state whose zeros end a step, apart from the rest. A step may be long where the
+motion is smooth, and an expression may change its sign many times meanwhile. So each is looked at along a step
+(engine/watch/watched.c), by bounds over its parts. This is the part of the right-hand side that they need: mostly no
+more than the positions in them.
+
+Pulses and narrow bumps are terms that hang on time alone and may rise and fall between two looks. A step of a method
+sees forces and drives at its stages only. Polynomials, sines and exponentials of a linear argument show there what they
+do; e^(−t²), 1/(1 + t²), tanh t or a sine of a sine may be at rest at all of them and act in between. While friction
+sticks, or a rigid contact is closed, nothing may move, steps are long, and sines are among those too. Such terms are
+known without the state, and so are their bounds over a part of a step (engine/watch/time_terms.c, ranges.h).
+
+Corners of drives are functions of time alone, at whose zeros the rate of what is prescribed may jump. The adaptive
+methods look for them along a step with all others (engine/watch/watched.c). rk4 keeps to its grid and to no sides; it
+needs to know the times only, which hang on no state: a part of its step ends there (engine/watch/jumps.c).
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
 
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import jumping_drives
+from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.ir.kernels import Kernel, Section, with_sides
-from gudgeon.generator.ir.signatures import ASIDE
+from gudgeon.generator.ir.signatures import ASIDE, PARAMETERS, TIME, result
 from gudgeon.generator.ir.statements import Line, Sides, Statement
-from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.corners import ModOn, PeriodsOf, Pick, SideOf
 from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.wholes import Whole
 
-NAME, RANGES = "watched_functions", "watched_ranges"
-_DOC = (
+WATCHED, _RANGES = "watched_functions", "watched_ranges"
+_WATCHED_DOC = (
     "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
 )  # fmt: skip
 _RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
@@ -55,7 +71,8 @@ def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None 
         if lines:
             sections.append(Section(section.title, tuple(lines)))
     arguments = tuple(a for a in dynamics.arguments if a.name != "a")
-    watched = replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), status=False)
+    named = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
+    watched = replace(named, arguments=arguments, sections=tuple(sections), status=False)
     return with_sides(watched, "aside")
 
 
@@ -83,7 +100,7 @@ def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kerne
                 s = replace(s, target=Place("out")[place[s.target]])
             kept.append(Sides("") if isinstance(s, Sides) else s)
         sections.append(Section(section.title, tuple(kept)))
-    return replace(watched, name=RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
+    return replace(watched, name=_RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
 
 
 def reads_state(kernel: Kernel) -> bool:
@@ -105,3 +122,237 @@ def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
         return Statement(ASIDE["g"][int(value.args[0])], value.args[1])
     target = statement.target
     return statement if isinstance(target, Place) and target.path[:1] == ("event",) else None
+
+
+_TIME_TERMS = "time_terms"
+MOST = 32  # terms of a scene
+_TIME_TERMS_DOC = ("Terms that hang on time alone and may rise and fall within a step.",)
+_LINEAR = (sp.sin, sp.cos, sp.exp)  # what shows at the stages of a step, of a linear argument
+_POWERS = range(1, 5)  # likewise, of what does
+
+
+@dataclass(frozen=True)
+class TimeTerms:
+    """Terms of time alone: the first `pulses` of them may hide within a step of any motion, all within one of rest."""
+
+    kernel: Kernel | None = None  # None: there are none
+    pulses: int = 0
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
+        return sum(isinstance(s, Statement) and not s.defines for s in statements)
+
+
+def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
+    """What a right-hand side reads of time alone. rests: something may hold the motion while forces vary."""
+    found = _read(dynamics, False)
+    terms = list(found.terms)[:MOST]
+    pulses = len(terms)
+    if rests:
+        found = _read(dynamics, True)
+        terms = [*terms, *(term for term in found.terms if term not in terms)][:MOST]
+    return TimeTerms(_kernel(dynamics, found, terms) if terms else None, pulses)
+
+
+def _read(dynamics: Kernel, rests: bool) -> _Terms:
+    found = _Terms(rests)
+    for section in dynamics.sections:
+        for statement in section.statements:
+            if isinstance(statement, Statement):
+                found.read(statement)
+    return found
+
+
+def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
+    outs = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
+    sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
+    arguments = (TIME, PARAMETERS, ASIDE)
+    named = replace(dynamics, name=_TIME_TERMS, doc=_TIME_TERMS_DOC)
+    return replace(named, arguments=arguments, sections=sections, status=False)
+
+
+class _Terms:
+    """Reads statements in their order; `terms` are in the order in which they are met."""
+
+    def __init__(self, rests: bool) -> None:
+        self.shows = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
+        self.known: dict[str, Statement] = {}  # locals that time and parameters determine
+        self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
+        self.terms: dict[sp.Expr, None] = {}
+        self.time = TIME.name
+        self._tame: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
+        self._names: dict[sp.Expr, frozenset[str]] = {}
+
+    def read(self, statement: Statement) -> None:
+        if isinstance(statement.value, sp.Expr):
+            statement = replace(statement, value=as_written(statement.value))
+        value, local = statement.value, statement.defines
+        if not isinstance(value, sp.Basic):
+            if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
+                self.known[local] = statement
+            if value == Place(TIME.name):
+                self.time = local
+            return
+        names = {symbol.name for symbol in value.free_symbols}
+        if names <= self.known.keys():
+            if local:
+                self.known[local] = statement
+            self.collect(value)
+        else:
+            for part in sp.preorder_traversal(value):
+                if isinstance(part, (sp.Add, sp.Mul)):
+                    part = part.func(*(factor for factor in part.args if self.is_timed(factor)))
+                if isinstance(part, sp.Expr):
+                    self.collect(part)
+        if local in self.known and self.is_timed(value):
+            self.timed[local] = self.written_out(value)
+
+    def written_out(self, value: sp.Expr) -> sp.Expr:
+        """With the locals that hang on time as what they are."""
+        if self.names_in(value).isdisjoint(self.timed):
+            return value
+        inner = {s: self.timed[s.name] for s in value.free_symbols if s.name in self.timed}
+        return value.xreplace(inner) if inner else value
+
+    def names_in(self, value: sp.Expr) -> frozenset[str]:
+        """Of its symbols; each part is looked at once."""
+        if value not in self._names:
+            parts = (self.names_in(part) for part in value.args)
+            self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
+        return self._names[value]
+
+    def is_timed(self, value: sp.Expr) -> bool:
+        """Whether it hangs on time, and on nothing but time and parameters."""
+        names = self.names_in(value)
+        return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.timed))
+
+    def collect(self, value: sp.Expr) -> None:
+        """The terms of a value, and those within them."""
+        if not self.is_timed(value) or self.is_tame(value):
+            return
+        if isinstance(value, SideOf):
+            return self.collect(value.args[1])
+        parts = [part for part in value.args if self.is_timed(part) and not self.is_tame(part)]
+        if isinstance(value, (sp.Add, sp.Mul, Pick, Whole)):
+            if len(parts) > 1 and not isinstance(value, (Pick, Whole)):
+                self.terms.setdefault(value.func(*parts))
+        elif not value.is_Symbol:
+            self.terms.setdefault(value)
+        for part in parts:
+            self.collect(part)
+        return None
+
+    def is_tame(self, value: sp.Expr) -> bool:
+        """Whether it shows at the stages what it does between them. Corners end steps: their branches count."""
+        if value not in self._tame:
+            self._tame[value] = self._is_tame(self.written_out(value))
+        return self._tame[value]
+
+    def _is_tame(self, value: sp.Expr) -> bool:
+        if self.time not in self.names_in(value):
+            return True
+        match value:
+            case sp.Symbol():
+                return True
+            case SideOf():
+                return self.is_tame(value.args[1])
+            case sp.Add() | sp.Mul() | Pick() | Whole() | ModOn():
+                return all(map(self.is_tame, value.args))
+            case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
+                return self.is_tame(value.base)
+        return isinstance(value, self.shows) and self.is_linear(value.args[0])
+
+    def is_linear(self, value: sp.Expr) -> bool:
+        """Whether its form says that it is linear in time."""
+        timed = [part for part in value.args if self.time in self.names_in(part)]
+        if isinstance(value, (sp.Add, sp.Mul)):
+            return (len(timed) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, timed))
+        return value.is_Symbol or not timed
+
+    def needed(self, terms: list[sp.Expr]) -> list[Statement]:
+        """The locals that the terms read, in their order."""
+        waiting = [s.name for term in terms for s in term.free_symbols]
+        read: set[str] = set()
+        while waiting:
+            name = waiting.pop()
+            if name in self.known and name not in read:
+                read.add(name)
+                value = self.known[name].value
+                waiting += [s.name for s in value.free_symbols] if isinstance(value, sp.Expr) else []
+        return [_unheld(s) for name, s in self.known.items() if name in read]
+
+
+def _unheld(statement: Statement) -> Statement:
+    """A side as its function has it over a range: nothing is held where time alone is looked at."""
+    if isinstance(statement.value, SideOf):
+        return replace(statement, value=sp.sign(statement.value.args[1]))
+    return statement
+
+
+_JUMPS_DOC = ("Switching functions that hang on time alone.",)
+
+
+@dataclass(frozen=True)
+class Jumps:
+    """Values of `count` switching functions at a time, and their ranges over a part of it."""
+
+    count: int
+    values: Kernel
+    ranges: Kernel
+
+
+def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
+    """From what a right-hand side reads; None where no drive's rate may jump."""
+    if not jumping_drives(model):
+        return None
+    known, corners = _of_time(dynamics)
+    if not corners:
+        return None
+    read: set[str] = set()
+    waiting = [symbol.name for g in corners for symbol in g.free_symbols]
+    while waiting:
+        name = waiting.pop()
+        if name not in read:
+            read.add(name)
+            value = known[name].value
+            waiting += [symbol.name for symbol in value.free_symbols] if isinstance(value, sp.Expr) else []
+    needed = [s for name, s in known.items() if name in read]
+    nested = any(isinstance(s.value, SideOf) for s in needed)
+    outs = Section("corners", tuple(Statement(Place("out")[k], g) for k, g in enumerate(corners)))
+    front = ((Sides("", held=False),), (Sides("nobody", held=False),)) if nested else ((), ())
+    ranges, values = (Section("parameters and time", (*lines, *needed)) for lines in front)
+    own, bounds = (TIME, PARAMETERS, result("out")), (TIME, PARAMETERS, ASIDE)
+    kernel = replace(dynamics, doc=_JUMPS_DOC, status=False, inline=False)
+    return Jumps(
+        len(corners), replace(kernel, name="drive_corners", arguments=own, sections=(values, outs)),
+        replace(kernel, name="drive_corner_ranges", arguments=bounds, sections=(ranges, outs)),
+    )  # fmt: skip
+
+
+def _of_time(dynamics: Kernel) -> tuple[dict[str, Statement], list[sp.Expr]]:
+    """Locals that time and parameters determine, in their order; corners among them that hang on time."""
+    known: dict[str, Statement] = {}
+    timed: set[str] = set()
+    corners: dict[sp.Expr, None] = {}
+    for s in _statements(dynamics):
+        if not isinstance(s.value, sp.Basic):
+            if s.defines and isinstance(s.value, Place) and s.value.base in (TIME.name, PARAMETERS.name):
+                known[s.defines] = s
+                timed |= {s.defines} if s.value.base == TIME.name else set()
+            continue
+        names = {symbol.name for symbol in s.value.free_symbols}
+        if not names <= known.keys() or not s.defines:
+            continue
+        known[s.defines] = s
+        if names & timed:
+            timed.add(s.defines)
+            if isinstance(s.value, SideOf):
+                corners[s.value.args[1]] = None
+    return known, list(corners)
+
+
+def _statements(kernel: Kernel) -> Iterator[Statement]:
+    for section in kernel.sections:
+        yield from (s for s in section.statements if isinstance(s, Statement))

@@ -8,12 +8,11 @@ from gudgeon.contract import ledger as told
 from gudgeon.contract.ledger import Group, Placed, Solve, Step, Story
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.reduction.affine import CONSTANT, Affine
-from gudgeon.generator.reduction.links import Link
+from gudgeon.generator.reduction.frames import CONSTANT, Affine
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.reduction.tree import Tree
+from gudgeon.generator.reduction.tree import Link, Tree
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.sparsity.matching import Block
+from gudgeon.generator.solvers.sparsity import Block
 
 
 def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]) -> Story:

@@ -10,7 +10,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, result, source
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import Joint
+from gudgeon.generator.mechanism import Joint
 from gudgeon.generator.symbols.storage import Place
 
 

@@ -21,11 +21,9 @@ from gudgeon.generator.ir.kernels import Kernel, without_unused
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.kernels import closed_linkage, outputs
-from gudgeon.generator.kernels.drive_jumps import Jumps, jumps_of
 from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import NAME as WATCHED
-from gudgeon.generator.kernels.event_functions import watched_kernel
+from gudgeon.generator.kernels.event_functions import WATCHED, Jumps, TimeTerms, jumps_of, time_terms, watched_kernel
 from gudgeon.generator.kernels.kinematic import kinematic_kernels
 from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
 from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
@@ -33,13 +31,12 @@ from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kerne
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
 from gudgeon.generator.kernels.taylor import taylor_series
-from gudgeon.generator.kernels.time_terms import TimeTerms, time_terms
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.newton import Newton, at_complex_step
+from gudgeon.generator.solvers.sparsity import Block
 from gudgeon.generator.solvers.square_rows import SquareRows
-from gudgeon.generator.sparsity.matching import Block
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.event_functions import reads_beyond, watched_kernel
 from gudgeon.generator.kernels.projection import projection_kernel
-from gudgeon.generator.reduction.links import Link
 from gudgeon.generator.reduction.reduction import TreeSystem
+from gudgeon.generator.reduction.tree import Link
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 

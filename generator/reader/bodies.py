@@ -9,13 +9,13 @@ from gudgeon.errors import BadValueError
 from gudgeon.generator.field import PLACE, Field
 from gudgeon.generator.format.sections import APART, BODY, POINT, POINT_OF_GROUND, SECTIONS, START
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
+from gudgeon.generator.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.reader.shapes import Weighed, read_sides
-from gudgeon.generator.yaml.tree import Items, Map, Text
+from gudgeon.generator.yaml import Items, Map, Text
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH

@@ -8,7 +8,7 @@ from collections.abc import Container, Iterable, Mapping, Sequence
 
 from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import RELATIONS
-from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
+from gudgeon.generator.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.parameters import parameter_values
 from gudgeon.language.defined import undefined_part

@@ -19,10 +19,10 @@ from gudgeon.errors import (
 )
 from gudgeon.generator.field import CONSTANT_IN_TIME, OF_CAM_ANGLE, OF_PENETRATION
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
-from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
+from gudgeon.generator.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.reader.result_names import CamAngle, Penetration, ResultDimension
 from gudgeon.generator.reader.unit_or_name import settle_reading
-from gudgeon.generator.yaml.tree import NO_MERGE, Map, Text
+from gudgeon.generator.yaml import NO_MERGE, Map, Text
 from gudgeon.language.curves import Curve
 from gudgeon.language.names import RESERVED
 from gudgeon.language.parser import at, check_dimension, parse

@@ -1,26 +1,65 @@
-"""Bearings and contacts. What a law's own keys hold is said by its file in generator/kinds/laws."""
+"""Bearings, guides and contacts, and `extends:`.
+
+What a law's own keys hold is said by its file in generator/kinds/laws.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
-from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
+from gudgeon.errors import BadNameError, BadValueError, CycleError, ExpressionError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW, OF_PENETRATION, Field, with_dimensions
-from gudgeon.generator.format.measures import BEARING, GUIDE
-from gudgeon.generator.format.sections import CONTACT
+from gudgeon.generator.format.sections import BEARING, CONTACT, GUIDE
 from gudgeon.generator.format.shapes import missing_key
-from gudgeon.generator.kinds.laws.law import OWN, called
+from gudgeon.generator.kinds.laws.law import OWN, called, laws
 from gudgeon.generator.kinds.laws.registered import key_of
-from gudgeon.generator.mechanism.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, at_onset
+from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, at_onset
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
 from gudgeon.generator.reader.materials import ELASTIC, Materials
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.parser import at
-from gudgeon.language.suggestions import known_hint
+from gudgeon.language.suggestions import known_hint, unknown_name
 from gudgeon.language.tree import Number, names
+
+
+def parents_first(
+    reader: Reader, what: str, section: Map, known: Iterable[str] = ()
+) -> Iterator[tuple[Text, Map]]:
+    """The entries of a section, each behind the one that it extends.
+
+    What extends an unknown name or itself is told and left out; `known` are parents outside the section.
+    """
+    by_name = {str(name): (name, entry) for name, entry in section.pairs()}
+    ready = dict.fromkeys(name for name in known if name not in by_name)  # in order, for a message shows them
+    refused: set[str] = set()
+    for start in by_name:
+        chain: list[str] = []
+        current: str | None = start
+        while current is not None and current not in ready and current not in refused:
+            entry = by_name[current][1]
+            if current in chain:
+                cycle = [*chain[chain.index(current) :], current]
+                where = entry["extends"].where if "extends" in entry else by_name[current][0].where
+                message = f"{what}s that extend each other: {' → '.join(cycle)}"
+                reader.errors.append(CycleError(message, where, "expected one of them to extend none"))
+                refused.update(chain)
+                break
+            chain.append(current)
+            parent = entry.get("extends")
+            if parent is not None and parent not in by_name and parent not in ready:
+                reader.errors.append(unknown_name(what, parent, dict.fromkeys([*ready, *by_name]), parent.where))
+                refused.update(chain)
+                break
+            current = str(parent) if parent is not None else None
+        if current in refused:
+            refused.update(chain)
+        for name in reversed(chain):
+            if name not in refused:
+                ready[name] = None
+                yield by_name[name]
+
 
 NO_FORCE = 1e-9  # N, what rounding may leave of a force that is 0
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
@@ -199,3 +238,37 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
                 raise BadValueError(f"{address} has both {number} and {choice}", node.key(choice).where, hint)
             own.options.pop(choice, None)
     return LawUse(law.name, own.quantities, {**own.options, **law.also.get(text, {})})
+
+
+def check_guide(joint: str, guide: Guide, contact: Contact, use: Map) -> None:
+    """Raise unless the contact is one of corners that press on flat walls, without a film and a contour."""
+    where = use["contact"].where
+    if "contour" in use:
+        told = f"the contour of {joint} is one of a guide: contours are those of bearings"
+        raise BadValueError(told, use.key("contour").where, "expected no contour")
+    if contact.film is not None:
+        told = f"contact {contact.name} of {joint} has a film, whose laws are those of a journal in its bearing"
+        raise BadValueError(told, where, "expected a contact without a film: guides have dry contact alone")
+    normal = contact.normal
+    if normal is None:
+        return
+    if laws()[normal.law].in_hole:
+        fit = sorted(name for name, law in called("normal").items() if not law.in_hole)
+        told = f"contact {contact.name} of {joint} has {normal.law}, a law of a pin in a hole"
+        raise BadValueError(told, where, f"expected one of a corner on a wall: {', '.join(fit)}")
+    if "geometry" in normal.options and guide.corner_radius is None:
+        told = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
+        able = any(own.name == "stiffness" for own in laws()[normal.law].fields)
+        also = "stiffness" if able else f"a law that needs none ({', '.join(sorted(_of_sharp_corners()))})"
+        hint = f"expected corner_radius in guides.{guide.name}, or {also} in contacts.{contact.name}.normal"
+        raise MissingKeyError(told, use["guide"].where, hint)
+
+
+def _of_sharp_corners() -> Iterator[str]:
+    """Laws of corners on walls that take no stiffness from radii, or one of the file instead."""
+    for name, law in laws().items():
+        if law.role == "normal" and not law.in_hole and law.name == name:
+            if "geometry" in law.instead:
+                yield f"{name} with {law.instead['geometry']}"
+            elif all(own.name != "geometry" for own in law.fields):
+                yield name

@@ -10,11 +10,11 @@ from collections.abc import Iterator
 from gudgeon.errors import BadNameError, Location
 from gudgeon.generator.field import OF_MOTION, OF_RESULTS
 from gudgeon.generator.format.sections import FILE
-from gudgeon.generator.mechanism.mechanism import GROUND
+from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reader.collector import BROKEN, Named, Reader
 from gudgeon.generator.reader.places import CORNERS_OF_SIDES, IMPLIED_POINTS, Places
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.names import check_label, check_name
 
 # results are indexed by these names

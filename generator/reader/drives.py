@@ -6,13 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError, JoinError, Location
-from gudgeon.generator.format.sections import COORDINATES
-from gudgeon.generator.kinds.drives import DRIVES
-from gudgeon.generator.mechanism.mechanism import GROUND, Drive, PointRef
+from gudgeon.generator.format.sections import COORDINATES, DRIVES
+from gudgeon.generator.mechanism import GROUND, Drive, PointRef
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body
 from gudgeon.generator.reader.places import Places, coordinate_of
-from gudgeon.generator.yaml.tree import Map, Text, kind_of
+from gudgeon.generator.yaml import Map, Text, kind_of
 from gudgeon.language.tree import functions
 from gudgeon.language.units import Dimension
 

@@ -10,11 +10,11 @@ from collections.abc import Iterable, Mapping
 
 from gudgeon.errors import LimitError, Location
 from gudgeon.generator.field import OF_MOTION, OF_TIME
-from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.mechanism import Quantity
 from gudgeon.generator.reader.collector import Named, Reader
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.unit_or_name import settle_reading
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.parser import COPIES
 from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, names, replaced

@@ -19,10 +19,10 @@ from gudgeon.generator.field import (
 )
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
+from gudgeon.generator.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.places import Places
-from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.shown import counted
 from gudgeon.language.suggestions import known_hint, nearest
 from gudgeon.language.tree import Number

@@ -8,11 +8,11 @@ from gudgeon.errors import BadNameError, BadValueError, ExpressionError, JoinErr
 from gudgeon.generator.field import BODY, OF_CAM_ANGLE
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, Quantity
+from gudgeon.generator.mechanism import ForceElement, Joint, Quantity
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body
 from gudgeon.generator.reader.places import Places
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.functions import PIECEWISE
 from gudgeon.language.parser import at
 from gudgeon.language.tree import Number, functions, names

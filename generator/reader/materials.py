@@ -10,10 +10,10 @@ from dataclasses import replace
 
 from gudgeon.errors import MissingKeyError, UnknownNameError
 from gudgeon.generator.format.sections import MATERIAL
-from gudgeon.generator.mechanism.mechanism import Choice, Material, Quantity, following
+from gudgeon.generator.mechanism import Choice, Material, Quantity, following
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.suggestions import unknown_name
 
 ELASTIC = ("E", "nu")  # what contact asks of a material

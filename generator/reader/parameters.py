@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from gudgeon.errors import CycleError, InputError, Location, together
-from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.mechanism import Quantity
 from gudgeon.generator.reader.collector import Reader, broken
 from gudgeon.generator.reader.unit_or_name import settle_reading
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.unit_remedies import unit_remedies

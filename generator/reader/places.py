@@ -7,8 +7,8 @@ from contextlib import suppress
 from types import MappingProxyType
 
 from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
-from gudgeon.generator.mechanism.mechanism import GROUND, PointRef
-from gudgeon.generator.yaml.tree import Map, Text, kind_of
+from gudgeon.generator.mechanism import GROUND, PointRef
+from gudgeon.generator.yaml import Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, unknown_name
 from gudgeon.language.units import Dimension
 

@@ -1,16 +1,19 @@
-"""From YAML text to a frozen Mechanism: the reader's table of contents."""
+"""From YAML text to a frozen Mechanism and its Scene, without SymPy: the reader's table of contents."""
 
 from __future__ import annotations
 
 import hashlib
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from time import perf_counter
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
 from gudgeon.generator.format.sections import OUTPUT, SECTIONS
-from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
+from gudgeon.generator.mechanism import Mechanism, Quantity, Scene, make_scene
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
@@ -23,7 +26,7 @@ from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import read_parameters, settle
 from gudgeon.generator.reader.scenes import Parts, check_peaks, read_events, read_scenes
-from gudgeon.generator.yaml.tree import Map, kind_of, parse_yaml
+from gudgeon.generator.yaml import Map, kind_of, parse_yaml
 from gudgeon.language.names import check_name
 from gudgeon.language.tree import Number
 
@@ -122,3 +125,35 @@ def _read_outputs(reader: Reader, root: Map) -> dict[str, Quantity]:
         str(name): reader.quantity(text, f"outputs.{name}", OUTPUT.dimension, OUTPUT.varies)
         for name, text in root.part("outputs").pairs()
     }
+
+
+Overrides = Mapping[str, str | float | bool]
+Seconds = dict[str, float]
+
+
+def read_scene(
+    data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
+) -> Scene:
+    """One scene of a mechanism file."""
+    with stage("reading", seconds):
+        return make_scene(read_mechanism(data, file, overrides), scene)
+
+
+def touches(data: bytes, file: str, scene: str, overrides: Overrides) -> bool:
+    """Whether overrides change anything that a scene is derived from. Raises InputError as read_scene does."""
+    with_them, without = (read_scene(data, file, scene, own) for own in (overrides, None))
+    return _alone(with_them) != _alone(without)
+
+
+def _alone(scene: Scene) -> Scene:
+    """Without the mechanism's other scenes."""
+    return replace(scene, mechanism=replace(scene.mechanism, scenes={}))
+
+
+@contextmanager
+def stage(name: str, seconds: Seconds | None) -> Iterator[None]:
+    """A stage of the compiler, which notes how long it took where somebody wants to know."""
+    begun = perf_counter()
+    yield
+    if seconds is not None:
+        seconds[name] = perf_counter() - begun

@@ -6,12 +6,12 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.field import OF_CAM_ANGLE
-from gudgeon.generator.kinds.drives import DRIVES
+from gudgeon.generator.format.sections import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND
+from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reader.places import Places
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Name
 from gudgeon.language.units import (

@@ -13,7 +13,7 @@ from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import called, laws
-from gudgeon.generator.mechanism.mechanism import (
+from gudgeon.generator.mechanism import (
     GROUND,
     Bearing,
     Contact,
@@ -25,13 +25,12 @@ from gudgeon.generator.mechanism.mechanism import (
     SceneSpec,
 )
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.extends import parents_first
+from gudgeon.generator.reader.contacts import check_guide, parents_first
 from gudgeon.generator.reader.fields import Around, read_fields
-from gudgeon.generator.reader.guides import check_guide
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.result_names import LATER, ResultNames
-from gudgeon.generator.yaml.tree import Map, Text, kind_of
+from gudgeon.generator.yaml import Map, Text, kind_of
 from gudgeon.language.parser import at
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Expr, Name, Number, names

@@ -11,12 +11,12 @@ from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.field import Kind
 from gudgeon.generator.format.sections import SHAPE, SIDES
 from gudgeon.generator.format.shapes import missing_key
-from gudgeon.generator.mechanism.mechanism import Quantity, Vector
+from gudgeon.generator.mechanism import Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, Values, kind_key, read_fields
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.places import CORNERS_OF_SIDES
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.parser import parse
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary

@@ -14,7 +14,7 @@ import re
 from collections.abc import Callable, Mapping
 
 from gudgeon.errors import ExpressionError, InputError, UnitError
-from gudgeon.generator.yaml.tree import Text
+from gudgeon.generator.yaml import Text
 from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension, names_over_units
 from gudgeon.language.parser import parse

@@ -23,10 +23,10 @@ from typing import TypeVar
 import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
-from gudgeon.generator.equations.friction import Friction
+from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.system import Given, Known, Motion, System
 from gudgeon.generator.reduction.frames import Frame
-from gudgeon.generator.sparsity.matching import Block, match_rows, triangular_blocks
+from gudgeon.generator.solvers.sparsity import Block, match_rows, triangular_blocks
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 

@@ -11,9 +11,22 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.reduction.affine import CONSTANT, Affine
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.symbols import Symbols
+
+Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
+CONSTANT = ""
+
+
+def substitute(affine: Affine, name: str, value: Affine) -> Affine:
+    """`affine` with the coordinate `name` replaced by what it is."""
+    if name not in affine:
+        return affine
+    out = {k: c for k, c in affine.items() if k != name}
+    for k, c in value.items():
+        out[k] = sp.expand(out.get(k, sp.Integer(0)) + affine[name] * c)
+    return {k: c for k, c in out.items() if c != 0}
+
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
 Pair = tuple[sp.Expr, sp.Expr]

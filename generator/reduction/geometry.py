@@ -15,11 +15,9 @@ import sympy as sp
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.mechanism.mechanism import GROUND, PointRef
-from gudgeon.generator.reduction.affine import CONSTANT, Affine
-from gudgeon.generator.reduction.frames import ONE, ZERO, Coordinate, Frame, Motions, Pair
-from gudgeon.generator.reduction.links import Link
-from gudgeon.generator.reduction.tree import Tree
+from gudgeon.generator.mechanism import GROUND, PointRef
+from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Frame, Motions, Pair
+from gudgeon.generator.reduction.tree import Link, Tree
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 import sympy as sp
 
-from gudgeon.generator.mechanism.mechanism import GROUND
+from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reduction.frames import ONE, ZERO, Frame, Pair
 from gudgeon.generator.reduction.geometry import Term, TreeGeometry
 

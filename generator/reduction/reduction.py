@@ -13,17 +13,14 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations.constraints import Constraints, Row
-from gudgeon.generator.equations.events import make_event
-from gudgeon.generator.equations.friction import make_friction
 from gudgeon.generator.equations.geometry import BodySymbols, PointFrame
-from gudgeon.generator.equations.loads import PointLoad, apply_element
-from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.loads import PointLoad, apply_element, make_friction
+from gudgeon.generator.equations.model import Model, make_event
 from gudgeon.generator.equations.play import make_clearances
 from gudgeon.generator.equations.system import Given, Motion, System
-from gudgeon.generator.mechanism.mechanism import PointRef
-from gudgeon.generator.reduction.affine import CONSTANT, Affine, substitute
+from gudgeon.generator.mechanism import PointRef
 from gudgeon.generator.reduction.driven_chains import Chain, determined, prescribe, with_directions
-from gudgeon.generator.reduction.frames import ONE, ZERO, Coordinate, Motions
+from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Motions, substitute
 from gudgeon.generator.reduction.geometry import TreeGeometry, TreePoint
 from gudgeon.generator.reduction.inertia import Inertia
 from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_a_row

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import Joint
+from gudgeon.generator.mechanism import Joint
 
 Point = tuple[str, str]  # body, point
 

@@ -4,12 +4,13 @@ Rows that are linear in angles with constant coefficients (a weld, a slide, gear
 by others. What is left of the joints is a graph of bodies; along a spanning tree of it each body is placed by its
 parent, and only the joints that are not in the tree stay as loop closures (R. Featherstone, Rigid Body Dynamics
 Algorithms, 2008, chapters 4 and 8). Angles are absolute: in the plane the position of a point is then a sum of
-arms, each of which turns with one angle.
+arms, each of which turns with one angle. What a tree would cost is estimated as operations
+of its right-hand side, before anything is derived on it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -17,11 +18,143 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND, Joint
-from gudgeon.generator.reduction.affine import CONSTANT, Affine, substitute
-from gudgeon.generator.reduction.links import Link, path
+from gudgeon.generator.mechanism import GROUND, Joint
+from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute
 from gudgeon.generator.reduction.shared_points import Hub, find_hubs
-from gudgeon.generator.reduction.tree_cost import Estimate
+from gudgeon.generator.solvers.sparsity import choose_elimination
+
+
+@dataclass(frozen=True)
+class Link:
+    """A body with the one that places it: `joint` None is a body that moves freely (two slides of its own)."""
+
+    body: str
+    parent: str
+    joint: Joint | None = None
+
+    @property
+    def slides(self) -> bool:
+        """Whether the body is carried along an axis."""
+        return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the slides that the link brings."""
+        if self.joint is None:
+            return f"{self.body}.x", f"{self.body}.y"
+        return (f"{self.joint.name}.slide",) if self.slides else ()
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """Rows of Φ that hold by themselves."""
+        if self.joint is None:
+            return ()
+        return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
+
+
+def path(links: Iterable[Link], body: str) -> list[Link]:
+    """The links from the root to a body."""
+    by_body = {link.body: link for link in links}
+    found: list[Link] = []
+    while body != GROUND:
+        found.append(by_body[body])
+        body = by_body[body].parent
+    return found[::-1]
+
+
+# operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
+PAIR, ENTRY, PRODUCT = 14, 4, 2
+LIGHT_END = 10**6  # a body at the end of a chain whose mass is lumped at the joint that carries it
+PLAIN = 5  # an entry of M with x or y of a body that moves freely
+
+
+def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
+    """Who meets whom in M; x and y of a body that moves freely do not."""
+    near: list[set[int]] = [set() for _ in place]
+    for keys in moving:
+        numbers = {place[name] for name in keys}
+        for k in numbers:
+            near[k] |= numbers - {k} - (plain if k in plain else set())
+    return near
+
+
+class Estimate:
+    """Operations of a tree's right-hand side, counted from which coordinates meet where."""
+
+    def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
+        self.model, self.hubs = model, hubs
+        self._light: dict[tuple[str, str], bool] = {}  # by body and joint
+        self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
+        body_of = {q: body.name for body in model.bodies for q in body.q}
+        self.angles = angles
+        self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
+        said = used.union(*(hub.rows for hub in hubs))
+        self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
+
+    def __call__(self, links: tuple[Link, ...]) -> int:
+        key = frozenset((link.body, link.joint.name if link.joint else "") for link in links)
+        if key not in self.costs:
+            self.costs[key] = self._count(links)
+        return self.costs[key]
+
+    def _count(self, links: tuple[Link, ...]) -> int:
+        held = {row for link in links for row in link.rows}
+        paths: dict[str, list[Link]] = {}
+        reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
+        moving: list[frozenset[str]] = []  # what a centre of mass moves with
+        for link in links:
+            paths[link.body] = [*paths.get(link.parent, []), link]
+            reach[link.body] = reach[link.parent] | self.turns[link.body] | set(link.coordinates)
+            moving.append(frozenset(link.coordinates) if link.joint is None else reach[link.body])
+        place = {name: k for k, name in enumerate(sorted(frozenset().union(*reach.values())))}
+        plain = {place[name] for link in links if link.joint is None for name in link.coordinates}
+        near = _coupled(place, moving, plain)
+        cost = sum(PLAIN if k in plain or j in plain else PAIR for k, js in enumerate(near) for j in js if j < k)
+        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.closing(links)]
+        for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
+            if name not in held:
+                keys = {place[key] for key in self._moving(paths, bodies)}
+                cost += sum(1 if key in plain else ENTRY for key in keys)
+                near.append(keys)
+                for key in keys:
+                    near[key] = near[key] | {len(near) - 1}
+        cost += LIGHT_END * len(self._light_ends(links))
+        return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
+
+    def _light_ends(self, links: tuple[Link, ...]) -> list[Link]:
+        """Links whose body carries no other and has hardly any inertia about its joint, or its own centre."""
+        carry = {link.parent for link in links}
+        ends = [link for link in links if link.body not in carry and set(self.angles[link.body]) == {link.body}]
+        return [link for link in ends if not link.slides and self._is_light(link)]
+
+    def _is_light(self, link: Link) -> bool:
+        key = link.body, link.joint.name if link.joint else ""
+        if key not in self._light:
+            self._light[key] = self.model.is_light(link.body, link.joint)
+        return self._light[key]
+
+    def closing(self, links: tuple[Link, ...]) -> list[Joint]:
+        """Pairs that the hubs need beside the tree's."""
+        paths: dict[str, list[Link]] = {}
+        for link in links:
+            paths[link.body] = [*paths.get(link.parent, []), link]
+
+        def cost(joint: Joint) -> int:
+            return len(self._moving(paths, [joint.first.body, joint.second.body]))
+
+        inside = [link.joint for link in links if link.joint]
+        return [joint for hub in self.hubs for joint in hub.closing(inside, cost)]
+
+    def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
+        """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
+        shared = 0
+        if len(bodies) == 2:
+            one, two = (paths.get(b, []) for b in bodies)
+            parted = (k for k, (a, b) in enumerate(zip(one, two, strict=False)) if a is not b)
+            shared = max(next(parted, min(len(one), len(two))) - 1, 0)
+        links = [link for b in bodies for link in paths.get(b, [])[shared:]]
+        return {key for link in links for key in (*self.turns[link.body], *link.coordinates)}
+
 
 DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
 SEARCHED = 24  # more coordinates than that: the tree is not improved by exchanges

@@ -1,6 +1,6 @@
 """The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r] as straight-line statements.
 
-Its symbolic L D Lᵀ (generator/sparsity/elimination.py) becomes one named temporary an entry; entries that
+Its symbolic L D Lᵀ (generator/solvers/sparsity.py) becomes one named temporary an entry; entries that
 are a number or a single symbol are written in place. The pivots of coordinates are masses, or what
 elimination leaves of them; the pivot of a row is compared with what it would be if the row were
 independent of the others. In absolute coordinates most rows give a coordinate by others and go with it
@@ -30,7 +30,7 @@ from gudgeon.generator.solvers.pivots import (
     pivot_guard,
     row_pairs,
 )
-from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
+from gudgeon.generator.solvers.sparsity import Elimination, choose_elimination
 
 Entries = dict[tuple[int, int], sp.Expr]
 FACTORS = "L D L^T of the KKT matrix"  # title of a section

@@ -21,8 +21,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.generator.equations.friction import Friction
-from gudgeon.generator.equations.loads import PointLoad
+from gudgeon.generator.equations.loads import Friction, PointLoad
 from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System

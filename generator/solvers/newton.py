@@ -17,6 +17,10 @@ chosen on its symmetric pattern, inner states first, a row only after the coordi
 gives by others (dependent_coordinates.py) is the unknown of that row, and its multiplier that of the coordinate's
 equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
 Springer (1996), IV.8 and VII.
+
+L U of Newton's matrix as statements, pivot by pivot.
+
+An unknown is found by its own equation or, where a row gives a coordinate, one of the two by the other's.
 """
 
 from __future__ import annotations
@@ -31,15 +35,15 @@ from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Section, with_sides
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Pool, Section, with_sides
 from gudgeon.generator.ir.signatures import ASIDE, MEMORY, PARAMETERS, STATE, Access, Argument, Number, result, source
-from gudgeon.generator.ir.statements import Call, Declare, Return, RunNumbers, Statement
-from gudgeon.generator.ir.stored_values import Pool
-from gudgeon.generator.solvers.dependent_coordinates import FirstPivots
-from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
+from gudgeon.generator.ir.statements import Call, Declare, Guard, Return, RunNumbers, Statement
+from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.solvers.linearization import Linearization, Pair, Parts
-from gudgeon.generator.solvers.pivots import is_simple
-from gudgeon.generator.sparsity.elimination import choose_elimination
+from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
+from gudgeon.generator.solvers.sparsity import choose_elimination
+from gudgeon.generator.symbols.corners import Size
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 ZERO = sp.Integer(0)
@@ -280,3 +284,63 @@ def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
     """Its matrix at complex η, factorized and solved where s is 0."""
     arrays = ("eta", "r", "u", "x", newton.lin["lu"])
     return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))
+
+
+ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
+
+
+class Factors:
+    """L, U and inverse pivots as they come, column by column."""
+
+    def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
+        self.newton, self.build, self.entries = newton, build, entries
+        self.lower: dict[Pair, sp.Expr] = {}  # (later equation, earlier unknown)
+        self.upper: dict[Pair, sp.Expr] = {}  # (earlier unknown, later unknown)
+        self.inverse: dict[int, sp.Expr] = {}
+        self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
+
+    def eliminate(self, k: int, later: Sequence[int]) -> None:
+        """Pivot k, its column of L and its row of U."""
+        self.inverse[k] = self._pivot(k)
+        names, equation = self.newton.names, self.newton.equation.get(k, k)
+        for i in later:
+            other = k if i == equation else i  # the unknown's own equation stays for the multiplier
+            column = self.entries.get((other, k), ZERO) - self._products(other, k)
+            row = self.entries.get((equation, i), ZERO) - self._products(equation, i)
+            self.lower[other, k] = self._kept(f"l_{names[other]}__{names[k]}", column * self.inverse[k])
+            self.upper[k, i] = self._kept(f"u_{names[k]}__{names[i]}", row)
+        for i in later:
+            self._before[k if i == equation else i].append(k)
+
+    def _products(self, i: int, k: int, of: Sequence[int] | None = None) -> sp.Expr:
+        """What the pivots before, or some of them, take from the entry of equation i in the unknown k."""
+        before = self._before[i] if of is None else of
+        return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in before if (j, k) in self.upper))
+
+    def _pivot(self, k: int) -> sp.Expr:
+        """1/pivot; what is left of a row is compared with what it would be if it were independent of the others."""
+        newton, build, name = self.newton, self.build, self.newton.names[k]
+        own = self.entries.get((newton.equation.get(k, k), k), ZERO)
+        if k in newton.equation:
+            return own if is_unit(own) else newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", 1 / own))
+        if own.is_Number and own == 1:  # an inner state that this joint does not have
+            return own
+        if not self._before[k] and own in newton.model.masses:
+            return newton.model.slots.derive(f"inverse_{own}", 1 / own, "1/M")
+        states = newton.first_state
+        first = [j for j in self._before[k]
+                 if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states]  # fmt: skip
+        others = [j for j in self._before[k] if j not in first]
+        scale = build.local(f"scale_{name}", own - self._products(k, k, first))
+        pivot = build.local(f"pivot_{name}", scale - self._products(k, k, others)) if others else scale
+        size = own if k < newton.n or k >= states else scale
+        stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
+        sticks = Test(stick, "!=", (0.0,)) if stick is not None else None
+        build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=sticks))
+        # a row that slips is switched off: its multiplier is zero
+        value = 1 / pivot if sticks is None else Chosen(sticks, 1 / pivot, ZERO)
+        return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
+
+    def _kept(self, name: str, value: sp.Expr) -> sp.Expr:
+        own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
+        return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))

@@ -21,7 +21,7 @@ from gudgeon.generator.ir.signatures import Number
 from gudgeon.generator.ir.statements import Call, Declare, Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
-from gudgeon.generator.sparsity.matching import Block, triangular_blocks
+from gudgeon.generator.solvers.sparsity import Block, triangular_blocks
 from gudgeon.generator.symbols.corners import Size
 from gudgeon.generator.symbols.storage import Place
 

@@ -22,7 +22,7 @@ from gudgeon.generator.study.spec import (
     Spread,
     Starts,
 )
-from gudgeon.generator.yaml.tree import Items, Map, Text
+from gudgeon.generator.yaml import Items, Map, Text
 
 _VALUES = "a number, a list of numbers, or {from: …, to: …, count: …}"
 _RANGE = ("from", "to", "count", "spacing")

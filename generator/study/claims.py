@@ -8,7 +8,8 @@ from typing import Any
 from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.study.claim_spec import (
+from gudgeon.generator.study.parts import check_keys, label, line, mapping, place_of, text, texts, whole
+from gudgeon.generator.study.spec import (
     ALONG,
     BETWEEN,
     COUNTED,
@@ -21,8 +22,7 @@ from gudgeon.generator.study.claim_spec import (
     TrendClaim,
     Trial,
 )
-from gudgeon.generator.study.parts import check_keys, label, line, mapping, place_of, text, texts, whole
-from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.shown import counted
 from gudgeon.language.suggestions import unknown_name
 

@@ -1,19 +1,19 @@
-"""What the parts of a study file share: mappings with known keys, words, counts, seeds, expressions."""
+"""What the parts of a study file share, mappings, words, counts, seeds, expressions; its titles and its wear."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from gudgeon.errors import BadNameError, BadValueError
+from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.study.spec import RESERVED, Written
-from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.generator.study.spec import RESERVED, WEAR_LAWS, StudyFile, WearRounds, Written
+from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.names import LABEL, check_not_null
 from gudgeon.language.parser import parse
-from gudgeon.language.suggestions import known_hint, nearest
+from gudgeon.language.suggestions import known_hint, nearest, unknown_name
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
 MOST_TEXT = 1000  # characters of words for people
@@ -118,3 +118,75 @@ def written(node: Any, owner: str, where: Any) -> Written:
     """An expression, as yet without dimension. Raises InputError at its column."""
     found = text(node, owner, where, "an expression: 2*pi/omega")
     return Written(parse(found, found.where), found)
+
+
+MOST = 80  # characters
+
+
+def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]) -> dict[str, str]:
+    """{name: title} of what the file's parts have; an error is collected for a name that none has."""
+    found: dict[str, str] = {}
+    with reader.collect():
+        node = mapping(root["titles"], "titles", root.key("titles")) if "titles" in root else root.part("titles")
+        known = list(dict.fromkeys(name for key, part in parts.items() if part for name in (key, *_names(part))))
+        for name, below in node.pairs():
+            with reader.collect():
+                if name not in known and None not in parts.values():
+                    raise unknown_name("name", name, known, name.where)
+                told = text(below, f"titles.{name}", name, "a line")
+                if len(told) > MOST or not told.isprintable():
+                    hint = f"expected one line of at most {MOST} characters that can be seen"
+                    raise BadValueError(f"titles.{name} has {len(told)} characters", told.where, hint)
+                found[str(name)] = str(told)
+    return found
+
+
+def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
+    """Paragraphs: a text, or a list of them."""
+    with reader.collect():
+        if "about" not in root:
+            return ()
+        found = root["about"]
+        every = list(found) if isinstance(found, Items) and found else [found]
+        return tuple(words(one, "about", root.key("about")) for one in every)
+    return ()
+
+
+def _names(part: StudyFile) -> Iterator[str]:
+    """Scenes, measures, series, ensembles, choices and what varies, with its words."""
+    yield from map(str, (*part.scenes, *part.keep, *part.fixed))
+    yield from (one.name for one in part.measures)
+    yield from ("ensemble", "start", *part.starts.ensembles) if part.starts else ()
+    yield from map(str, part.draw.numbers if part.draw else ())
+    for choice in part.choices:
+        yield from (choice.name, *choice.options)
+    for axis in (*part.axes, *part.left_out):
+        yield axis.name
+        for name, numbers in axis.columns.items():
+            yield from map(str, (name, *numbers.texts))
+
+
+KEYS = ("joints", "rounds", "k", "hardness", "scale", "law")
+MOST_ROUNDS = 1000
+
+
+def read_wear(reader: Reader, root: Map) -> WearRounds | None:
+    """None where nothing wears."""
+    if "wear" not in root:
+        return None
+    with reader.collect():
+        node = mapping(root["wear"], "wear", root.key("wear"))
+        if not check_keys(reader, node, KEYS, "wear", KEYS[:3]):
+            return None
+        joints = texts(node["joints"], "wear.joints", node.key("joints"), "names of joints")
+        rounds = whole(node["rounds"], "wear.rounds", node.key("rounds"), 1, MOST_ROUNDS)
+        law = word(node["law"], "wear.law", node.key("law"), WEAR_LAWS) if "law" in node else WEAR_LAWS[0]
+        k, hardness, scale = (_number(node, name) for name in ("k", "hardness", "scale"))
+        if k is None:
+            raise MissingKeyError("wear has no k", node.where, "expected k: 1e-4, and hardness: 1 GPa")
+        return WearRounds(joints, rounds, k, hardness, scale, law)
+    return None
+
+
+def _number(node: Map, name: str) -> Text | None:
+    return text(node[name], f"wear.{name}", node.key(name), "a number") if name in node else None

@@ -8,11 +8,11 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
-from gudgeon.generator.study.claim_spec import COUNTED
 from gudgeon.generator.study.claims import TOLD, TRIAL
-from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED, MOST_TEXT
+from gudgeon.generator.study.parts import MOST, MOST_COUNT, MOST_ROUNDS, MOST_SEED, MOST_TEXT
 from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
 from gudgeon.generator.study.spec import (
+    COUNTED,
     DEVIATIONS,
     DRAWN,
     FORMAT,
@@ -23,8 +23,6 @@ from gudgeon.generator.study.spec import (
     UNIFORM,
     WEAR_LAWS,
 )
-from gudgeon.generator.study.titles import MOST
-from gudgeon.generator.study.wear import MOST_ROUNDS
 from gudgeon.language.names import LABEL
 
 Json = dict[str, Any]

@@ -1,23 +1,30 @@
-"""Expression trees of a mechanism file as SymPy expressions, function by function."""
+"""Expression trees of a mechanism file as SymPy expressions, function by function (gudgeon.language.functions)."""
 
 from __future__ import annotations
 
 import operator as operator_of
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from gudgeon.errors import BadValueError, Location
-from gudgeon.generator.mechanism.mechanism import Quantity
-from gudgeon.generator.symbols.corners import Pick
+from gudgeon.generator.mechanism import Quantity
+from gudgeon.generator.symbols.corners import ModOf, Pick
 from gudgeon.generator.symbols.curves import curve_of
-from gudgeon.generator.symbols.functions import CLASSES
-from gudgeon.generator.symbols.periods import ModOf
 from gudgeon.generator.symbols.squares import DEGREE, decimal, root
 from gudgeon.generator.symbols.wholes import kept
+from gudgeon.language.functions import IN_SYMPY, Function
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
+
+CLASSES: Mapping[Any, Function] = {getattr(sp, name): function for name, function in IN_SYMPY.items()}
+
+
+def classes_where(has: Callable[[Function], bool]) -> tuple[Any, ...]:
+    """Return SymPy's classes of the functions for which `has` holds."""
+    return tuple(kind for kind, function in CLASSES.items() if has(function))
 
 
 def smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:

@@ -12,11 +12,9 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from gudgeon.generator.mechanism.mechanism import Quantity
-from gudgeon.generator.mechanism.scene import Scene
-from gudgeon.generator.symbols.freezable import Freezable
+from gudgeon.generator.mechanism import Quantity, Scene
 from gudgeon.generator.symbols.from_expressions import to_sympy
-from gudgeon.generator.symbols.storage import PARAMETERS, Place
+from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Place
 from gudgeon.generator.symbols.symbols import OWN_FIELD, Symbols
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension

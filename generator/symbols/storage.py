@@ -1,9 +1,14 @@
-"""Where numbers are stored: fields of structs, elements of arrays, arguments. Each target writes them in its syntax."""
+"""Where numbers are stored: fields of structs, elements of arrays, arguments. Each target writes them in its syntax.
+
+Tables of a model or a program grow while it is derived, and are read only afterwards (`Freezable`).
+"""
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeAlias
+from types import MappingProxyType
+from typing import Any, ClassVar, Self, TypeAlias
 
 import sympy as sp
 
@@ -75,3 +80,31 @@ Key: TypeAlias = str | Place  # what a value is known by: the name of a local or
 def key_of(symbol: sp.Symbol) -> Key:
     """Return the place of a symbol that is read there, else its name."""
     return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
+
+
+_READ_ONLY: dict[type, Any] = {dict: MappingProxyType, list: tuple, set: frozenset}
+_GROWING: dict[type, Any] = {MappingProxyType: dict, tuple: list, frozenset: set, dict: dict, list: list, set: set}
+
+
+class Freezable:
+    """An object with dictionaries, lists and sets: `freeze` makes them read only, a `thawed` copy has its own."""
+
+    frozen = False
+
+    def freeze(self) -> None:
+        """Make every table of this object read only. There is no way back."""
+        self.frozen = True
+        _replace_tables(self, _READ_ONLY)
+
+    def thawed(self) -> Self:
+        """Return a copy with tables of its own, which may grow."""
+        other = copy.copy(self)
+        other.frozen = False
+        _replace_tables(other, _GROWING)
+        return other
+
+
+def _replace_tables(of: Freezable, types: dict[type, Any]) -> None:
+    for name, value in vars(of).items():
+        if type(value) in types:
+            setattr(of, name, types[type(value)](value))

@@ -6,8 +6,7 @@ that Φ_q and γ come out in the words of the geometry and need no search for co
 
 Names of two kinds meet in emitted code: those that are made here, of what a file calls its things, and fixed ones
 (arguments, the laws' letters, the engine, C). They are different by construction: a name that is made here ends in
-`_`, has no `__` in it, and no fixed name ends so.
-"""
+`_`, has no `__` in it, and no fixed name ends so."""
 
 from __future__ import annotations
 
@@ -19,8 +18,7 @@ import sympy as sp
 
 from gudgeon.generator.symbols.corners import Switches
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
-from gudgeon.generator.symbols.freezable import Freezable
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol
 
 OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
 

@@ -14,7 +14,7 @@ from sympy.core.exprtools import decompose_power
 from sympy.core.function import AppliedUndef
 from sympy.printing.precedence import PRECEDENCE, precedence
 
-from gudgeon.generator.symbols.functions import CLASSES
+from gudgeon.generator.symbols.from_expressions import CLASSES
 
 Method = Callable[..., str]
 

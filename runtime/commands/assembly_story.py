@@ -22,7 +22,7 @@ from gudgeon.language.tree import Number
 from gudgeon.model.seams import seams
 
 if TYPE_CHECKING:
-    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.mechanism import Mechanism
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
     from gudgeon.model.compiled import Array
 

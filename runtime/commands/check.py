@@ -26,7 +26,7 @@ from gudgeon.model.contours import in_contours
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.mechanism import Mechanism
 
 WIDTH = 100  # columns of what is printed
 HANGING = 14  # columns that what follows is set in by, at most

@@ -18,7 +18,7 @@ from gudgeon.loading.find import find_mechanism, generator_hash, read_bytes
 from gudgeon.model.parameters import TOGETHER, addresses, as_parameter, check, given_slots, value
 
 if TYPE_CHECKING:
-    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.mechanism import Mechanism
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 
 SCENES = "scenes.json"

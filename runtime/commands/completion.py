@@ -30,7 +30,7 @@ def files(incomplete: str) -> list[str]:
 
 def scenes(context: typer.Context, incomplete: str) -> list[str]:
     """Of the mechanism that stands before; none where it cannot be read."""
-    from gudgeon.generator.yaml.tree import parse_yaml
+    from gudgeon.generator.yaml import parse_yaml
     from gudgeon.loading.shipped import shipped, shipped_file
 
     found = {"ideal"}

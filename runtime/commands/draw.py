@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure
     from gudgeon.drawing.posture import Posture
     from gudgeon.drawing.shapes import Sketch
-    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.mechanism import Mechanism
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
     from gudgeon.model.compiled import Array
 

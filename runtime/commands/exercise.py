@@ -48,7 +48,7 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
     file = find_mechanism(mechanism)
     data = read_bytes(file)
     simulation = load(mechanism, scene)
-    from gudgeon.generator.reading import read_scene
+    from gudgeon.generator.reader.read import read_scene
     from gudgeon.teaching.sheet import make_sheets, make_subject, units_of
 
     with working(f"running {file.stem}, scene {scene}, with other numbers"):
@@ -91,7 +91,7 @@ def _tex_slots(drawn: Drawn) -> dict[str, str]:
     if (sketch := _sketch(drawn)) is None:
         return {}
     from gudgeon.drawing.tikz import tikz_of
-    from gudgeon.generator.targets.latex.tex_text import tex
+    from gudgeon.generator.targets.latex.render import tex
 
     return {"drawing": tikz_of(sketch, tex), "caption": f"at {drawn.t:g} s"}
 

@@ -70,7 +70,7 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    from gudgeon.generator.kinds.laws.alone import alone
+    from gudgeon.generator.kinds.laws.built import alone
 
     function = alone(law, chosen.numbers, chosen.options, STEEL)
     with rc_context(plots.STYLE), np.errstate(all="ignore"):
@@ -183,7 +183,7 @@ def _line(ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str,
 
 def _normal(ax: Axes, law: Function, chosen: Chosen) -> None:
     """The force while the surfaces approach, rest and part."""
-    from gudgeon.generator.kinds.laws.alone import reads_besides
+    from gudgeon.generator.kinds.laws.built import reads_besides
 
     delta = np.linspace(0.0, DEEPEST * STEEL["c"], POINTS)
     further = [SPEED] * reads_besides(chosen.law)

@@ -142,7 +142,7 @@ def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
 def _touches(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
     """Whether overrides change what the scene is derived from: another scene's law, say, does not."""
     whole(*READER)
-    from gudgeon.generator.reading import touches
+    from gudgeon.generator.reader.read import touches
 
     return touches(data, str(file), scene, overrides)
 
@@ -171,7 +171,7 @@ def derived(
     """
     with working(f"deriving {file.stem}, scene {scene}"), at_rest():  # nearly all that SymPy makes stays in its caches
         whole(*READER)
-        from gudgeon.generator.reading import read_scene
+        from gudgeon.generator.reader.read import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
         if ahead and formulation == FORMULATIONS[0]:  # a copy of a shipped file mostly has its numbers alone changed

@@ -114,8 +114,7 @@ def _by_law(law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
     """The law's (…, 2) F_r and F_t (N) as a function of ε, w_n and w_t (1/s)."""
-    from gudgeon.generator.kinds.laws.alone import alone
-    from gudgeon.generator.kinds.laws.built import PAIR
+    from gudgeon.generator.kinds.laws.built import PAIR, alone
     from gudgeon.generator.kinds.laws.law import called
 
     known, name = called("film"), text(name, "law")

@@ -10,8 +10,8 @@ import sympy as sp
 
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.document import Block, cells, paragraph, table
+from gudgeon.generator.targets.latex.kinematics import gamma_of
 from gudgeon.generator.targets.latex.letters import Name, letter
-from gudgeon.generator.targets.latex.rates import gamma_of
 from gudgeon.teaching.abbreviations import abbreviations, letters_of
 from gudgeon.teaching.motion_questions import acceleration, force, indexed, position
 from gudgeon.teaching.sheet import LONGEST, Question, Subject

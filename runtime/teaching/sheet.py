@@ -25,7 +25,7 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.mechanism import driven_value, field_rows, part_sections, place
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
-from gudgeon.generator.targets.latex.sketches import sketch_of
+from gudgeon.generator.targets.latex.theory import sketch_of
 from gudgeon.generator.targets.latex.values import Values, unit_of
 from gudgeon.generator.targets.latex.write import with_letters, with_paper
 from gudgeon.language.shown import one_line
@@ -35,8 +35,7 @@ from gudgeon.teaching.draw_numbers import NOISE
 if TYPE_CHECKING:
     from gudgeon.generator.equations.constraints import Row
     from gudgeon.generator.equations.model import Model
-    from gudgeon.generator.mechanism.mechanism import Drive
-    from gudgeon.generator.mechanism.scene import Scene
+    from gudgeon.generator.mechanism import Drive, Scene
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.teaching.draw_numbers import Drawn
 

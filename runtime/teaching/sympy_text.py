@@ -12,7 +12,7 @@ from sympy.printing.str import StrPrinter
 
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.far_quotients import for_readers
+from gudgeon.generator.ir.finite_slopes import for_readers
 from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.printers import share_of_pi
 from gudgeon.language.functions import IN_SYMPY

@@ -13,7 +13,7 @@ from importlib import import_module
 from gudgeon.waiting.collector import at_rest
 
 RUNTIME = ("numpy", "gudgeon.simulation.simulation")
-READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reading")
+READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reader.read")
 GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
 CFFI = ("cffi", "pycparser", "cffi.cparser")
 LOOK = 0.05  # s, after which a signal is looked for

@@ -90,7 +90,7 @@ class _Units:
     """Units as the file writes them; of what it does not write those that it has for the like, or as figures have."""
 
     def __init__(self, simulation: Simulation) -> None:
-        from gudgeon.generator.yaml.tree import parse_yaml
+        from gudgeon.generator.yaml import parse_yaml
 
         try:
             tree: Any = parse_yaml(simulation.file.read_bytes(), str(simulation.file))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.sparsity.matching import Block, triangular_blocks
+from gudgeon.generator.solvers.sparsity import Block, triangular_blocks
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import ideal_press
 from tests.programs import needs_compiler

@@ -9,8 +9,8 @@ import sympy as sp
 from gudgeon.generator.ir import sine_pairs
 from gudgeon.generator.ir import split as parts
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.order import nearby
 from gudgeon.generator.ir.signatures import Number, result, source
+from gudgeon.generator.ir.split import nearby
 from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol

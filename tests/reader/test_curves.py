@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gudgeon.errors import InputError
-from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.mechanism import Mechanism
 from gudgeon.generator.reader.read import read_mechanism
 
 TEXT = """format: gudgeon/1

@@ -21,7 +21,7 @@ from gudgeon.generator.format.sections import CONTACT, FILE, SIMULATE
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws import law
-from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.mechanism import Mechanism
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.format_tables import tables

@@ -16,7 +16,7 @@ from gudgeon.errors import (
     UnknownNameError,
 )
 from gudgeon.generator.format.sections import FILE
-from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.mechanism import Mechanism
 from gudgeon.generator.reader.materials import EXAMPLE
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.units import INERTIA

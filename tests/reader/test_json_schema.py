@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 from ruamel.yaml import YAML
 
-from gudgeon.generator.kinds.drives import DRIVES
+from gudgeon.generator.format.sections import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import laws
 from gudgeon.generator.targets.json_schema import schema
-from gudgeon.generator.yaml.tree import Items, Map, Text, parse_yaml
+from gudgeon.generator.yaml import Items, Map, Text, parse_yaml
 from tests.mechanisms.invalid import MISTAKES
 
 jsonschema = pytest.importorskip("jsonschema")

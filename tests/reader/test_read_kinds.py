@@ -19,10 +19,10 @@ from gudgeon.errors import (
     UnknownKeyError,
     UnknownNameError,
 )
-from gudgeon.generator.kinds.drives import DRIVES
+from gudgeon.generator.format.sections import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import Mechanism, PointRef, Quantity
+from gudgeon.generator.mechanism import Mechanism, PointRef, Quantity
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.reader.parameters import parameter_values
 from gudgeon.generator.reader.read import read_mechanism

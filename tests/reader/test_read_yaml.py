@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, UnknownNameError
-from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
-from gudgeon.generator.mechanism.scene import make_scene
+from gudgeon.generator.mechanism import Mechanism, Quantity, make_scene
 from gudgeon.generator.reader.parameters import parameter_values
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Number, evaluate

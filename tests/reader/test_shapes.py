@@ -9,7 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError, InputError, MissingKeyError, UnknownNameError
-from gudgeon.generator.mechanism.mechanism import Body
+from gudgeon.generator.mechanism import Body
 from gudgeon.generator.reader.read import read_mechanism
 
 FILE = """format: gudgeon/1

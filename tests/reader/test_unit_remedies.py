@@ -8,7 +8,7 @@ import re
 import pytest
 
 from gudgeon.errors import InputError, InputErrors
-from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.mechanism import Mechanism
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import evaluate
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import InputError, LimitError, Location, NotYamlError
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.yaml.tree import MAX_BYTES, MAX_NODES, MAX_TAG, MOST_TWICE, Map, Text, parse_yaml
+from gudgeon.generator.yaml import MAX_BYTES, MAX_NODES, MAX_TAG, MOST_TWICE, Map, Text, parse_yaml
 
 
 def test_places_count_characters() -> None:

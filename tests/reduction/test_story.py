@@ -11,8 +11,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.ledger_words import outcome
 from gudgeon.generator.pipeline import derive, in_c
-from gudgeon.generator.reduction.tree import choose_tree
-from gudgeon.generator.reduction.tree_cost import Estimate
+from gudgeon.generator.reduction.tree import Estimate, choose_tree
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.generator.reading import read_scene
+from gudgeon.generator.reader.read import read_scene
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler

@@ -21,8 +21,8 @@ from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets import breaks
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.fields import unit_text
-from gudgeon.generator.targets.c.layout import WIDTH, broken, within
+from gudgeon.generator.targets.c.model_header import unit_text
+from gudgeon.generator.targets.c.printer import WIDTH, broken, within
 from gudgeon.language import units
 from gudgeon.loading.shipped import committed
 from tests.slow import slow_but

@@ -21,7 +21,7 @@ from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text, pictures, plots
 from gudgeon.generator.targets.latex.letters import letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.tex_text import _MATH, _SPECIAL, sketch_line, tex
+from gudgeon.generator.targets.latex.render import _MATH, _SPECIAL, sketch_line, tex
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import sections, width
 from tests.targets_latex.test_equations import EVERY, SLIDER, WITH_ROWS, model_of

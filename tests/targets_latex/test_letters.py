@@ -10,7 +10,7 @@ import pytest
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
-from gudgeon.generator.targets.latex.sketches import letters_of
+from gudgeon.generator.targets.latex.theory import letters_of
 from gudgeon.teaching.notebook import notebook
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import NAME, rows, sections

@@ -16,7 +16,7 @@ from gudgeon.generator.kernels.closed_linkage import row_kernels
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.write import equations_text
-from gudgeon.generator.targets.numpy import layout, printer
+from gudgeon.generator.targets.numpy import printer
 from gudgeon.loading.shipped import generated, shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.linkage_yaml import to_yaml
@@ -190,15 +190,15 @@ def test_names_of_thresholds_and_pi() -> None:
 def test_long_lines_are_broken_within_brackets() -> None:
     value = " + ".join(f"a{k}*b{k}" for k in range(40))
     numbers = {f"{x}{k}": k + 1 for k in range(40) for x in "ab"}
-    call = layout.assigned("y", f"max({value}, {value})", is_call=True)
-    for lines in (layout.assigned("y", value), call, layout.assigned("y", value, "what it is")):
+    call = printer.assigned("y", f"max({value}, {value})", is_call=True)
+    for lines in (printer.assigned("y", value), call, printer.assigned("y", value, "what it is")):
         text = "\n".join(lines)
-        assert max(map(len, lines)) <= layout.WIDTH - 12
+        assert max(map(len, lines)) <= printer.WIDTH - 12
         found = dict(numbers)
         exec(text, {"max": max}, found)
         assert found["y"] == sum((k + 1) ** 2 for k in range(40))
-    assert layout.assigned("y", "1", "what it is") == ["y = 1  # what it is"]
-    assert layout.docstring(['a "b" \\ c\nd']) == ['\"\"\"a \'b\' / c d\"\"\"']
+    assert printer.assigned("y", "1", "what it is") == ["y = 1  # what it is"]
+    assert printer.docstring(['a "b" \\ c\nd']) == ['\"\"\"a \'b\' / c d\"\"\"']
 
 
 def test_the_equations_can_still_be_read() -> None:

@@ -12,7 +12,7 @@ from functools import cache
 from typing import Any
 
 from gudgeon.generator.field import Field
-from gudgeon.generator.kinds.discovery import declared
+from gudgeon.generator.kinds import declared
 from gudgeon.language.units import Dimension
 
 

@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any
 
 from gudgeon.generator.field import BODY, Field
-from gudgeon.generator.kinds.discovery import declared
+from gudgeon.generator.kinds import declared
 
 # Of a slider with play: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or the right.
 CORNERS: Mapping[str, tuple[int, int]] = {

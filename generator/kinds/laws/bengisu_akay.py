@@ -13,7 +13,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.slip import MU, MU_S, both_ways, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, both_ways, friction, slip_of
 from gudgeon.language.units import VELOCITY
 
 

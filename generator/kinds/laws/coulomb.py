@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.slip import MU, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, friction, slip_of
 
 
 def build(s: LawInputs) -> dict[str, Any]:

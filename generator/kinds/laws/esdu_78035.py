@@ -2,7 +2,7 @@
 
     δ = F/(π L E*) [ln(4 π L E* ΔR/F) + 1],   F_n = F (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j
 
-never negative unless it `pulls`, solved for F (cylinders.py). ΔR = R_i − R_j = c.
+never negative unless it `pulls`, solved for F (elastic_pair.py). ΔR = R_i − R_j = c.
 ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded unlubricated elastic
 components (1978), as in C. Pereira, A. Ramalho, J. Ambrósio, Nonlinear Dynamics 63 (2011) 681–697. The damping factors
 are those of dissipation.py.
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.cylinders import FIELDS, cylinder_force
+from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, cylinder_force
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
@@ -34,7 +34,7 @@ LAW = Law(
               "10.1007/s11071-010-9830-3",
     validity="a contact that is narrow beside the radii; its load has an end at penetrations of 4 clearances, and a "
              "run that goes deeper than 3.7 stops; driven apart fast it would pull, and is 0 there unless it pulls",
-    fields=FIELDS,
+    fields=CYLINDER_FIELDS,
     build=build,
     in_hole=True,
 )  # fmt: skip

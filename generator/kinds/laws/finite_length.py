@@ -25,7 +25,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.oil import FIELDS, TINY, film_clearance, shear_torque
+from gudgeon.generator.kinds.laws.roles import OIL_FIELDS, TINY, film_clearance, shear_torque
 
 # g = n0 + s (n1/(Λ + n2 s) + n3 + n4 s + n5 Λ s); n0 is the narrow gap's, which is long whatever Λ
 G0 = (0.4585, 2.3287, 2.7330, -0.3790, -0.4570, 0.0685)
@@ -79,6 +79,6 @@ LAW = Law(
     validity="L/D .1 to 2, epsilon to .95: within 1.2 % of the largest force at that epsilon, whatever the motion, and "
              "steady rotation within 2 % of itself; to L/D = 3 and epsilon = .9985 within 3 % and 4 %; capped at .9999",
     limits=Limits(l_over_d=(0.1, 2.0), epsilon=0.95),
-    fields=FIELDS,
+    fields=OIL_FIELDS,
     build=build,
 )  # fmt: skip

@@ -15,7 +15,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.roughness import ROUGHNESS, overlap
+from gudgeon.generator.kinds.laws.roles import ROUGHNESS, overlap
 
 POWER = 6.804
 

@@ -2,7 +2,7 @@
 
     δ = F/(π L E*) [ln(4 π L E* ΔR/F) − 1],   F_n = F (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j
 
-never negative unless it `pulls`, solved for F (cylinders.py). ΔR = R_i − R_j = c.
+never negative unless it `pulls`, solved for F (elastic_pair.py). ΔR = R_i − R_j = c.
 K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form C. Pereira, A. Ramalho,
 J. Ambrósio, Nonlinear Dynamics 63 (2011) 681–697. The damping factors are those of dissipation.py.
 """
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.cylinders import FIELDS, cylinder_force
+from gudgeon.generator.kinds.laws.elastic_pair import CYLINDER_FIELDS, cylinder_force
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
@@ -33,7 +33,7 @@ LAW = Law(
     validity="a contact that is narrow beside the radii; its load has an end at penetrations of .541 clearances, and a "
              "run that goes deeper than half a clearance stops; driven apart fast it would pull, and is 0 there unless "
              "it pulls",
-    fields=FIELDS,
+    fields=CYLINDER_FIELDS,
     build=build,
     in_hole=True,
 )  # fmt: skip

@@ -14,7 +14,7 @@ from typing import Any
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.field import NUMBER, RELATIONS, Field
-from gudgeon.generator.kinds.discovery import declared
+from gudgeon.generator.kinds import declared
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, State
-from gudgeon.generator.kinds.laws.slip import MU, MU_S, friction, slip_of
+from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
 from gudgeon.language.units import dimension
 
 

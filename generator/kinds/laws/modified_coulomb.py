@@ -15,7 +15,7 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.slip import MU
+from gudgeon.generator.kinds.laws.roles import MU
 from gudgeon.language.units import VELOCITY
 
 

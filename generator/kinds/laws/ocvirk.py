@@ -21,7 +21,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.oil import CAVITATION, FIELDS, TINY, film_clearance, shear_torque
+from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, film_clearance, shear_torque
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -67,6 +67,6 @@ LAW = Law(
               "with squeeze: the half film lies where the pressure is above that of the ends",
     validity="short bearing (L/D < 1/2; at L/D = 1 it carries twice too much and more); epsilon capped at .9999",
     limits=Limits(l_over_d=(0.0, 0.5)),
-    fields=(*FIELDS, CAVITATION),
+    fields=(*OIL_FIELDS, CAVITATION),
     build=build,
 )  # fmt: skip

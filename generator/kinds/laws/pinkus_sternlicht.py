@@ -16,7 +16,7 @@ from typing import Any
 
 from gudgeon.generator.field import flag
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
-from gudgeon.generator.kinds.laws.oil import (
+from gudgeon.generator.kinds.laws.roles import (
     ANGULAR_VELOCITY,
     EXTRA_CLEARANCE,
     SHEAR,

@@ -27,13 +27,11 @@ from gudgeon.contract.kernel_source import (
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.stored import base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
-from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.model import Model, apart_rows
 from gudgeon.generator.equations.notes import scene_notes
-from gudgeon.generator.equations.start import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
-from gudgeon.generator.mechanism.quantities import quantities
+from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, quantities
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.language.defined import is_defined_everywhere
 from gudgeon.language.tree import Expr, names, to_json

@@ -1,4 +1,4 @@
-"""A model as C: the texts, and the names of everything in them."""
+"""A model as C, in absolute and in tree coordinates: the texts, and the names of everything in them."""
 
 from __future__ import annotations
 
@@ -9,22 +9,26 @@ from importlib import resources
 from typing import Any
 
 import jinja2
+import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
+from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.ledger import tell
-from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.kernels.program import Program, TreeFunctions
+from gudgeon.generator.reduction.reduction import TreeSystem
+from gudgeon.generator.symbols.storage import PARAMETERS, Place
 from gudgeon.generator.targets.c import functions, ranges_printer, readme, taylor
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.curves import NAME as CURVES
 from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.layout import within
 from gudgeon.generator.targets.c.model_header import header_values, known_bounds, of_joints
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
-from gudgeon.generator.targets.c.reduced import reduced_code
-from gudgeon.generator.targets.c.same_start import same_start
+from gudgeon.generator.targets.c.printer import within
 
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # of the closed linkage's functions
@@ -203,3 +207,72 @@ def _operations(program: Program) -> dict[str, int]:
     laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
     own = {kernel.name: kernel for kernel in _all(program) if kernel not in program.laws}
     return {name: kernel.operations for name, kernel in (own | laws).items()}
+
+
+def same_start(called: Iterable[Kernel]) -> str:
+    """The function that tells it, of the kernels that a start calls (engine/scene/start.c).
+
+    Where they read tables, or hand over all numbers, no two are.
+    """
+    lines = [line for kernel in called for section in kernel.sections for line in section.statements]
+    read = [name for line in lines for name in _numbers(line)]
+    names = [*dict.fromkeys(read)]
+    tests = "\n        && ".join(f"same_number(p->{name}, other->{name})" for name in names)
+    known = all(name.isidentifier() for name in names)
+    body = f"    return {tests};\n" if known and tests else f"    (void)p, (void)other;\n    return {int(known)};\n"
+    return (
+        "\n/* Whether a start with these numbers is that with the others: what closing the linkage reads. */\n"
+        f"int same_start(const Parameters *p, const Parameters *other)\n{{\n{body}}}\n"
+    )
+
+
+def _numbers(line: Line) -> list[str]:
+    """What a line reads of Parameters; "" is all of it."""
+    if isinstance(line, Statement) and isinstance(line.value, Place) and line.value.is_parameter:
+        return [line.value.member]
+    return [""] if PARAMETERS in line.reads else []
+
+
+Render = Callable[..., str]
+
+
+def reduced_code(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
+    """The kernels in tree coordinates, the way there and back, and those of driven chains."""
+    parts = [print_kernels(*tree.around), print_kernels(*tree.kernels)]
+    if tree.rescued:
+        parts.append(render("multipliers.c.jinja", multipliers=_multipliers(model, tree.system)))
+    if chains := tree.chains:
+        kernels = print_kernels(*chains.kernels)
+        parts.append(render("chains.c.jinja", kernels=kernels, shares=_shares(chains), turned=_turned(chains)))
+    return "\n".join(parts)
+
+
+def _shares(chains: ChainKernels) -> list[str]:
+    """What a step of each coordinate is multiplied by to be a number: an angle is one, a slide goes by the size."""
+    size = f"1.0 / (p->{chains.size} + DBL_MIN)" if chains.size.is_Symbol else "1.0"  # without one all points are one
+    return ["1.0" if "." not in name else size for name in chains.chain.names]
+
+
+def _turned(chains: ChainKernels) -> list[tuple[int, str]]:
+    """Where each direction is in q that a step of the chains' coordinates turns, and how far it turns."""
+
+    def factor(c: sp.Expr) -> str:
+        if c == 1:
+            return ""
+        return f"{float(c)!r} * " if c.is_Number else f"-p->{-c} * " if (-c).is_Symbol else f"p->{c} * "
+
+    first = chains.first + len(chains.chain.names)
+    return [
+        (first + 2 * k, " + ".join(f"{factor(c)}step[{j}]" for j, c in d.turns.items()))
+        for k, d in enumerate(chains.chain.directions)
+        if d.turns
+    ]
+
+
+def _multipliers(model: Model, system: TreeSystem) -> list[str]:
+    """Each closure's multiplier in those of the absolute rows."""
+    place = {row.name: r for r, row in enumerate(model.rows)}
+    return [
+        " ".join(f"{'+' if sign > 0 else '-'} lambda[{place[name]}]" for name, sign in shares.items())
+        for shares in (system.tree.multiplier(row.name) for row in system.rows)
+    ]

@@ -37,8 +37,7 @@ from gudgeon.generator.ir.values import NONE
 from gudgeon.generator.kernels.shared import CORNER, SharedCall
 from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import Place, key_of
-from gudgeon.generator.targets.c.layout import WIDTH, broken
-from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text, expression
+from gudgeon.generator.targets.c.printer import WIDTH, CPrinter, Text, broken, comment_text, expression
 
 # Functions that engine/scene/kernels.h declares: the engine calls them from a unit of its own.
 CALLED_BY_ENGINE = frozenset({

@@ -11,7 +11,7 @@ from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.storage import Key
 from gudgeon.generator.targets.c.functions import printed
-from gudgeon.generator.targets.c.layout import within
+from gudgeon.generator.targets.c.printer import within
 
 
 @dataclass(frozen=True)

@@ -1,19 +1,20 @@
-"""model.h: what the engine must know of a scene, as sizes, parameters and small tables."""
+"""model.h: what the engine must know of a scene, as sizes, fields of Parameters and small tables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from itertools import accumulate
 from typing import Any
 
 import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
-from gudgeon.generator.equations.events import SIGNS
-from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.model import SIGNS, Model, apart_rows
 from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.equations.start import apart_rows
+from gudgeon.generator.field import Field
+from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
@@ -23,10 +24,85 @@ from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
-from gudgeon.generator.symbols.periods import PeriodsOf
+from gudgeon.generator.symbols.corners import PeriodsOf
+from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.fields import parameter_fields
-from gudgeon.generator.targets.c.layout import broken
+from gudgeon.generator.targets.c.printer import broken, comment_text
+from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
+
+_NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
+
+
+def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
+    """Name and comment of each field, in the order of the struct."""
+    known: dict[sp.Symbol, Dimension | None] = {}
+    fields = []
+    inner = {symbol for table in slots.tables.values() for symbol in table[1:]}
+    sizes = {table[0]: f"{name}[{len(table)}]" for name, table in slots.tables.items()}
+    for entry in slots.entries.values():
+        known[entry.symbol] = entry.dimension
+        if entry.symbol in inner:
+            continue
+        turn = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
+        unit = "rad" if turn else _unit_of_law(entry.address) or unit_text(entry.dimension)
+        name = sizes.get(entry.symbol, slots.field(entry.symbol))
+        address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
+        fields.append((name, comment_text(f"{address}, {unit}")))
+    for symbol, value in slots.derived.items():
+        known[symbol] = _dimension(value, known)
+        own = known[symbol]
+        told = (slots.symbols.info[symbol].meaning, unit_text(own) if own else "")
+        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, told)))))
+    return fields
+
+
+def _unit_of_law(address: str) -> str:
+    """What a law says of its number whose unit hangs on another one: "force at unit penetration, N/m^n"."""
+    field: Field | None = FILE if address.startswith("contacts.") else None
+    for part in address.split("."):
+        field = field and field.below(part)
+    return field.meaning if field and field.any_dimension else ""
+
+
+def unit_text(dimension: Dimension) -> str:
+    """As people write it: N*m, Pa, N*s/m^1.5, kg*m^2; 1 of a plain number, rad too."""
+    if unit := _NAMED.get(dimension):
+        return unit
+    powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
+    if dimension.mass == 1 and dimension.time in (-1, -2):
+        powers = {"N": Fraction(1), "m": dimension.length - 1, "s": dimension.time + 2}
+    above, below = _product(powers), _product({unit: -n for unit, n in powers.items()})
+    many = f"({below})" if "*" in below else below
+    return f"{above or 1}/{many}" if below else above or "1"
+
+
+def _product(powers: Mapping[str, Fraction]) -> str:
+    """Of those above zero: N*s, m^1.5."""
+    exact = {unit: f"{float(n):g}" if n.denominator in (1, 2, 4) else f"({n})" for unit, n in powers.items() if n > 0}
+    return "*".join(unit if n == "1" else f"{unit}^{n}" for unit, n in exact.items())
+
+
+def _dimension(value: sp.Expr, known: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
+    """Of a derived number; None where an exponent is a number of the run, and with it the dimension."""
+    if value.is_Symbol:
+        return known.get(value)
+    if value.is_Add:
+        return next((d for term in value.args if (d := _dimension(term, known))), DIMENSIONLESS)
+    if value.is_Mul:
+        product: Dimension | None = DIMENSIONLESS
+        for factor in value.args:
+            own = _dimension(factor, known)
+            product = product * own if product and own else None
+        return product
+    if value.is_Pow:
+        base, exponent = _dimension(value.base, known), value.exp
+        if base is None or base == DIMENSIONLESS:
+            return base
+        return base ** Fraction(int(exponent.p), int(exponent.q)) if exponent.is_Rational else None
+    if isinstance(value, (sp.Max, sp.Min, sp.Abs)):
+        return _dimension(value.args[0], known)
+    return DIMENSIONLESS
+
 
 Sizes = dict[str, tuple[int | float, str]]
 

@@ -8,12 +8,10 @@ from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.kernels.laws import law_doc
-from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.play import Pin, law_doc
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.layout import broken
-from gudgeon.generator.targets.c.printer import expression
+from gudgeon.generator.targets.c.printer import broken, expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 

@@ -1,20 +1,21 @@
-"""SymPy expressions and kernels as C11."""
+"""SymPy expressions and kernels as C11, in lines that fit a page."""
 
 from __future__ import annotations
 
 import math
 import re
 import sys
+import textwrap
 
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, share_of_pi
 from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Value
-from gudgeon.generator.symbols.contours import ContourOf
-from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
-from gudgeon.generator.symbols.functions import CLASSES
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.from_expressions import CLASSES
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, key_of
+from gudgeon.generator.targets import breaks
 from gudgeon.generator.targets.quick import Quick
 
 _PLAIN = Readable(())
@@ -167,12 +168,12 @@ class CPrinter(Quick, C99CodePrinter):
         return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """From contours.py."""
+        """From curves.py."""
         table, angle = self.called(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
         return f"contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
-        """From periods.py."""
+        """From corners.py."""
         return self._call("mod_of", *expr.args)
 
     def _print_ModOn(self, expr: sp.Expr) -> str:
@@ -263,3 +264,42 @@ def comment_text(text: str) -> str:
         .replace("\\", "/")
         .replace("?", ".")
     )
+
+
+WIDTH = 120
+
+
+def broken(line: str) -> list[str]:
+    """A line of code as lines that fit."""
+    return breaks.broken(line, WIDTH)
+
+
+def within(text: str) -> str:
+    """A whole file with no line over WIDTH: its code broken, its comments wrapped or put in front of what they tell."""
+    found: list[str] = []
+    in_comment = False
+    for line in text.split("\n"):
+        found += _comment(line) if in_comment else _fitting(line)
+        in_comment = line.rfind("/*") > line.rfind("*/") or in_comment and "*/" not in line
+    return "\n".join(found)
+
+
+def _comment(line: str) -> list[str]:
+    """A line of a comment of several."""
+    if len(line) <= WIDTH or not line.startswith(" * "):
+        return [line]
+    return textwrap.wrap(line[3:], WIDTH, initial_indent=" * ", subsequent_indent=" * ")
+
+
+def _fitting(line: str) -> list[str]:
+    if len(line) <= WIDTH:
+        return [line]
+    indent = line[: len(line) - len(line.lstrip())]
+    if (bare := line.strip()).startswith("/* ") and bare.endswith(" */") and bare.count("*/") == 1:
+        star = f"{indent} * "
+        told = textwrap.wrap(bare[3:-3], WIDTH, initial_indent=star, subsequent_indent=star)
+        return [f"{indent}/*", *told, f"{indent} */"]
+    code, mark, told_behind = line.rpartition("/* ")
+    if mark and told_behind.endswith(" */") and code.strip() and "/*" not in code:
+        return [*_fitting(f"{indent}/* {told_behind}"), *_fitting(code.rstrip())]
+    return [line] if line.startswith("#") else broken(line)

@@ -28,8 +28,7 @@ from gudgeon.generator.ir.statements import (
 )
 from gudgeon.generator.ir.values import Test
 from gudgeon.generator.kernels.shared import CORNER
-from gudgeon.generator.symbols.contours import ContourOf
-from gudgeon.generator.symbols.curves import CurveOf, c_name
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf, c_name
 from gudgeon.generator.symbols.storage import Place, Result
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 from gudgeon.language.functions import IN_SYMPY
@@ -87,7 +86,7 @@ class JavaScriptPrinter(CPrinter):
     _print_CurveOn = _print_KnotsOf = _print_CurveOf
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """From contours.py; its depths are an array of p."""
+        """From curves.py; its depths are an array of p."""
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
 

@@ -1,16 +1,20 @@
 """What is shown, before it is laid out: sections of paragraphs, equations, tables and sketches.
 
 Every formula is there in LaTeX and in plain text; HTML takes the LaTeX as MathML. `of` are tokens of what a block
-belongs to (trace.py), `value` is what a page that runs shows beside it (live.js): for HTML alone.
+belongs to (trace.py), parts that share one are lit together (light.js); `value` is what a page that runs shows beside
+it (live.js): for HTML alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import TypeAlias
 
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.targets.latex.letters import Name
 
 APART = 4  # columns without a letter between parts of a sketch
@@ -154,3 +158,34 @@ def table(
     """Rows in as many tables as they need; nothing for no rows. `of`: tokens by row."""
     starts = range(0, len(rows), MOST_ROWS)
     return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS]), upright) for k in starts]
+
+
+def row_token(number: int) -> str:
+    """Of a row of Φ, from 1; it stands for the row's entries too (light.js)."""
+    return f"row-{number}"
+
+
+def entry_token(row: int, column: int) -> str:
+    """Of an entry of Φ_q, from 1."""
+    return f"entry-{row}-{column}"
+
+
+def sum_token(row: int) -> str:
+    """Of the line of C that sums a row of Φ, from 1: lit with each of the row's terms (light.js)."""
+    return f"sum-{row}"
+
+
+def owner_token(row: Row) -> str:
+    """Of the joint or drive that a row belongs to."""
+    return f"{row.kind}-{row.owner}"
+
+
+def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
+    """Tokens of a row's entries of Φ_q."""
+    place = {q: k for k, q in enumerate(model.q, 1)}
+    return (entry_token(number, place[q]) for q in row.phi_q)
+
+
+def joint_tokens(clearance: Clearance) -> list[str]:
+    """What lights up with it: the joint, and of a slider's corner that alone."""
+    return [*dict.fromkeys((f"joint-{clearance.label}", f"joint-{clearance.joint.name}"))]

@@ -25,8 +25,8 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import Notation
+from gudgeon.generator.targets.latex.play import as_word, told_states
 from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, sign_of, step_name
-from gudgeon.generator.targets.latex.play_words import as_word, told_states
 from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit

@@ -11,8 +11,8 @@ from gudgeon.generator.targets.format_tables import condition
 from gudgeon.generator.targets.latex.document import Equation, sentence
 from gudgeon.generator.targets.latex.law import GIVEN, Form, forms, in_a_line
 from gudgeon.generator.targets.latex.letters import of_latex
+from gudgeon.generator.targets.latex.play import as_word
 from gudgeon.generator.targets.latex.play_letters import sign_of
-from gudgeon.generator.targets.latex.play_words import as_word
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 

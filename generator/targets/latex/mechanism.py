@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, PointRef
+from gudgeon.generator.mechanism import ForceElement, Joint, PointRef
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.sketches import sketch_of
+from gudgeon.generator.targets.latex.theory import sketch_of
 from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written, si_unit_of
 from gudgeon.language.plot_units import pretty
 

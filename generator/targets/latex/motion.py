@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.equations.friction import Friction
+from gudgeon.generator.equations.loads import Friction
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
@@ -13,8 +13,7 @@ from gudgeon.generator.targets.latex.letters import Name, letter
 from gudgeon.generator.targets.latex.mechanism import field_rows, place
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import assembled
-from gudgeon.generator.targets.latex.sketches import sketch_of
-from gudgeon.generator.targets.latex.theory import PHI_Q, indexed
+from gudgeon.generator.targets.latex.theory import PHI_Q, indexed, sketch_of
 from gudgeon.generator.targets.latex.values import Values
 
 KKT = Equation(

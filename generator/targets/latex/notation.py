@@ -9,7 +9,7 @@ from functools import cached_property
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.far_quotients import for_readers
+from gudgeon.generator.ir.finite_slopes import for_readers
 from gudgeon.generator.symbols.symbols import Symbols, plain_name
 from gudgeon.generator.targets.latex.letters import Name, letter, primed, word
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter

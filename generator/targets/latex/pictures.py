@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from gudgeon.contract.ledger import Story
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.targets.latex.document import Block, Picture
-from gudgeon.generator.targets.latex.tokens import entry_token, row_token
+from gudgeon.generator.targets.latex.document import Block, Picture, entry_token, row_token
 
 SMALL, TINY, LARGE = 10, 6, 20  # side of an entry in a picture of a matrix, of an assembled one; at most
 ROOM = 420  # pixels up to which a small matrix grows

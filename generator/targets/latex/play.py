@@ -12,17 +12,92 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY
-from gudgeon.generator.mechanism.mechanism import Guide, Play, Quantity
+from gudgeon.generator.kinds.laws.law import Law
+from gudgeon.generator.mechanism import Guide, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
-from gudgeon.generator.targets.latex.document import Block, Section, paragraph, sentence
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Section,
+    Text,
+    cells,
+    joint_tokens,
+    paragraph,
+    sentence,
+    table,
+)
 from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.letters import Name, letter, of_latex
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.play_numbers import numbers
-from gudgeon.generator.targets.latex.play_words import as_word, contour, corner, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
-from gudgeon.generator.targets.latex.tokens import joint_tokens
 from gudgeon.generator.targets.latex.trace import Functions, Trace
+from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
+from gudgeon.language.plot_units import pretty
+from gudgeon.language.plot_units import quantity as in_unit
+from gudgeon.language.units import si_unit
+
+
+def contour(joint: JointWithPlay) -> Iterator[Block]:
+    """The bearing's angle, and what W is."""
+    clearance = joint.clearance
+    assert clearance.contour
+    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
+    yield paragraph(
+        f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
+        f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
+        "derivatives. F acts along the gradient of ", Name(r"\delta", "δ"), ", whose length is ",
+        joint.notation.math(contact.steep), ": an elastic force keeps the energy."
+    )  # fmt: skip
+
+
+def corner(name: str, guide: str, slider: str) -> Block:
+    """Which corner of a slider it is, and what its letters mean."""
+    which = name.rpartition(".")[2]
+    front, upper = "front" in which, "upper" in which
+    return paragraph(
+        f"The guide i goes through {guide}, the slider j is in its middle at {slider}. This corner is"
+        f" {'in front, along' if front else 'at the rear, against'} the axis, at the wall to the"
+        f" {'left' if upper else 'right'} of it, whose outward normal is n; (e_x, e_y) leads from the guide's point to"
+        " the centre of the corner's radius, e is what that lies nearer to the wall than in the middle."
+    )
+
+
+def rigid(joint: JointWithPlay, stored: Name) -> Block:
+    """What becomes of surfaces that do not give, where they meet and while they touch."""
+    assert joint.clearance.normal is not None
+    e, v_0 = (joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold"))
+    rubs = joint.clearance.friction is not None
+    along = (
+        "; friction then brings the slip behind it to rest, as far as its coefficient there times the impulse lets it"
+        " and energy is not gained, and no parting changes by that"
+    ) * rubs
+    return paragraph(
+        "Its surfaces do not give. Where they meet at the rate ", stored, ", a blow along n parts them with ", e,
+        " times that, or leaves them together where that is less than ", v_0, "; all rows and contacts that are closed"
+        f" bear it{along}. A contact that is closed has the force ",
+        Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"), ".",
+    )  # fmt: skip
+
+
+def onset(joint: JointWithPlay, stored: Name) -> Block:
+    """When a contact acts, and what is kept of its onset."""
+    floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
+    return paragraph(
+        "It acts while ", Name(r"\delta > 0", "δ > 0"), ". ", stored, " is the speed of approach at the onset, "
+        f"at least {in_unit(floor, 'm/s')}, kept until separation; before an onset is accepted ",
+        Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
+    )  # fmt: skip
+
+
+def told_states(law: Law) -> Iterator[Block]:
+    """What each inner state of a law is."""
+    for state in law.states:
+        told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
+        yield paragraph(letter(state.name), told)
+
+
+def as_word(value: str | bool) -> str:
+    return str(value).lower() if isinstance(value, bool) else value
+
 
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
@@ -214,3 +289,26 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
             blocks.append(equation(left, sp.expand(notation.expand(share)), notation, joint.of))
     return blocks
+
+
+def numbers(joint: JointWithPlay) -> list[Block]:
+    """The letters of this joint, and what follows from them once a run."""
+    slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
+    for quantity, sign, meaning in joint.numbers:
+        entry = slots.entries.get(quantity.address)
+        value: Text = (_apart(quantity),) if entry is None else values.in_si(entry)
+        if entry is not None and entry.follows:
+            value = (*values.followed(entry), joint.notation.math(sp.Float(entry.default, 17)))
+        called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
+        rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
+    definitions = joint.model.symbols.definitions
+    constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
+    follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
+    header = cells("letter", "meaning", "address", "value in the file", "unit")
+    return [*table(header, rows, (1,)), *values.below(), paragraph("From these follow once a run:"), *follow]
+
+
+def _apart(quantity: Quantity) -> str:
+    """What is no number of the run: 0, or an expression of the penetration, a long one where its equation stands."""
+    written = "0" if quantity.is_zero else as_written(quantity.value)
+    return written if len(written) <= LONGEST else "below"

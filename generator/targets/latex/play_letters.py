@@ -51,7 +51,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import HELD, RESULTS, Law
-from gudgeon.generator.mechanism.mechanism import LawUse, Quantity
+from gudgeon.generator.mechanism import LawUse, Quantity
 from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 

@@ -18,7 +18,7 @@ from gudgeon.generator.targets.c.play import function_name
 from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
 from gudgeon.generator.targets.latex.trace import Functions
-from gudgeon.generator.targets.numpy.curves import with_curves
+from gudgeon.generator.targets.numpy.module import with_curves
 from gudgeon.generator.targets.numpy.printer import function
 from gudgeon.language.plot_units import label, scale
 from gudgeon.language.units import VELOCITY

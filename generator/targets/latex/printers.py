@@ -13,8 +13,7 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from gudgeon.generator.symbols.contours import ContourOf
-from gudgeon.generator.symbols.curves import CurveOf
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf
 from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.language.functions import IN_SYMPY, Function

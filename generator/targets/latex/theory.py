@@ -1,7 +1,12 @@
-"""Letters that a scene's documents have of themselves, by what they tell; what a file names gives way to them."""
+"""Letters that a scene's documents have of themselves, by what they tell; what a file names gives way to them. The
+sketches of joint types and force elements have such letters too.
+"""
 
 from __future__ import annotations
 
+import inspect
+import re
+import unicodedata
 from collections.abc import Iterable, Iterator
 
 import sympy as sp
@@ -14,7 +19,26 @@ from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex
 from gudgeon.generator.targets.latex.play_letters import given, joint_letters, laws_of, names, result, sign_of
-from gudgeon.generator.targets.latex.sketches import letters_of, sketch_of
+
+_RAISED = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
+
+
+def sketch_of(of: JointType | ElementType) -> list[str]:
+    """Return what documents say of a joint type or force element: a line, then its sketch."""
+    summary, _, rest = inspect.cleandoc(of.doc or "").partition("\n")
+    return [summary, *rest.strip("\n").splitlines()]
+
+
+def letters_of(lines: list[str]) -> Iterator[str]:
+    """Letters that stand alone in a sketch, with their subscripts; those with dots without them too.
+
+    No part of a drawing ("o---"), no initial ("L. C. Bo"), no article.
+    """
+    alone = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
+    for line in lines:
+        for found in alone.findall(unicodedata.normalize("NFD", line).translate(_RAISED)):
+            yield from dict.fromkeys((found, found.replace("\u0307", "")))
+
 
 PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
 LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")

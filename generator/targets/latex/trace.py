@@ -21,7 +21,7 @@ from gudgeon.generator.ir.signatures import ASIDE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
-from gudgeon.generator.mechanism.quantities import quantities
+from gudgeon.generator.mechanism import quantities
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
@@ -29,7 +29,7 @@ from gudgeon.generator.targets.c.emit import described, emit, file_names, render
 from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
-from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, joint_tokens, row_token, sum_token
+from gudgeon.generator.targets.latex.document import entries_of, entry_token, joint_tokens, row_token, sum_token
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
 GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}

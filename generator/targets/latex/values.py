@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.equations.fields import VariableNames
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.field import OF_CAM_ANGLE
-from gudgeon.generator.mechanism.mechanism import Quantity, Vector
+from gudgeon.generator.mechanism import Quantity, Vector
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
 from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.document import Block, Equation, Text, cells, paragraph

@@ -1,4 +1,4 @@
-"""A scene's equations as a Python module, and its functions for arrays."""
+"""A scene's equations as a Python module, with its curves and joints with play, and its functions for arrays."""
 
 from __future__ import annotations
 
@@ -12,17 +12,27 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import ArrayError, BadValueError
-from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.start import apart_rows
+from gudgeon.generator.equations.model import Model, apart_rows
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.targets.numpy.curves import with_curves
-from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
-from gudgeon.generator.targets.numpy.play import CONTOUR, pin
-from gudgeon.generator.targets.numpy.printer import function
+from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.symbols.curves import c_name
+from gudgeon.generator.targets.numpy.printer import (
+    WIDTH,
+    assigned,
+    code,
+    docstring,
+    function,
+    indented,
+    lines,
+    name,
+    remark,
+)
+from gudgeon.language.curves import MARGIN, Curve
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.suggestions import unknown, unknown_name
 from gudgeon.language.wanted import mapping, number_of
@@ -90,13 +100,13 @@ class ClosedLinkage:
     def _given(self, given: Mapping[str, float | str]) -> dict[str, float]:
         """By full addresses, in SI."""
         entries, found = self.model.slots.entries, dict[str, float]()
-        for name, value in given.items():
-            address = name if name in entries else f"parameters.{name}"
+        for key, value in given.items():
+            address = key if key in entries else f"parameters.{key}"
             if address not in entries:
                 known = (*(a.removeprefix("parameters.") for a in entries), *entries)
-                raise unknown(f"no number of this scene has the address {name!r}", name, tuple(dict.fromkeys(known)))
+                raise unknown(f"no number of this scene has the address {key!r}", key, tuple(dict.fromkeys(known)))
             if address in found:
-                raise BadValueError(f"{address} is given twice, once as {name!r}", hint="give it once")
+                raise BadValueError(f"{address} is given twice, once as {key!r}", hint="give it once")
             if words := entries[address].words:
                 if not isinstance(value, str) or value.strip() not in words:
                     raise unknown_name(f"choice of {address}", str(value).strip(), words, None)
@@ -237,3 +247,116 @@ def _defined(source: str) -> dict[str, Any]:
     names: dict[str, Any] = {}
     exec(compile(source, "<equations>", "exec"), names)
     return names
+
+
+_CURVE = f'''def curve(of, order, x):
+    """A cubic spline (order 0) or a derivative of it: NaN outside its range, or repeated there."""
+    knots, c, repeats = of
+    first, last = knots[0], knots[-1]
+    margin = {MARGIN} * (last - first)
+    inside = repeats | ((x >= first - margin) & (x <= last + margin))
+    x = x - (last - first) * np.floor((x - first) / (last - first)) if repeats else x
+    k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(c) - 1)
+    h, (c0, c1, c2, c3) = x - knots[k], np.moveaxis(c[k], -1, 0)
+    value = (c0 + h * (c1 + h * (c2 + h * c3)), c1 + h * (2.0 * c2 + h * (3.0 * c3)),
+             2.0 * c2 + h * (6.0 * c3), 6.0 * c3)[order]
+    return np.where(inside, value, np.nan)[()]
+
+
+def knots(of, x):
+    """By its sign, whether x is in a piece with an even number or an odd one; 0 at knots."""
+    of, _, repeats = of
+    x = x - (of[-1] - of[0]) * np.floor((x - of[0]) / (of[-1] - of[0])) if repeats else x
+    k = np.clip(np.searchsorted(of, x, side="right") - 1, 0, len(of) - 2)
+    return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
+
+
+def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str:
+    """What the functions of a text read of curves, without what stands before it; "" where they call none."""
+    called = [curve for curve in curves.values() if f"({c_name(curve.name)}," in text]
+    parts = [_CURVE, *map(_table, called)] if called else []
+    return "".join(f"{part}\n\n\n" for part in parts if part not in before)
+
+
+def _table(curve: Curve) -> str:
+    if curve.is_long:
+        x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
+        return "\n".join([
+            *remark(f"{curve.name}: {curve.told()}"), f"{c_name(curve.name)} = (",
+            f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
+            f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),', f"    {curve.repeats},", ")",
+        ])  # fmt: skip
+    knots = [", ".join(map(repr, curve.x[k : k + 3])) for k in range(0, len(curve.x), 3)]
+    pieces = [f"        [{', '.join(map(repr, piece))}]," for piece in curve.coefficients]
+    return "\n".join([
+        *remark(f"{curve.name}: {curve.told()}"), f"{c_name(curve.name)} = (",
+        "    np.array([", *(f"        {line}," for line in knots), "    ]),",
+        "    np.array([", *pieces, "    ]),", f"    {curve.repeats},", ")",
+    ])  # fmt: skip
+
+
+_DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
+CONTOUR = '''\
+def contour(depth, order, angle):
+    """Depths at equal angles, polynomials of degree five between them; of order 1 and 2 its derivatives."""
+    count = len(depth)
+    x = count*(angle/(2*np.pi) - np.floor(angle/(2*np.pi)))
+    k = min(int(x), count - 1)
+    a, b, c, d = (depth[(k + shift) % count] for shift in (-1, 0, 1, 2))
+    s, slope, bend, rest = x - k, 0.5*(c - a), (a - b) + (c - b), 3*(c - b) + (a - d)
+    if order == 0:
+        return b + s*(slope + s*(0.5*bend + s*rest*(1.5 + s*(s - 2.5))))
+    if order == 1:
+        return count/(2*np.pi)*(slope + s*(bend + s*rest*(4.5 + s*(5*s - 10))))
+    return (count/(2*np.pi))**2*(bend + s*rest*(9 + s*(20*s - 30)))'''
+_FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
+
+
+def pin(own: Pin) -> str:
+    """`clearance_<joint>`. A contact is closed where bodies overlap."""
+    joint, clearance = own.clearance.label, own.clearance
+    told = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
+    if clearance.wall:
+        told = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
+    body = [*docstring([told])]
+    body += lines(own.gap)
+    if clearance.normal is None:
+        body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
+    elif clearance.film is None:
+        acts = "latch.closed" if clearance.rigid else "delta > 0"
+        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", f"if {acts}:", *indented(_dry(own))]
+    else:
+        body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
+        body += indented([*_dry(own), *lines(own.share), "if share < 1:", f"    film = {', '.join(_FILM)}",
+                          "    F = tuple(b + share*(a - b) for a, b in zip(F, film))"])  # fmt: skip
+    place, first = ("e*n_x, e*n_y", "F[2] + along*F[0]") if clearance.wall else ("e_x, e_y", "F[2]")
+    body += ["out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x", "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
+             f"out.ex, out.ey, out.e, out.deltadot, out.delta = {place}, e, deltadot, delta",
+             f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0"]  # fmt: skip
+    turned = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
+    head = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
+    return "\n".join([*code(head), *indented(body)])
+
+
+def _dry(own: Pin) -> list[str]:
+    """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
+    ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
+    given, told = [f"latch.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
+    pressed = "F_N" if own.pressing else "F_n"
+    rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
+    return [
+        f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
+        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *map(name, own.given)), is_call=True),
+        *lines(own.pressing),
+        *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
+        *lines(own.after_dry), f"F = -{pressed}, {', '.join(_DRY[1:])}",
+    ]  # fmt: skip
+
+
+def _film(own: Pin) -> list[str]:
+    film = assigned("F_r, F_along_t_film, T0", _call(own.laws["film"], "epsilon", "w_n", "w_t"), is_call=True)
+    return [*lines(own.before_film), *film, *lines(own.after_film)]
+
+
+def _call(call: SharedCall, *given: str) -> str:
+    return f"{call.kernel.name}({', '.join([*given, *map(name, call.numbers)])})"

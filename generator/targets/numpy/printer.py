@@ -1,8 +1,12 @@
-"""SymPy expressions, lines and functions as Python with NumPy: no corner is held, no pivot that vanishes is mended."""
+"""SymPy expressions, lines and functions as Python with NumPy: no corner is held, no pivot that vanishes is mended.
+
+Lines fit a page, without an indent: code is broken within brackets, comments stand behind it.
+"""
 
 from __future__ import annotations
 
 import keyword
+import textwrap
 from collections.abc import Iterable, Sequence
 from functools import reduce
 
@@ -28,11 +32,10 @@ from gudgeon.generator.ir.statements import (
     When,
 )
 from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Value
-from gudgeon.generator.symbols.contours import ContourOf
-from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
-from gudgeon.generator.symbols.functions import CLASSES
+from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.from_expressions import CLASSES
 from gudgeon.generator.symbols.storage import Key, Place, Result, key_of
-from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
+from gudgeon.generator.targets import breaks
 from gudgeon.generator.targets.quick import Quick
 
 _NOWHERE = (Status, JointsAlone, Jump, Rescue, Sides)  # vanished pivots, held corners, what single runs ask for
@@ -123,7 +126,7 @@ class NumPyPrinter(Quick, PythonCodePrinter):
         return f"np.where({side} < 0, {b}, {a})"
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """From contours.py."""
+        """From curves.py."""
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
@@ -247,3 +250,50 @@ def function(kernel: Kernel) -> str:
         rescues = any(isinstance(line, Rescue) for line in section.statements)  # of which the title tells
         text += indented([*remark("" if rescues else section.title), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
+
+
+WIDTH = 100
+_WIDTH = WIDTH - 12  # of what stands in a function and in two conditions at most
+
+
+def code(text: str) -> list[str]:
+    """A line that has brackets where it is long."""
+    return breaks.broken(text, _WIDTH, within=1)
+
+
+def assigned(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
+    """`target = value`; a long value that is not one call stands in brackets."""
+    line = f"{target} = {value}"
+    lines = code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
+    told = f"# {one_line(comment)}" if comment else ""
+    if len(lines) == 1 and len(line) + 2 + len(told) <= _WIDTH:
+        return [f"{line}  {told}".rstrip()]
+    return [*remark(comment), *lines]
+
+
+def remark(text: str) -> list[str]:
+    """Comments of their own; none of no text."""
+    return [f"# {line}" for line in textwrap.wrap(one_line(text), _WIDTH - 2)]
+
+
+def docstring(doc: Sequence[str]) -> list[str]:
+    """Lines of one; a long line goes on further in."""
+    plain = (one_line(line, keep=True).replace("\\", "/").replace('"', "'") for line in doc)
+    first, *others = [part for line in plain for part in _wrapped(line)]
+    return [f'"""{first}"""'] if not others else [f'"""{first}', *others, '"""']
+
+
+def _wrapped(line: str) -> list[str]:
+    indent = line[: len(line) - len(line.lstrip())]
+    return textwrap.wrap(line, WIDTH - 7, subsequent_indent=f"{indent}  ", break_on_hyphens=False) or [""]
+
+
+def one_line(text: str, keep: bool = False) -> str:
+    """What a user wrote, without what could end a line; `keep`: spaces as they are."""
+    plain = "".join(c if c.isprintable() else " " for c in text)
+    return plain.rstrip() if keep else " ".join(plain.split())
+
+
+def indented(text: Iterable[str]) -> list[str]:
+    """Four columns to the right."""
+    return [f"    {line}" if line else "" for line in text]

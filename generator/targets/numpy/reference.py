@@ -18,9 +18,8 @@ from gudgeon.contract.reference import given_parameters
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _number
-from gudgeon.generator.targets.numpy.module import NumPyModel, _defined
+from gudgeon.generator.targets.numpy.module import NumPyModel, _defined, with_curves
 from gudgeon.generator.targets.numpy.printer import function
 
 Array = NDArray[np.float64]

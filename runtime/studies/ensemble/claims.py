@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, InputError, UnknownKeyError, together
-from gudgeon.generator.study.claim_spec import ALONG, COUNTS, NumberClaim, Selection, TrendClaim, Trial
+from gudgeon.generator.study.spec import ALONG, COUNTS, NumberClaim, Selection, TrendClaim, Trial
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.units import unit
 from gudgeon.results.batch import Array
@@ -22,7 +22,7 @@ from gudgeon.studies.ensemble.plan import Coordinate, Plan, Plans
 from gudgeon.studies.ensemble.selected import Selected, few
 
 if TYPE_CHECKING:
-    from gudgeon.generator.yaml.tree import Text
+    from gudgeon.generator.yaml import Text
 
 STARTS = ("ensemble", "start")  # dimensions that no claim selects: it is about all of them
 SAME = 1e-9  # of a coordinate: so near it is the value that a claim says

@@ -22,7 +22,7 @@ from gudgeon.simulation.arguments import MOST_OUTPUT
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Numbers, StudyFile, Written
-    from gudgeon.generator.yaml.tree import Text
+    from gudgeon.generator.yaml import Text
 
 GEOMETRIC = "geometric"
 ROUNDING = 1e-12  # of a time: a sample this near to the end of a window lies in it

@@ -39,7 +39,7 @@ from gudgeon.studies.ensemble.wearing import wearing_of
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
-    from gudgeon.generator.yaml.tree import Text
+    from gudgeon.generator.yaml import Text
 
 BLOCK = 128  # runs of a block at most
 BYTES = 1 << 26  # of states and series of a block, about

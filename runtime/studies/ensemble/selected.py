@@ -13,7 +13,7 @@ from gudgeon.studies.ensemble.judge import Cell, Check
 from gudgeon.studies.ensemble.plan import Plan
 
 if TYPE_CHECKING:
-    from gudgeon.generator.yaml.tree import Text
+    from gudgeon.generator.yaml import Text
 
 MOST_COMPARED = 100_000  # cells of runs, or pairs of them, that one claim compares: each is judged alone
 FEWER = f"expected {MOST_COMPARED} at most: select some with at:, or vary less"

@@ -14,7 +14,7 @@ from gudgeon.loading.find import find_mechanism
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import StudyFile
-    from gudgeon.generator.yaml.tree import Text
+    from gudgeon.generator.yaml import Text
 
 
 class Structure(NamedTuple):

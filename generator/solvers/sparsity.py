@@ -3,6 +3,8 @@
 The matrix is [M Φ_qᵀ; Φ_q 0] with a diagonal M. A row of Φ is eliminated only after all the
 coordinates in it: its pivot is then −Φ_q M⁻¹ Φ_qᵀ of what is left, never a structural zero, and
 negative as long as the rows are independent. The order is chosen here, once, by counting products.
+
+Rows matched with columns, and the block triangular form that follows (A. Pothen, C.-J. Fan, 1990).
 """
 
 from __future__ import annotations
@@ -11,6 +13,8 @@ import heapq
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
+
+from sympy.utilities.iterables import strongly_connected_components
 
 DIVISION = 20  # products in the time of one division and what waits for it (measured)
 LONG = 8  # divisions in a chain that is long
@@ -185,3 +189,42 @@ def _depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coord
         for i in structure[k][:1]:
             waits[i] = max(waits[i], waits[k])
     return max(waits.values(), default=0)
+
+
+@dataclass(frozen=True)
+class Block:
+    """As many rows as coordinates, by number."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+
+def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
+    """Rows by columns of their own, for as many rows as there is one for (augmenting paths)."""
+    owner: dict[int, int] = {}
+
+    def find(row: int, tried: set[int]) -> bool:
+        for column in sorted(pattern[row]):
+            if column not in tried:
+                tried.add(column)
+                if column not in owner or find(owner[column], tried):
+                    owner[column] = row
+                    return True
+        return False
+
+    for row in range(len(pattern)):
+        find(row, set())
+    return owner
+
+
+def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
+    """Blocks in solving order of a square pattern, columns by row; None where no row is left for some column."""
+    if len(pattern) != n:
+        return None
+    owner = match_rows(pattern)
+    if len(owner) < n:
+        return None
+    matched = {row: column for column, row in owner.items()}
+    needs = [(row, owner[column]) for row in range(n) for column in sorted(pattern[row]) if owner[column] != row]
+    parts = strongly_connected_components((list(range(n)), needs))  # those that others need come first
+    return tuple(Block(rows := tuple(sorted(part)), tuple(matched[row] for row in rows)) for part in parts)

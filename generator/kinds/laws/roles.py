@@ -1,0 +1,95 @@
+"""Fields and steps that laws of one role share.
+
+Friction by slip: the parts of c_d(v_t), which is odd, without a corner at v_t = 0. Films: what every law asks of its
+oil, clearance and shear torque. Mixed lubrication: the roughness of both surfaces, and where its tips first touch.
+
+The bearing's clearance c is that of the tips: at δ = 0 the highest of them touch. There the mean surfaces are still
+Λ₀ σ apart, so that the film thickness ratio is Λ = h/σ = Λ₀ − δ/σ, h = c + Λ₀ σ − e, and the film, which fills the gap
+between the mean surfaces, has the clearance c + Λ₀ σ: where the tips touch it is finite.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gudgeon.generator.field import Bound, Field, flag, number, word
+from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE, LawInputs
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, VELOCITY, VISCOSITY
+
+MU = number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),))
+MU_S = number(
+    "mu_s", "coefficient of static friction", DIMENSIONLESS, symbol="c_s", required=True, bounds=(Bound(">=", "mu"),),
+)  # fmt: skip
+
+
+def slip_of(name: str, meaning: str, symbol: str) -> Field:
+    """A slip (m/s) above 0 that a law names."""
+    return number(name, meaning, VELOCITY, symbol=symbol, required=True, bounds=(Bound(">", 0.0),))
+
+
+def both_ways(v_t: Any, forward: Callable[[Any], Any]) -> Any:
+    """An odd function of the slip from what it is for u = max(v_t, 0); `forward(0)` is 0."""
+    import sympy as sp
+
+    return forward(sp.Max(v_t, 0)) - forward(sp.Max(-v_t, 0))
+
+
+def friction(s: LawInputs, coefficient: Any) -> dict[str, Any]:
+    """F_t (N) on the journal, along t, by an odd coefficient of the slip."""
+    return {"F_t": -coefficient * s.variables["F_n"]}
+
+
+# Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
+# changes no other value.
+TINY = 1e-150
+
+VISCOUS = number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),))
+EXTRA_CLEARANCE = number(
+    "extra_clearance", "added to c in the film alone", LENGTH, symbol="e_t", default=0.0, bounds=(Bound(">=", 0.0),),
+)  # fmt: skip
+SHEAR = flag("shear", "shear torque, and the film's resultant at each pin centre")
+ANGULAR_VELOCITY = word(
+    "angular_velocity",
+    "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
+    ("absolute", "relative"), "absolute",
+)  # fmt: skip
+CAVITATION = word(
+    "cavitation", "half, Guembel's: no pressure below that of the ends; full, Sommerfeld's: it pulls as it pushes",
+    ("half", "full"), "half",
+)  # fmt: skip
+OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCITY)
+
+
+def film_clearance(s: LawInputs) -> Any:
+    """c + e_t (m)."""
+    return s.derive("film_clearance", s.pair.c + s.parameters["extra_clearance"], "clearance of the film")
+
+
+def shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
+    """T0 per unit ω_j − ω_i (N·m·s) of a gap that is full: 2π μ R_j³ L/(c √(1 − ε²)); 0 without `shear`."""
+    import sympy as sp
+
+    if not s.options["shear"]:
+        return sp.Integer(0)
+    still = 2 * sp.pi * s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c
+    return s.derive("shear", still, "2 pi mu R_j^3 L/c") / root
+
+
+ROUGHNESS = number(
+    "roughness", "of both surfaces together: the root of the sum of the squares of their rms roughness", LENGTH,
+    symbol=r"\sigma", required=True, bounds=(Bound(">", 0.0),),
+)  # fmt: skip
+
+
+def overlap(s: LawInputs, first: int, last: int) -> Any:
+    """How much of the way from Λ = `first`, where tips touch, to `last`, where all does, is gone: δ's share, 1 at most.
+
+    The film's clearance follows from `first`.
+    """
+    import sympy as sp
+
+    sigma = s.parameters["roughness"]
+    s.derive(MEAN_CLEARANCE, s.pair.c + first * sigma, "clearance between the mean surfaces")
+    way = s.derive("overlap", (first - last) * sigma, "from where tips touch to where no film is left")
+    return sp.Min(1, s.variables["delta"] / way)

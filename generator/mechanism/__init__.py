@@ -1,1 +1,0 @@
-"""What a file says, names resolved: frozen values, no SymPy."""

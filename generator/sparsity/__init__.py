@@ -1,1 +1,0 @@
-"""Graphs of a matrix: elimination order, block triangular form; no SymPy."""
