@@ -8,7 +8,7 @@ MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz docs links sanitize packages mutate coverage bench race map stress peers generated deviations tables setup setup-test clean
+.PHONY: help run study study-jansen checks quick test test-all lint types fuzz docs links sanitize packages mutate coverage bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -27,6 +27,10 @@ study-jansen: setup  ## trends of a paper on a Jansen leg with play (studies/jan
 
 checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
 	@.venv/bin/python -m tests.checks
+
+quick: setup-test  ## the inner loop: an example test of each folder, invalid files, house rules; ARGS="tests/FOLDER" for more
+	@.venv/bin/ruff check .
+	@.venv/$(PYTEST) tests/*/test_example.py tests/reader/test_mistakes.py tests/test_house.py $(ARGS)
 
 test: lint  ## ruff, mypy and the tests; mypy beside them, on one core, and what it says at the end
 	@types=$$(mktemp); trap 'rm -f "$$types"' EXIT; \

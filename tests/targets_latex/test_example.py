@@ -1,0 +1,21 @@
+"""Example: equations of a scene as text; their values are compared with a formula on paper."""
+
+from __future__ import annotations
+
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.latex import equations_tex, equations_text
+
+TEXT = b"""
+format: gudgeon/1
+name: disc
+title: A disc on a pin
+bodies: {disc: {mass: 1 kg, inertia: 3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, disc.origin]}}
+"""
+
+
+def test_a_document_has_its_title() -> None:
+    model = derive(TEXT, "disc.yaml", "ideal")
+    for document in (equations_text(model), equations_tex(model)):
+        assert "A disc on a pin" in document
