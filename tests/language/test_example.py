@@ -12,7 +12,7 @@ HERE = Location("example", 1, 1)
 
 
 def test_units_are_converted() -> None:
-    assert evaluate(parse("2 * 80 mm + 4 cm", HERE), {}) == pytest.approx(0.2)
+    assert evaluate(parse("2 * 80 mm + 4 cm", HERE), str) == pytest.approx(0.2)
 
 
 def test_an_open_bracket_is_refused() -> None:

@@ -9,7 +9,8 @@ import pytest
 
 from gudgeon.errors import UnitError
 from gudgeon.generator.reader.read import read_mechanism
-from tests.mechanisms.invalid import BASE, patched
+from tests.mechanisms.invalid import BASE
+from tests.scenes import patched
 
 
 def test_scenes_of_a_file_by_name() -> None:
@@ -17,6 +18,6 @@ def test_scenes_of_a_file_by_name() -> None:
 
 
 def test_a_mass_in_metres_is_refused_at_its_place() -> None:
-    text = patched(BASE, {"mass: 0.142 kg": "mass: 142 mm"})
+    text = patched(BASE, ("mass: 0.142 kg", "mass: 142 mm"))
     with pytest.raises(UnitError, match=r"^base\.yaml:10:29: "):
         read_mechanism(text.encode(), "base.yaml")

@@ -22,5 +22,6 @@ def test_accelerations_are_those_of_the_compiled_scene(tmp_path: Path) -> None:
     simulation = loader(tmp_path, "full")(PENDULUM)
     run, model = simulation.simulate(0.1, output=5), simulation.model.numpy()
     p = model.prepare()
+    assert run.accelerations is not None
     for t, q, v, a in zip(run.t, run.q, run.v, run.accelerations, strict=True):
         np.testing.assert_allclose(model.dynamics(t, q, v, p).a, a, rtol=1e-9, atol=1e-9)
