@@ -14,7 +14,6 @@ from gudgeon.generator.field import (
     LAW,
     OF_MOTION,
     OF_RESULTS,
-    OF_TIME,
     PLACE,
     POINTS,
     RESULTS,
@@ -31,6 +30,7 @@ from gudgeon.generator.field import (
     vector,
     word,
 )
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import Law, called
@@ -48,30 +48,6 @@ from gudgeon.language.units import (
     VELOCITY,
     Dimension,
 )
-
-
-def _value(dimension: Dimension | None, meaning: str = "where it is at each time, without jumps") -> tuple[Field, ...]:
-    return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
-
-
-DRIVES: Mapping[str, Kind] = {
-    "angle": Kind(
-        "angle of a body, or of one relative to another",
-        _value(DIMENSIONLESS),
-        "bodies",
-        (1, 2),
-        ("rotation", "theta", "motor", "turn"),
-    ),
-    "coordinate": Kind(
-        "x or y of a body's centre of mass, in ground axes, or theta",
-        _value(None, "where it is at each time, without jumps: a length, of theta an angle"),
-        "coordinates",
-        (1,),
-        ("position", "translation", "displacement", "x", "y"),
-    ),
-    "distance": Kind("distance of two points", _value(LENGTH), "points", (2,), ("length", "actuator", "cylinder")),
-}
-
 
 BEARING = record(
     "bearing", "a pin in a hole",

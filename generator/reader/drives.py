@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError, JoinError, Location
-from gudgeon.generator.format.sections import COORDINATES, DRIVES
+from gudgeon.generator.format.sections import COORDINATES
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.mechanism import GROUND, Drive, PointRef
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body

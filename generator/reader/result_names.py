@@ -6,7 +6,7 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.field import OF_CAM_ANGLE
-from gudgeon.generator.format.sections import DRIVES
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
 from gudgeon.generator.mechanism import GROUND

@@ -13,7 +13,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, PointInfo
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.field import VECTOR
-from gudgeon.generator.format.sections import DRIVES
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
 from gudgeon.language.units import DIMENSIONLESS

@@ -1,0 +1,31 @@
+"""What a drive may prescribe: an angle, a coordinate or a distance, as an expression of t."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gudgeon.generator.field import OF_TIME, Field, Kind, number
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
+
+
+def _value(dimension: Dimension | None, meaning: str = "where it is at each time, without jumps") -> tuple[Field, ...]:
+    return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
+
+
+DRIVES: Mapping[str, Kind] = {
+    "angle": Kind(
+        "angle of a body, or of one relative to another",
+        _value(DIMENSIONLESS),
+        "bodies",
+        (1, 2),
+        ("rotation", "theta", "motor", "turn"),
+    ),
+    "coordinate": Kind(
+        "x or y of a body's centre of mass, in ground axes, or theta",
+        _value(None, "where it is at each time, without jumps: a length, of theta an angle"),
+        "coordinates",
+        (1,),
+        ("position", "translation", "displacement", "x", "y"),
+    ),
+    "distance": Kind("distance of two points", _value(LENGTH), "points", (2,), ("length", "actuator", "cylinder")),
+}
