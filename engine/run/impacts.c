@@ -177,9 +177,9 @@ static int put_apart(Run *run, const Parameters *p)
         status = touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
         if (!status && touching.n)
             status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-        meets_again = 0; /* corners may lie far out: their places are rounded by more */
-        for (int k = 0; k < touching.n; k++)
-            meets_again |= gap[k] > 0.0 && !(run->aside.clearance[touching.joint[k]].delta < 0.0);
+        meets_again = 0; /* corners far out are rounded by more; one put apart may make another meet, as in a wedge */
+        for (int i = 0; i < N_CLEARANCES && touching.n; i++)
+            meets_again |= !gives(i) && !run->memory.latch[i].closed && !(run->aside.clearance[i].delta < 0.0);
     }
     run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of partings slower than the threshold */
     return status;
