@@ -124,6 +124,8 @@ static double shrink(Run *run, const Step *step)
             max_of(MIN_ORDER_SEEN, log(now->error / step->error) / log(now->refused / now->h)));
     now->refused = now->h;
     now->error = step->error;
+    run->control.too_long = now->h;
+    run->control.too_long_until = run->t + now->h;
     return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * rough_power(step->error, -1.0 / order)));
 }
 
@@ -203,6 +205,16 @@ static double within_flight(const Run *run, double h, const Parameters *p)
     return h;
 }
 
+/*
+ * A corner of the forces changes the motion little: a length that was just refused is too long behind it, too, whatever
+ * fitted behind the like of it before. That the estimate of so long a step is small would be chance.
+ */
+static double below_refused(const Run *run, double h)
+{
+    const int corner = run->control.first >= &run->control.after_corner[0][0];
+    return corner && run->t < run->control.too_long_until ? min_of(h, run->control.too_long) : h;
+}
+
 /* How long a step towards t_end is tried at first. */
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
@@ -211,7 +223,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     if (run->roots.skip >= 0 && run->control.fixed <= 0.0)
         h = min_of(h, run->roots.pace);
     if (run->control.fixed <= 0.0)
-        h = within_flight(run, up_to_parting(run, min_of(h, stride(run, NULL, p))), p);
+        h = within_flight(run, up_to_parting(run, min_of(below_refused(run, h), stride(run, NULL, p))), p);
     if (h > left * SAME_LENGTH)
         h = left;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,

@@ -216,6 +216,7 @@ typedef struct {
     double fixed, accept; /* the length of all steps, s, 0: they are chosen; the largest error of an accepted one */
     double last_step; /* s, up to an event where one ended it */
     double h, h_stiff, error_before, steep;
+    double too_long, too_long_until; /* the last length refused for its error, s; the time to which it would have led */
     /*
      * Lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's).
