@@ -213,7 +213,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     Step *step = &run->step;
     int event;
     double share;
-    choose(run);
+    choose(run, p);
     int status = event_of_step(run, out, p, step, &share, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* what was found meanwhile means nothing */

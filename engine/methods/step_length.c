@@ -31,6 +31,7 @@
 #define MIN_PARTING 0.1         /* of a step: a contact that ends sooner does not change its length */
 enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     WORTHWHILE = 400 /* steps of a method that lasted: the next return to it is as easy as the first */,
+    RATE_ITERATIONS = 5, ASKED_AGAIN = 24 /* steps until the explicit method is considered again */,
     VOTES = 3 /* steps in a row against the explicit method, until the stiff one takes over */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
@@ -86,8 +87,36 @@ static void change_method(Run *run)
     run->choice.since = 0;
 }
 
+/*
+ * rho: the largest rate, 1/s, with which right-hand sides differ near the state, by power iteration with differences as
+ * in B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326. Stages of a stiff method
+ * do not see a fast mode that is at rest; an explicit step is unstable by it all the same. 0: it is not known.
+ */
+static double largest_rate(Run *run, const Parameters *p)
+{
+    double way[N_Y], y[N_Y], dy[N_Y], growth[2] = {0.0, 0.0};
+    Aside aside;
+    for (int k = 0; k < N_Y; k++)
+        way[k] = (k % 2 ? -1.0 : 1.0) / run->norm.weight[k];
+    for (int n = 0; n <= RATE_ITERATIONS; n++) {
+        double size = 0.0;
+        for (int k = 2 * N_X; k < FIRST_STATE; k++)
+            way[k] = 0.0; /* on works nothing depends */
+        for (int k = 0; k < N_Y; k++)
+            size = max_of(size, fabs(way[k]) * run->norm.weight[k]);
+        growth[n % 2] = size; /* two by two: a vibration turns from positions to velocities and back */
+        for (int k = 0; k < N_Y; k++)
+            y[k] = run->y[k] + way[k] / size;
+        if (!(size > 0.0 && isfinite(size)) || rates(run, run->t, y, p, dy, &aside))
+            return 0.0;
+        for (int k = 0; k < N_Y; k++)
+            way[k] = dy[k] - run->dy[k];
+    }
+    return sqrt(growth[0] * growth[1]);
+}
+
 /* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
-static void choose(Run *run)
+static void choose(Run *run, const Parameters *p)
 {
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
@@ -97,8 +126,14 @@ static void choose(Run *run)
     const int against = stiff ? stability < SLACK : stability > run->choice.method->bounded || slower;
     run->choice.votes = against ? run->choice.votes + 1 : 0;
     run->choice.since++;
-    if (run->choice.automatic && run->choice.votes >= (stiff ? run->choice.patience : VOTES))
+    if (!run->choice.automatic || run->choice.votes < (stiff ? run->choice.patience : VOTES))
+        return;
+    const double rate = stiff ? largest_rate(run, p) : 0.0;
+    if (rate * run->control.h < SLACK)
         change_method(run);
+    else
+        run->choice.votes = -ASKED_AGAIN;
+    run->choice.rate = rate;
 }
 
 /* Of which power of a step's length its error is: the method's, or less where something has just begun. */
@@ -167,8 +202,10 @@ static void next_length(Run *run, const Step *step, int again, int whole)
     const double error = told_error(step), power = step->method->power;
     double factor = SAFETY * rough_exp2(power
         * (LAST_ERROR_EXPONENT * rough_log2(run->control.error_before) - ERROR_EXPONENT * rough_log2(error)));
-    if (!step->method->stiff && run->choice.stability > 1.0)
-        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / run->choice.stability);
+    const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
+    const double stability = max_of(run->choice.stability, known);
+    if (!step->method->stiff && stability > 1.0)
+        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
     factor = min_of(factor, share_as_seen(run, step, again));
     const double most = again ? 1.0 /* [1] */ : step->looked ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(most, max_of(MIN_GROWTH, factor));

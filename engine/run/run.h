@@ -203,6 +203,7 @@ typedef struct {
 typedef struct {
     const Method *method, *implicit; /* of the next step; which of the stiff ones `auto` takes */
     double stability; /* h rho of the last step that was tried: its length times the largest rate of the motion */
+    double rate; /* rho, 1/s, where `auto` returned to the explicit method */
     int automatic, votes, patience, since;
 } MethodChoice;
 
