@@ -124,6 +124,10 @@ static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
 #endif
 #define NEAR_END 1.02 /* times the fraction of the event: as long is a step that ends close behind it, */
 #define PERIOD_END 1.1 /* and one that reads periods */
+#ifndef KNOTS
+#define KNOTS 0
+#endif
+#define KNOT_REACH 0.4 /* of a piece of a curve: further behind its end it is read as another one (curves.h) */
 
 /* A step of length h instead, and its first event. */
 static int step_again(Run *run, double h, double t_end, const Parameters *p, Step *step, double *share, int *event)
@@ -146,11 +150,19 @@ static int lacks_dense(Run *run, Step *step, const Parameters *p, const Samples 
     return failed;
 }
 
+/* Whether a step leads so far beyond a knot that it may not have read one piece alone; pieces are about as long. */
+static int reaches_far(const Run *run, const Step *step, double share)
+{
+    const double piece = step->t + share * step->h - run->roots.t_crossed;
+    return KNOTS && (1.0 - share) * step->h > KNOT_REACH * piece;
+}
+
 /*
  * The first event of a step that was accepted, as its share; 1 and -1 where there is none. A step so long that its
  * interpolant cannot be made is taken again, shorter. A period of mod is held half a period beyond its end: a step that
  * reaches further ends on rows of another one, which its interpolant then leads to. Taken again from before, it ends
- * close behind the event, wherever that is. So does a step inside of which forces of films are wrong at the event.
+ * close behind the event, wherever that is. So does a step that reaches far beyond a knot of a curve, and one inside of
+ * which forces of films are wrong at the event.
  */
 static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step *step, double *share, int *event)
 {
@@ -164,7 +176,7 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
         const double next = run->control.h, h = longer * *share * step->h;
         if (h <= run->roots.tick)
             break; /* it lies at the step's beginning, where no row is another one */
-        if (!PERIODS && !misses_film_at(run, step, *share, p))
+        if (!PERIODS && !reaches_far(run, step, *share) && !misses_film_at(run, step, *share, p))
             break;
         status = step_again(run, h, t_end, p, step, share, event);
         set_length(run, next);

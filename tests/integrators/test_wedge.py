@@ -172,3 +172,29 @@ def test_gaps_are_known_to_the_rounding_of_corners(angle: float, tmp_path: Path)
             "start.play.G.tilt_rate": 0.35 * rng.normal(),
         })  # fmt: skip
         assert max(run[f"G.{k}.delta"].max() for k in ("front_upper", "rear_lower")) < 1e-9
+
+
+WEDGED = """\
+format: gudgeon/1
+name: wedged
+parameters: {J: 0.01 kg*m^2}
+materials: {A: {E: 2e11, nu: .3}}
+bodies: {s: {mass: 0.968 kg, inertia: J}}
+ground: {O: [0, 0]}
+joints: {G: {translational: [ground.O, s.origin], axis: [1, 0]}}
+guides: {w: {gap: 0.1 mm, half_length: 7.5 mm, half_height: 10 mm, guide_material: A, slider_material: A}}
+contacts: {dry: {normal: {law: newton_restitution, restitution: 0.742, threshold: 0.1 mm/s}}}
+start: {play: {G: {offset: 0, tilt: 0, offset_rate: 18 mm/s, tilt_rate: -0.83}}}
+scenes: {dry: {play: {G: {guide: w, contact: dry}}}}
+"""
+
+
+def test_a_block_that_comes_to_rest_between_two_corners_stays(tmp_path: Path) -> None:
+    """No force presses it: each corner that is put apart from its wall would bring the other one into its wall."""
+    file = tmp_path / "wedged.yaml"
+    file.write_text(WEDGED, encoding="utf-8")
+    simulation = gudgeon.load(file, scene="dry")
+    for inertia in np.linspace(0.0095, 0.0105, 41):
+        run = simulation.simulate(0.1387, output=400, rtol=1e-9, parameters={"J": inertia})
+        assert abs(run["s.omega"][-1]) < 1e-12, inertia
+        assert max(run[f"G.{k}.delta"].max() for k in ("front_upper", "rear_lower", "front_lower", "rear_upper")) < 1e-12

@@ -25,6 +25,7 @@ from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
 from gudgeon.generator.symbols.corners import PeriodsOf
+from gudgeon.generator.symbols.curves import KnotsOf
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.printer import broken, comment_text
@@ -199,14 +200,17 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
         "N_PULSES": (program.terms.pulses, "of these, the first: those that may in a step of any motion"),
     }  # fmt: skip
     systems = (model, program.integrated.system.model)
-    periods = any(switch.g.has(PeriodsOf) for some in systems for switch in some.symbols.switches.found.values())
+    switches = [switch.g for some in systems for switch in some.symbols.switches.found.values()]
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
     if model.rubbed:
         sizes["N_RUBBED"] = (len(model.rubbed), "of them, with friction")
     if idle := idle_switches(program):
         sizes["N_IDLE"] = (len(idle), "of N_SWITCHES that what is integrated does not have")
-    sizes |= {"PERIODS": (1, "mod begins anew within the motion")} if periods else {}
+    if any(g.has(PeriodsOf) for g in switches):
+        sizes["PERIODS"] = (1, "mod begins anew within the motion")
+    if any(g.has(KnotsOf) for g in switches):
+        sizes["KNOTS"] = (1, "curves change from piece to piece within the motion")
     if any(clearance.contour for clearance in model.clearances):
         sizes["CONTOURS"] = (1, "bearings are no circles")
     if corners := first_corners(model):

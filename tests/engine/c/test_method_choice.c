@@ -9,7 +9,7 @@ static int steps_to_change(double stability, int most)
     const Method *method = run.choice.method;
     for (int k = 1; k <= most; k++) {
         note_stability(&run, stability);
-        choose(&run);
+        choose(&run, NULL);
         if (run.choice.method != method)
             return k;
     }
