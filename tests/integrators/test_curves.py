@@ -277,7 +277,7 @@ def test_a_long_table_is_the_curve_that_scipy_makes_of_it(tmp_path: Path, n: int
 
 @pytest.mark.parametrize("rtol", [1e-6, 1e-10])
 def test_steps_do_not_reach_beyond_the_next_piece_of_a_curve(tmp_path: Path, rtol: float) -> None:
-    """Noise, 600 points in 0.1 s: each piece is a cubic, whose integral explicit methods of order 4 and more give exactly.
+    """Noise, 600 points in 0.1 s: each piece is a cubic, whose integral methods of order 4 and more give exactly.
 
     Steps that led over several pieces were accepted by chance and erred by 3e-7 m/s at any tolerance.
     """

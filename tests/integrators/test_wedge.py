@@ -197,4 +197,4 @@ def test_a_block_that_comes_to_rest_between_two_corners_stays(tmp_path: Path) ->
     for inertia in np.linspace(0.0095, 0.0105, 41):
         run = simulation.simulate(0.1387, output=400, rtol=1e-9, parameters={"J": inertia})
         assert abs(run["s.omega"][-1]) < 1e-12, inertia
-        assert max(run[f"G.{k}.delta"].max() for k in ("front_upper", "rear_lower", "front_lower", "rear_upper")) < 1e-12
+        assert max(run[f"G.{k}.delta"].max() for k in ("front_upper", "rear_lower")) < 1e-12
