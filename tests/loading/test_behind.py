@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators import adaptive, rk4
+from gudgeon.integrators import batch
 from gudgeon.loading import behind, build
 from gudgeon.loading.behind import Behind, is_allowed
 from gudgeon.loading.build import compile_kernels
