@@ -41,11 +41,7 @@ from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.stored import StoredRuns
 from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import (
-    Problem,
-    Progress,
-    Trajectory,
-)
+from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.asking import Asker
@@ -315,6 +311,7 @@ class Runs(StoredRuns):
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
         stored = {name: self.arrays[name][i] for name in names}
         return failure(self.compiled, self.method, stored, float(self.times.of(i)[-1]))
+
 
 def integrate(problem: Problem, drive: Drive | None = None) -> Trajectory:
     """Integrate one run, in C or by `drive`. Raise KeyboardInterrupt where nothing was reached."""

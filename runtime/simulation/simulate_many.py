@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-
 def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: Any, output: Any, method: str, rtol: float | str | None,
     step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
