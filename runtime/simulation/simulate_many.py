@@ -293,7 +293,8 @@ def _of_runs(results: _Results, times: Times) -> Batch:
         runs.let_go()
     else:
         y, state = times.without_starts(x["y"]), times.without_starts(x["state"])
-        states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], state[:, :, :joints])
+        work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless else y[:, :, 2 * n :]
+        states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
     numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source, t=times.requested(), states=states, samples=x["done"] - times.skipped * (x["done"] > 1),
