@@ -36,7 +36,9 @@ static int close_run(const Batch *b, long i, const long *others, int n, Asked *a
             memcpy(start, b->start + others[k] * 2 * N_Q, 2 * N_Q * sizeof(double));
             return 0;
         }
-    return close_start(times_of(b, i)[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual, asked);
+    const double *p = b->p + i * b->numbers;
+    return close_start(times_of(b, i)[0], p, b->size[i], start, start + N_Q, &residual, asked)
+        || !all_finite(start + N_Q, N_Q);
 }
 
 static int start_run(const Batch *b, long i, const long *others, int n, Run *run)

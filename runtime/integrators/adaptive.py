@@ -39,8 +39,6 @@ from gudgeon.model.sizes import mechanism_sizes
 RTOL = 1e-8  # of a plain run
 FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velocities may be
 SMALLEST = 1e-14  # rounding would be controlled below it
-CHUNK = 4_000  # steps of one call of C, which asks Python on its way (asking.py)
-ADVICE = "the motion may leave what the model holds for; look at the last samples"
 
 
 def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:

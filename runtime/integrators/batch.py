@@ -1,63 +1,47 @@
-"""The driver of the time loop in C (engine/batch/many.c), of one run and of many: the arrays that runs fill.
+"""The driver of the time loop (engine/batch/many.c), of one run and of many: the arrays that runs fill.
 
 A call of C takes runs from start to end and holds no lock of Python; Python hands out runs, and fetches the lists of
 contacts and events. Many runs go on in threads (threads.py), one in the thread that asked for it (`integrate`).
+A method without a loop over runs in C is a function in Python, which takes a Problem and returns a Trajectory
+(`Runs.drive`); its runs fill the same arrays.
 """
 
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Sequence
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.followed import unfollowed
+from gudgeon.assembly.redundant_rows import check_start, left_out
 from gudgeon.assembly.start import assemble
-from gudgeon.contract.audit import Finding
 from gudgeon.contract.boundary import (
     AUDITED,
     BEGUN,
     ENDED,
     LISTS,
     N_CHECKS,
-    N_COUNTS,
-    N_PEAK,
-    N_RESIDUALS,
     N_STEP_ENDS,
     N_WORK,
     NEW,
     NOT_CLOSED,
     OVER,
     RUN_OVER,
-    STALLED,
-    STOPPED,
-    PEAK_e_max,
 )
 from gudgeon.errors import GudgeonError, SolverError
-from gudgeon.integrators import adaptive, lanes, rk4, trace
-from gudgeon.integrators.audit import as_findings, audit_failure
-from gudgeon.integrators.contacts import Contacts
-from gudgeon.integrators.events import fetch_events, no_states, resolution, split_undefined
-from gudgeon.integrators.failure import FELT, INTERRUPTED, Pace, drives_at, failure, film, stalled, with_corners
+from gudgeon.integrators import adaptive, lanes
+from gudgeon.integrators.audit import audit_failure
+from gudgeon.integrators.failure import INTERRUPTED, failure
 from gudgeon.integrators.lanes import Flow, Lanes
 from gudgeon.integrators.steps import Look, Tape
-from gudgeon.integrators.threads import GLANCE as GLANCE
+from gudgeon.integrators.stored import StoredRuns
 from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import (
-    IMPACT_DTYPE,
-    Counts,
-    Problem,
-    Progress,
-    Trajectory,
-    counts_of,
-    no_events,
-    plain,
-)
+from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.asking import Asker
@@ -66,91 +50,73 @@ from gudgeon.waiting.ctrl_c import CtrlC
 if TYPE_CHECKING:
     from gudgeon.results.results import State
 
+Drive: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
+CHUNK, CHUNK_RK4 = 4_000, 20_000  # steps of one call of C, which asks Python on its way (asking.py)
 TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
 
 
-def available_threads() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+class Runs(StoredRuns):
+    """Runs from start to end.
 
-
-class Runs:
-    """Arrays by run, and by place where there are samples; what is not reached is NaN.
-
-    Each run has a place of its own for its samples or, with `over`, one of the thread which it goes on in: what `over`
-    does not take of runs that are over, some at once in that thread, is lost.
+    Each run has a place of its own for its samples or, where these are `shared`, one of the thread which it goes on in:
+    what `over` does not take of runs that are over, some at once in that thread, is lost.
     """
 
     def __init__(
         self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
-        stop: bool, audit: int, side_by_side: bool, threads: int, over: Callable[..., None] | None = None,
+        stop: bool, audit: int, side_by_side: bool, threads: int, shared: bool = False, drive: Drive | None = None,
     ) -> None:  # fmt: skip
-        self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
-        n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
-        beside = side_by_side and lanes.wanted(compiled, method, step)
+        self.threads, self.rtol, self.shared, self.drive = threads, rtol, shared, drive
+        self.stop, self.audit = stop, audit
+        self.over: Callable[[Sequence[int]], None] | None = None  # takes what is wanted of runs that are over
+        n, N = len(p), times.most
+        beside = side_by_side and not drive and lanes.wanted(compiled, method, step)
         if beside:
             compiled.lib.best()  # whose functions are called from within lanes, for all runs
         self.lanes = Lanes(compiled) if beside and method == "rk4" else None
         self.flow = Flow(compiled) if beside and method != "rk4" else None
-        self.n, self.abreast = n, max((each.count for each in (self.lanes, self.flow) if each), default=1)
-        if self.flow and over:
+        self.abreast = max((each.count for each in (self.lanes, self.flow) if each), default=1)
+        if self.flow and shared:
             self.abreast = min(self.abreast, max(lanes.ALWAYS, TOGETHER // N))
         spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
         self.places = self.abreast + spare  # of a thread
-        places = threads * self.places if over else n
-        scale, least = np.zeros((2, 1)) if method == "rk4" else adaptive.tolerances(compiled, p, rtol)
-        self.arrays: dict[str, NDArray[Any]] = {
-            "t": times.t, "wanted": times.count, "place": np.arange(n) % places, "p": p, "p_motion": motion,
-            "size": mechanism_sizes(compiled.source, p), "step": step, "scale": scale, "least": least,
-            "start": np.full((n, 2 * compiled.n), np.nan),
-            "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
-            "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
-            "latched": np.empty((places, N, max(compiled.n_memory, 1))), "state": np.zeros((places, N, nc), np.int8),
-            "done": np.zeros(n, np.int_), "checked": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
-            "audited_t": np.zeros((n, N_CHECKS)), "t_last": np.full(n, times.start),
-            "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
-            "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, N_RESIDUALS), np.nan),
-            "peaks": np.full((n, nc, N_PEAK), np.nan), "ending": np.zeros(1, np.intc),
-            "audited": np.full((n, N_CHECKS), -1.0), "audited_where": np.full((n, N_CHECKS), -1, np.intc),
+        super().__init__(compiled, method, p, motion, times, step, threads * self.places if shared else n, bool(drive))
+        self.struct: Any = None if drive else self._struct()
+        self.unfollowed: dict[int, dict[str, float]] = {}  # guesses, of runs that C could not close near them
+        self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
+        self.resumed = set[int]()  # runs that go on from a state
+
+    def _struct(self) -> Any:
+        """The arrays as C has them, with those that C alone fills."""
+        compiled, n, explicit, x = self.compiled, self.n, self.method == "rk4", self.arrays
+        scale, least = np.zeros((2, 1)) if explicit else adaptive.tolerances(compiled, x["p"], self.rtol)
+        x |= {
+            "t": self.times.t, "wanted": self.times.count, "scale": scale, "least": least,
+            "size": mechanism_sizes(compiled.source, x["p"]), "checked": np.zeros(n, np.int_),
+            "last": np.full((n, 2 * compiled.n + N_WORK), np.nan), "audited": np.full((n, N_CHECKS), -1.0),
+            "audited_t": np.zeros((n, N_CHECKS)), "audited_where": np.full((n, N_CHECKS), -1, np.intc),
             "gained": np.zeros(n), "paced": np.zeros((n, 2), np.int_), "ended": np.zeros((n, N_STEP_ENDS), np.int_),
         }  # fmt: skip
-        self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
-        self.struct = self._struct(math.isfinite(step[0]), stop, audit, rtol)
-        self.fetched = Contacts(compiled)
-        self.events: dict[int, list[NDArray[Any]]] = {}  # of runs that have any, with states
-        self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)  # once all are over: by run
-        self.failures: dict[int, GudgeonError] = {}
-        self.unfollowed: dict[int, dict[str, float]] = {}  # guesses, of runs that C could not close near them
-        self.interrupted = False
-        self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
-
-    def _struct(self, fixed: bool, stop: bool, audit: int, rtol: float) -> Any:
-        struct = self.compiled.ffi.new("Batch *")
-        explicit = self.method == "rk4"
-        struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, self.arrays["p"].shape[1]
-        struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
-        struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method, rtol)
-        struct.fixed, struct.stop, struct.audit = int(fixed), int(stop), audit
+        self.arrays = {name: np.ascontiguousarray(array) for name, array in x.items()}
+        struct = compiled.ffi.new("Batch *")
+        struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, x["p"].shape[1]
+        struct.limit = CHUNK_RK4 if explicit else CHUNK
+        struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(compiled, self.method, self.rtol)
+        struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"][0]), self.stop, self.audit
         kinds = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
         for name, array in self.arrays.items():
             setattr(struct, name, self.compiled.pointer(array, kinds[array.dtype.char], True))
         return struct
 
-    def keep_trace(self) -> None:
-        """Runs that are yet to begin keep what a picture needs of each step."""
-        joints, x = len(self.compiled.source.clearances), self.arrays
-        x["trace"], x["traced"] = np.empty((self.n, trace.ROWS, trace.width(joints))), np.zeros(self.n, np.int_)
-        self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], written=True), trace.ROWS
-        self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
-
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None, "flow": None, "over": None, "looks": (), "fetched": None}
+        none = dict.fromkeys(("struct", "lanes", "flow", "over", "drive", "fetched"))
+        return self.__dict__ | none | {"looks": ()}
 
     def let_go(self) -> None:
         """Samples that `over` has taken what it wanted of."""
-        self.arrays |= {name: self.arrays[name][:0] for name in ("y", "latched", "state")}
-        self.arrays |= {name: np.zeros_like(self.arrays[name]) for name in ("y", "latched", "state")}
+        self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
+        self.arrays.pop("a", None)
         self.struct, self.over = None, None
 
     @property
@@ -166,6 +132,7 @@ class Runs:
             x["remembered"][i, : self.compiled.n_memory] = start.memory
             if start.state is not None:
                 x["codes"][i, :nc] = start.state
+                self.resumed.add(i)
         x["started"][: len(starts)] = 1
 
     def leave_out(self, failures: dict[int, Any]) -> None:
@@ -177,15 +144,15 @@ class Runs:
         """All of them. Ctrl-C ends them where they are."""
         with CtrlC() as ctrl_c:
             try:
+                if self.drive or left_out(self.compiled):
+                    self._assemble_all(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
                 in_threads(self, progress, range(self.n), ctrl_c)
-                left = self._not_closed()
-                if left:
-                    again = [i for i in left if self._assemble(i, ctrl_c)]
-                    in_threads(self, progress, again, ctrl_c)
+                if left := self._not_closed():
+                    in_threads(self, progress, self._assemble_all(left, ctrl_c), ctrl_c)
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
-            self.contacts, self.cuts = self.fetched.joined(self.n)
+            self._join_contacts()
             self._judge()
 
     def _judge(self) -> None:
@@ -197,7 +164,7 @@ class Runs:
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._failure(i)
-        if self.over:
+        if self.shared:
             return
         none = x["done"] == 0
         x["y"][none], x["latched"][none] = np.nan, np.nan
@@ -210,18 +177,51 @@ class Runs:
         self.arrays["phase"][left], self.arrays["status"][left] = NEW, 0
         return left
 
-    def _assemble(self, i: int, ctrl_c: CtrlC) -> bool:
-        """The start of a run that C could not close, by the search in Python."""
-        ctrl_c.take()
+    def _assemble_all(self, runs: Sequence[int], ctrl_c: CtrlC) -> list[int]:
+        """The starts of these runs, by the search in Python. Return the runs that may begin."""
+        x = self.arrays
+        for i in runs:
+            ctrl_c.take()
+            try:
+                if not x["started"][i]:
+                    start = assemble(self.compiled, x["p"][i])
+                    if off := unfollowed(self.compiled, x["p"][i], start.q):
+                        self.unfollowed[i] = off
+                    x["start"][i] = np.concatenate([start.q, start.v])
+                check_start(self.compiled, x["p"][i], float(self.times.of(i)[0]), x["start"][i, : self.compiled.n])
+                x["started"][i] = 1
+            except GudgeonError as error:
+                self.leave_out({i: error})
+        return [i for i in runs if x["phase"][i] == NEW]
+
+    def problem(self, i: int) -> Problem:
+        """Run i, which was closed or goes on from a state, as a run alone."""
+        x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
+        return Problem(
+            self.compiled, x["p"][i], self.times.of(i), x["start"][i, :n], x["start"][i, n:],
+            x["remembered"][i, : self.compiled.n_memory], float(x["step"][i]),
+            state=x["codes"][i, :joints] if i in self.resumed else None, method=self.method, rtol=self.rtol,
+            p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop,
+            start_is_sample=not self.times.skipped[i], audit=self.audit,
+        )  # fmt: skip
+
+    def take(self) -> None:
+        """Raise KeyboardInterrupt where all runs are to end."""
+        if self.stopping:
+            raise KeyboardInterrupt
+
+    def follow(self, i: int) -> None:
+        """Run i from start to end by a method that Python drives."""
+        assert self.drive
         try:
-            start = assemble(self.compiled, self.arrays["p"][i])
+            look = self.looks[i] if self.looks else None
+            self.store(i, self.drive(replace(self.problem(i), take=self.take, look=look)))
+        except KeyboardInterrupt:  # before it had anything
+            return
         except GudgeonError as error:
             self.leave_out({i: error})
-            return False
-        self.unfollowed[i] = unfollowed(self.compiled, self.arrays["p"][i], start.q)
-        self.arrays["start"][i] = np.concatenate([start.q, start.v])
-        self.arrays["started"][i] = 1
-        return True
+            return
+        self.are_over([i])
 
     def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
         """Run i alone from where it is, if it is not over."""
@@ -229,11 +229,11 @@ class Runs:
         self.are_over([i])
 
     def are_over(self, runs: Sequence[int]) -> None:
-        """What is wanted of those of these that came to their ends in places that others may take."""
+        """What is wanted of those of these that came to their ends, and whose places others may take."""
         x = self.arrays
         over = [i for i in runs if self.over and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
         if self.over and over:
-            self.over(self, over)
+            self.over(over)
 
     def alone(
         self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None,
@@ -258,6 +258,14 @@ class Runs:
 
         Raises KeyboardInterrupt where nothing was reached.
         """
+        if self.drive:
+            self.store(0, self.drive(problem))
+        else:
+            self._in_c(problem)
+        self._join_contacts()
+        return self.trajectory(0)
+
+    def _in_c(self, problem: Problem) -> None:
         compiled, x = self.compiled, self.arrays
         memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
         run, tape = compiled.pointer(memory, "void *", True), Tape(compiled) if self.looks else None
@@ -277,7 +285,6 @@ class Runs:
                 raise
             self.interrupted, x["ending"][0] = True, 1
             self.alone(0, 1, memory, tape)
-        self.contacts, self.cuts = self.fetched.joined(1)
         if not self.interrupted and x["status"][0] not in (0, ENDED):
             self.failures[0] = self._failure(0)
         if not x["done"][0]:  # at least the start
@@ -285,7 +292,6 @@ class Runs:
             to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
             compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
             x["done"][0] = 1
-        return self.trajectory(0)
 
     def _poll(self, problem: Problem, run: Any) -> None:
         """Between steps or, called by C, within one: takes Ctrl-C and a better library, moves the progress bar."""
@@ -298,116 +304,25 @@ class Runs:
             share = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
             problem.progress(float(min(max(share, 0.0), 1.0)), "integrating")
 
-    def fetch(self, i: int, run: Any, last: bool) -> None:
-        """Takes over the lists of contacts and events of run i."""
-        if self.compiled.source.clearances:
-            self.fetched.fetch(i, run, last)
-        if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
-            self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
-
     def _failure(self, i: int) -> GudgeonError:
         """Return the error for what ended run i."""
-        x = {name: self.arrays[name][i] for name in ("status", "t_last", "last", "peaks", "p_motion", "step")}
-        advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
-        e_max = x["peaks"][: len(self.compiled.source.clearances), PEAK_e_max]
-        numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], e_max, x["p_motion"])
-        if x["status"] == AUDITED:
+        if self.arrays["status"][i] == AUDITED:
             return audit_failure(self.findings(i))
-        if x["status"] == STALLED:
-            return self._stalled(i, e_max)
-        return failure(self.compiled, self.method, *numbers, float(x["step"]) if self.method == "rk4" else 0.0)
-
-    def _stalled(self, i: int, e_max: Array) -> SolverError:
-        """Return the error for run i, which no longer advances."""
-        x = {name: self.arrays[name][i] for name in ("t_last", "gained", "paced", "ended", "p_motion")}
-        t, (steps, crawls) = float(x["t_last"]), x["paced"].tolist()
-        pace = Pace(t, float(self.times.of(i)[-1]) - t, float(x["gained"]), steps, bool(crawls))
-        # a drive that still turns on in steps so short is what they are short for
-        fast = drives_at(self.compiled, x["p_motion"], t, FELT * pace.steps / max(pace.gained, 1e-300))
-        closing = film(self.compiled, e_max, x["p_motion"])
-        return stalled(pace, x["ended"], closing, fast, with_corners(self.compiled.source))
-
-    def findings(self, i: int) -> tuple[Finding, ...]:
-        """What the audit of run i found."""
-        return as_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
-
-    def impacts_of(self, i: int) -> NDArray[Any]:
-        """IMPACT_DTYPE, the contacts of run i by their onset."""
-        return self.contacts[self.cuts[i] : self.cuts[i + 1]].copy()
-
-    def all_impacts(self) -> tuple[NDArray[Any], ...]:
-        """The same of all runs, views of one array."""
-        return tuple(self.contacts[a:b] for a, b in pairwise(self.cuts.tolist()))
-
-    def all_events(self) -> tuple[NDArray[Any], ...]:
-        """EVENT_DTYPE, the user events of all runs by time."""
-        events = [no_events()] * self.n
-        for i in self.events:
-            events[i] = plain(self._events_of(i)[0])
-        return tuple(events)
-
-    def _events_of(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the user events of run i by time, and those that are no number from a time on."""
-        if i not in self.events:
-            return no_states(self.compiled), no_states(self.compiled)
-        x, times = self.arrays, self.times.of(i)
-        events, lost = split_undefined(self.compiled, np.concatenate(self.events[i]))
-        if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
-            return events, lost
-        t_last = self._times_of(i)[-1] + resolution(times)
-        return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
-
-    def counts(self, i: int) -> Counts:
-        """Sums and maxima over the steps of run i."""
-        return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
-
-    def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
-        """Times of the samples of run i that were reached, and views of these: (q, v, works), memory, codes."""
-        x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
-        t, joints = self._times_of(i), len(compiled.source.clearances)
-        y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
-        return t, y, memory[:, : compiled.n_memory], state[:, :joints]
-
-    def _times_of(self, i: int) -> Array:
-        """Return the times (s) of the samples of run i that were reached."""
-        done = int(self.arrays["done"][i])
-        t = self.times.of(i)[:done].copy()
-        if done and self.arrays["status"][i] in (ENDED, STOPPED, STALLED):
-            t[-1] = self.arrays["t_last"][i]
-        return t
-
-    def trajectory(self, i: int) -> Trajectory:
-        """Return run i; of several runs a copy, without their arrays."""
-        own, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
-        t, y, memory, state = self.samples(i)
-        error, (events, no_number) = self.failures.get(i), self._events_of(i)
-        joints = len(self.compiled.source.clearances)
-        is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
-        return Trajectory(
-            t, own(y[:, :n]), own(y[:, n : 2 * n]), None, own(memory), own(state), own(y[:, 2 * n :]),
-            self.impacts_of(i), own(x["peaks"][i, :joints]), self.counts(i),
-            is_stopped, error if isinstance(error, SolverError) and not is_stopped else None,
-            seconds=float(x["seconds"][i]), events=plain(events), event_states=events, no_number=plain(no_number),
-            trace=self._trace(i), audit=self.findings(i),
-        )  # fmt: skip
-
-    def _trace(self, i: int) -> trace.Trace | None:
-        if "trace" not in self.arrays:
-            return None
-        rows = self.arrays["trace"][i, : self.arrays["traced"][i]]
-        return trace.Trace.of_rows(rows, len(self.compiled.source.clearances))
+        names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
+        stored = {name: self.arrays[name][i] for name in names}
+        return failure(self.compiled, self.method, stored, float(self.times.of(i)[-1]))
 
 
-def integrate(problem: Problem) -> Trajectory:
-    """Integrate one run over its output times. Raises KeyboardInterrupt where nothing was reached."""
+def integrate(problem: Problem, drive: Drive | None = None) -> Trajectory:
+    """Integrate one run, in C or by `drive`. Raise KeyboardInterrupt where nothing was reached."""
     times = Times(problem.t, np.full(1, len(problem.t)), np.zeros(1, np.int_))
     motion = problem.p if problem.method == "rk4" or problem.p_free is None else problem.p_free
     runs = Runs(
         problem.compiled, problem.p[None], motion[None], times, problem.method, np.full(1, problem.step), problem.rtol,
-        problem.stop, problem.audit, side_by_side=False, threads=1,
+        problem.stop, problem.audit, side_by_side=False, threads=1, drive=drive,
     )  # fmt: skip
     runs.begin([problem])
     runs.looks = [problem.look] if problem.look else ()
-    if problem.compiled.source.clearances:
+    if problem.compiled.source.clearances and not drive:
         runs.keep_trace()
     return runs.here(problem)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.assembly.linkage import mechanism_size
@@ -20,6 +21,7 @@ from gudgeon.contract.boundary import (
     STOPPED,
     TOO_SMALL,
     UNBOUNDED,
+    PEAK_e_max,
 )
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
@@ -37,6 +39,8 @@ TOLD = {
     NOT_FOUND: "the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
     "  a shorter step, or none: then it chooses its own",
 }
+SHORTER = "the step {:.3g} s is too long for this scene: take a smaller one"
+ADVICE = "the motion may leave what the model holds for; look at the last samples"
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
@@ -48,9 +52,20 @@ FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
 
-def failure(
+def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
+    """Return the error for a run to t_end (s), from what C has stored of it (Batch in engine/scene/calls.h)."""
+    status, t, step, p = int(run["status"]), float(run["t_last"]), float(run["step"]), run["p_motion"]
+    e_max, last = run["peaks"][: len(compiled.source.clearances), PEAK_e_max], run["last"]
+    if status == STALLED:
+        return _stalled(compiled, run, t_end, e_max)
+    if method == "rk4":  # which looks a step beyond the last state
+        return _failure(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
+    return _failure(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
+
+
+def _failure(
     compiled: CompiledModel, method: str, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array,
-    ahead: float = 0.0,
+    ahead: float,
 ) -> SolverError:  # fmt: skip
     """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters.
 
@@ -210,15 +225,22 @@ def with_corners(source: KernelSource) -> str:
     return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in found)
 
 
-def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str, cornered: str) -> SolverError:
-    """A run that no longer advances: how many steps ended at contacts, corners of forces, frictions, events; `film`:
-    which one is all but closed, `fast`: drives for which steps are so short (drives_at), "": none; `cornered`: forces
-    whose form may change (with_corners)."""
+def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
+    """Return the error for a run to t_end (s) that no longer advances, from what C has stored of it.
+
+    `run` has t_last, p_motion, gained (s) and paced of the last steps, and `ended`: how many of them ended at contacts,
+    corners of forces, frictions and events. `e_max` (n_clearances,): largest eccentricities.
+    """
+    t, (steps, crawls), ended, p = float(run["t_last"]), run["paced"].tolist(), run["ended"], run["p_motion"]
+    pace = Pace(t, t_end - t, float(run["gained"]), steps, bool(crawls))
     if not pace.crawls:
         return too_far(pace)
-    whose = int(ended.argmax())
+    # a drive that still turns on in steps so short is what they are short for
+    fast = drives_at(compiled, p, t, FELT * pace.steps / max(pace.gained, 1e-300))
+    film, whose = squeezed_film(compiled, e_max, p), int(ended.argmax())
     if fast and not film and ended[whose] <= 0.01 * pace.steps:
         return outgrown(pace, fast)
+    cornered = with_corners(compiled.source)
     form = f" in {cornered}" if cornered else " of a law"
     kinds = ("a contact begins or ends", f"a force changes its form (a corner{form})",
              "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
@@ -238,7 +260,7 @@ def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str, cornered:
     )  # fmt: skip
 
 
-def film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
+def squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
     """The film that is all but closed, in words; "" where there is none."""
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])

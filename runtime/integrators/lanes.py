@@ -83,7 +83,8 @@ class Lanes:
     def flow(
         self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
     ) -> None:
-        """All runs of `supply`, each in a row of `memories`; with `over` its samples go to a place from `place` on.
+        """All runs of `supply`, each in a row of `memories`; where places are shared, its samples go there from
+        `place` on.
 
         `tapes`: one a row, where somebody looks at all steps.
         """
@@ -94,7 +95,7 @@ class Lanes:
             for k in empty:
                 if (i := next(supply, NONE)) != NONE:
                     number[k] = i
-                    if runs.over:
+                    if runs.shared:
                         runs.arrays["place"][i] = free.pop()
             before = list(number)
             status = self.lib.gudgeon_lanes(*arguments, number)
@@ -103,7 +104,7 @@ class Lanes:
                 if before[k] != NONE:
                     _fetch(runs, before[k], rows[k], tapes[k] if tapes else None)
             waiting += [before[k] for k in empty if before[k] != NONE]
-            if runs.over and len(free) < len(empty):
+            if runs.shared and len(free) < len(empty):
                 runs.are_over(waiting)
                 free += runs.arrays["place"][waiting].tolist()
                 waiting.clear()

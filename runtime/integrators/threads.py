@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
 
 PORTION = 16  # runs handed out at once, at most
 GLANCE = 0.05  # s between two looks of the waiting thread
+
+
+def available_threads() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def wait_for(
@@ -43,11 +49,20 @@ def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int],
     portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
-            waiting: set[Future[None]] = {pool.submit(_work, runs, portions, k) for k in range(runs.threads)}
+            work = _follow if runs.drive else _work
+            waiting: set[Future[None]] = {pool.submit(work, runs, portions, k) for k in range(runs.threads)}
             wait_for(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
             runs.arrays["ending"][0] = 1
             raise
+
+
+def _follow(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
+    """One thread: runs whose loop is in Python, until none is left."""
+    for i in numbers_of(runs, portions):
+        if runs.shared:
+            runs.arrays["place"][i] = worker * runs.places
+        runs.follow(i)
 
 
 def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
@@ -76,7 +91,7 @@ def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
 
 def _group(runs: Runs, group: list[int], memories: NDArray[np.uint8], place: int, tape: Tape | None) -> None:
     """Runs that go side by side as far as they do, and then each to its end."""
-    if runs.over:
+    if runs.shared:
         runs.arrays["place"][group] = place + np.arange(len(group))
     if runs.lanes and len(group) >= LEAST and not runs.stopping:
         runs.lanes.together(runs, group, memories)

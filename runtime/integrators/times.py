@@ -1,14 +1,17 @@
-"""Output times of the runs of a batch: the same for all, or each run's own."""
+"""Output times of the runs of a batch: the same for all, or each run's own; the last step of a fixed length."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.model.compiled import Array
+
+SAME = 1e-9  # share of the step by which the last one may differ and counts as equal: times are sums of rounded numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +52,14 @@ class Times:
 
     def of(self, i: int) -> Array:
         """Those of run i, (count[i],)."""
-        return self.t[i, : self.count[i]] if self.t.ndim == 2 else self.t
+        return (self.t[i] if self.t.ndim == 2 else self.t)[: self.count[i]]
+
+    def before(self, ends: Mapping[int, float]) -> Times:
+        """Return the same, for some runs only the times before an end (s); the first one stays."""
+        count = self.count.copy()
+        for i, end in ends.items():
+            count[i] = max(int(np.searchsorted(self.of(i), end)), 1)
+        return replace(self, count=count)
 
     def requested(self) -> Array:
         """Return the times of samples, (N',) or (n, N') as `t`."""
@@ -70,10 +80,16 @@ class Times:
 
     def ends(self) -> Array:
         """The last of each run, (n,); NaN where a run has none."""
-        if self.t.ndim == 1:
-            return np.full(len(self.count), self.t[-1])
-        return np.where(self.count > 0, self.t[np.arange(len(self.count)), self.count - 1], np.nan)
+        t = np.broadcast_to(self.t, (len(self.count), self.most))
+        return np.where(self.count > 0, t[np.arange(len(self.count)), self.count - 1], np.nan)
 
     def same(self, i: int, j: int) -> bool:
         """Whether two runs have the same."""
-        return self.t.ndim == 1 or np.array_equal(self.of(i), self.of(j))
+        return bool(self.count[i] == self.count[j]) and (self.t.ndim == 1 or np.array_equal(self.of(i), self.of(j)))
+
+
+def last_step(duration: float, step: float) -> float:
+    """Length (s) of the last of the steps over `duration`: `step`, or what is left (step_end in numbers.h)."""
+    total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
+    rest = duration - (total - 1) * step
+    return step if abs(rest - step) < SAME * step else rest

@@ -22,6 +22,7 @@ IMPACT_DTYPE = np.dtype(
     [("joint", "i4"), ("t_on", "f8"), ("t_off", "f8"), ("deltadot", "f8"), ("F_peak", "f8"), ("t_peak", "f8")]
 )
 
+NO_CHANGE_POINTS = 0, float("nan")
 Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
 
 
@@ -130,10 +131,10 @@ class Trajectory:
     counts: Counts
     interrupted: bool = False
     stopped: SolverError | None = None
-    seconds: float | None = None  # spent in the time loop; None: not measured
+    seconds: float = 0.0  # spent in the time loop
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
     event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
     audit: tuple[Finding, ...] = ()  # largest value of each check
     no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number
-    change_points: tuple[int, float] = (0, float("nan"))  # samples at or near one, and the time of the first (s)
+    change_points: tuple[int, float] = NO_CHANGE_POINTS  # samples at or near one, and the time of the first (s)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.threads import available_threads
 from gudgeon.language import tree
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import is_whole, refuse, told

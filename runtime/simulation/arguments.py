@@ -12,22 +12,27 @@ from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SM
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.files.room import check_memory
 from gudgeon.integrators import batch, kinematic
+from gudgeon.integrators.batch import Drive
 from gudgeon.integrators.peers import driver
+from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.wanted import is_whole, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
 
-METHODS = {
-    **dict.fromkeys(("rk4", *CHOOSING, *SMOOTH, ADAPTIVE), batch.integrate), KINEMATIC: kinematic.run,
-    **dict.fromkeys(driver.NAMES, driver.run),
-}  # fmt: skip
+DRIVES: dict[str, Drive] = {KINEMATIC: kinematic.run, **dict.fromkeys(driver.NAMES, driver.run)}  # by Python
+METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *DRIVES)
 MAX_STEPS = 10**12
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
 OUTPUT = f"a whole number of intervals, 1 to {MOST_OUTPUT:.0e}, or times (s)"
 MOST_TRUTHS = 10**4  # entries of a list that are looked at one by one
 NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
+
+
+def integrate(problem: Problem) -> Trajectory:
+    """Integrate one run by its method. Raise KeyboardInterrupt where nothing was reached."""
+    return batch.integrate(problem, DRIVES.get(problem.method))
 
 
 def seconds(name: str, value: float | str) -> float:

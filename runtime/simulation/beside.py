@@ -17,7 +17,7 @@ from gudgeon.model.choices import said
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import prepare, without_baumgarte
 from gudgeon.results.series import catalogue
-from gudgeon.simulation.arguments import METHODS, method_of
+from gudgeon.simulation.arguments import integrate, method_of
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -53,7 +53,7 @@ class Beside:
         times = np.union1d(problem.t[:1], t)
         if self.last is not None and len(times) == 1:
             return self.last[np.zeros(len(t), dtype=int)]
-        x = METHODS[problem.method](replace(problem, t=times))
+        x = integrate(replace(problem, t=times))
         if x.stopped is not None:
             raise x.stopped
         work = x.work if self.last is None else x.work + self.last.work  # each part begins with none

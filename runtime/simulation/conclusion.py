@@ -34,13 +34,13 @@ class _TooLong(Exception):
 
 
 def conclude(
-    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, given: Array, is_given: Array,
-    seconds: float, soon: bool = True,
+    problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True
 ) -> Result:  # fmt: skip
     """A run with its diagnostics, from its samples. Everything that follows from them is evaluated for its balance.
 
     Where Ctrl-C comes meanwhile, or ended the run and (with `soon`) the samples are many, that is left for later.
     """
+    compiled = problem.compiled
     x, evaluation, failed, balance = without_works(compiled, trajectory), None, False, (math.nan, math.nan)
     look = _look(problem, x.interrupted, soon)
     try:
@@ -61,7 +61,7 @@ def conclude(
     result = Result(
         compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
         accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
-        diagnostics=diagnose(compiled, method, problem, x, balance, seconds), events=x.events,
+        diagnostics=diagnose(problem, x, balance), events=x.events,
         event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled),
     )  # fmt: skip
     if evaluation is not None:
@@ -113,13 +113,14 @@ def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]
 def contradicted(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
     """Return the run, marked as interrupted where Ctrl-C comes meanwhile, and what ends it after all, if anything.
 
-    That is a contradiction of its constraints, or else a check of its samples that failed.
+    That is what the time loop met, a contradiction of its constraints, or a check of its samples that failed.
     """
     found = result.diagnostics.audit
     try:
-        return result, contradiction(problem, trajectory) or (audit_failure(found) if failed(found) else None)
+        failure = contradiction(problem, trajectory) or (audit_failure(found) if failed(found) else None)
     except KeyboardInterrupt:
-        return _interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
+        result, failure = _interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
+    return result, trajectory.stopped or failure
 
 
 def late(ctrl_c: CtrlC, result: Result) -> Result:

@@ -17,7 +17,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.integrators.adaptive import stiff_of
 from gudgeon.integrators.audit import notes_of
-from gudgeon.integrators.rk4 import last_step
+from gudgeon.integrators.times import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
@@ -35,12 +35,9 @@ THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contac
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 
 
-def diagnose(
-    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, balance: tuple[float, float],
-    seconds: float,
-) -> Diagnostics:  # fmt: skip
+def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, float]) -> Diagnostics:
     """What a run says about itself, from its trajectory and the `balance` of its energy."""
-    x, counts = trajectory, trajectory.counts
+    compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
     worst, turned = balance
     duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
     if method == "rk4" and duration > 0.0:
@@ -58,8 +55,8 @@ def diagnose(
         right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
         phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
-        peaks=_peaks(compiled, x), seconds=seconds,
-        seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
+        peaks=_peaks(compiled, x), seconds=x.seconds,
+        seconds_per_simulated_second=x.seconds / simulated if simulated > 0 else math.nan,
         interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory), audit=x.audit,
     )  # fmt: skip
 
@@ -127,12 +124,15 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         notes += piled_up([joint.name for joint in compiled.source.clearances], trajectory.impacts)
         notes += stiff_beside_rigid(compiled.source, problem, counts)
     notes += notes_of(trajectory.audit)
-    if compiled.source.indeterminate:
-        notes.append(
-            f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
-            " by rigid bodies (NaN)"
-        )
+    notes += indeterminate(compiled.source)
     return tuple(notes)
+
+
+def indeterminate(source: KernelSource) -> Iterator[str]:
+    """A remark on redundant constraints, where a scene has any."""
+    if source.indeterminate:
+        owners = ", ".join(source.indeterminate)
+        yield f"constraints are redundant: the reactions of {owners} are not determined by rigid bodies (NaN)"
 
 
 def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:

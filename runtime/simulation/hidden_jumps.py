@@ -10,9 +10,10 @@ Where nothing is free there is no impulse to be left out, but near such a place 
 
 from __future__ import annotations
 
-from collections.abc import Container
+import math
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -20,7 +21,6 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import NonFiniteError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER
-from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.functions import CORNERED, JUMPING, names_where
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
 from gudgeon.model.compiled import Array
@@ -45,6 +45,9 @@ class Jump:
     told: str = ""  # a branch of a where is no number at its own corner: in words
 
 
+_Search: TypeAlias = tuple[str, Expr, Callable[..., list[Jump]]]  # in a drive with this expression
+
+
 def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
     """Of all drives between two times (s), in time's order; at most MOST a drive."""
     found = []
@@ -60,33 +63,40 @@ def may_jump(source: KernelSource) -> bool:
     return bool(_that_may_hide(source) or _that_may_break(source))
 
 
-def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
-    """What no run goes over; without freedom infinite rates too, of drives whose corners are found otherwise."""
-    found = hidden_jumps(source, p, t0, t1)
-    if _integrates(source):
-        return found
-    known = {drive for drive, _ in (*_that_may_hide(source), *_that_may_break(source))}
-    for drive, tree in _with_drives(source) if t1 > t0 else ():
-        if drive not in known and _hides(tree):
-            found += [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
-    return sorted(found, key=lambda jump: jump.t)
+def _looked_at(source: KernelSource) -> list[_Search]:
+    """Return the searches for what no run goes over.
+
+    Without freedom these are infinite rates too, of drives whose corners are found otherwise.
+    """
+    found: list[_Search] = [(drive, tree, _jumps) for drive, tree in _that_may_hide(source)]
+    found += [(drive, tree, _first_break) for drive, tree in _that_may_break(source)]
+    known = {drive for drive, *_ in found}
+    others = () if _integrates(source) else _with_drives(source)
+    return found + [(drive, tree, _unbounded) for drive, tree in others if drive not in known and _hides(tree)]
 
 
-def any_in_batch(source: KernelSource, p: Array, t0: float, ends: Array, left_out: Container[int] = ()) -> bool:
-    """Whether a run of a batch meets one until its end, p (runs, numbers); the same drives are looked at once."""
-    seen, breaking = set(), _that_may_break(source)
-    for drive, tree in (*_that_may_hide(source), *breaking) if _integrates(source) else ():
-        look = _first_break if (drive, tree) in breaking else _jumps
+def first_jumps(
+    source: KernelSource, p: Array, t0: float, ends: Sequence[float], left_out: Container[int] = ()
+) -> dict[int, Jump]:
+    """Return the first jump that each run meets after t0 until its end (s), by its number; p (runs, numbers).
+
+    The same drives are looked at once.
+    """
+    first, known = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
+    for drive, tree, search in _looked_at(source):
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
-        for i, (row, t1) in enumerate(zip(p, ends.tolist(), strict=True)):
-            key = (drive, t1, row[columns].tobytes())
-            if key in seen or i in left_out or not t1 > t0:
+        for i, t1 in enumerate(ends):
+            if i in left_out or not t1 > t0:
                 continue
-            seen.add(key)
-            if any(jump.t > t0 for jump in look(source, row, tree, drive, t0, t1)):
-                return True
-    return False
+            key = drive, t1, p[i, columns].tobytes()
+            if key not in known:
+                found = [jump for jump in search(source, p[i], tree, drive, t0, t1) if jump.t > t0]
+                known[key] = min(found, key=lambda jump: jump.t, default=math.inf)
+            jump = known[key]
+            if isinstance(jump, Jump) and (i not in first or jump.t < first[i].t):
+                first[i] = jump
+    return first
 
 
 def _integrates(source: KernelSource) -> bool:
@@ -107,18 +117,16 @@ def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
     ]  # fmt: skip
 
 
-def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
-    """A run that is to end where the first of them is, and the error that it then ends with."""
-    source = problem.compiled.source
-    t0 = float(problem.t[0])
-    first = next((jump for jump in _looked_at(source, problem.p, t0, float(problem.t[-1])) if jump.t > t0), None)
-    if first is None:
-        return problem, None
-    why = "its rate is no number there" if first.kind == "rate" else "no linkage follows it"
-    told = _told(first, "the impulse there would be left out" if _integrates(source) else why)
-    found_to = 1e-10 * max(abs(t0), abs(first.t)) if first.breaks else 0.0  # at the jump itself it is on either side
-    error = (NonFiniteError if first.told else SolverError)(told, first.t)
-    return replace(problem, t=problem.t[problem.t < first.t - found_to]), error
+def end_before(jump: Jump, t0: float) -> float:
+    """Return the time (s) before which the last sample of a run from t0 is."""
+    return jump.t - (1e-10 * max(abs(t0), abs(jump.t)) if jump.breaks else 0.0)  # at the jump it is on either side
+
+
+def jump_failure(source: KernelSource, jump: Jump) -> SolverError:
+    """Return the error that a run ends with which came to a jump."""
+    why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
+    told = _told(jump, "the impulse there would be left out" if _integrates(source) else why)
+    return (NonFiniteError if jump.told else SolverError)(told, jump.t)
 
 
 def _told(jump: Jump, why: str) -> str:
@@ -199,6 +207,10 @@ def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1
             jump = _follow(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
             found += [jump] if jump else []
     return found
+
+
+def _unbounded(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    return [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
 
 
 def _follow(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:

@@ -11,7 +11,7 @@ from gudgeon.errors import SolverError
 from gudgeon.model.evaluation import evaluate_runs
 from gudgeon.model.left_limit import evaluation_times
 from gudgeon.results.batch import parts_of
-from gudgeon.results.results import Bare, bare
+from gudgeon.results.results import Bare, Result, bare
 from gudgeon.results.series import catalogue
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ class KeptSeries:
         known = [catalogue(source)[name] for name in names if name != "t"]
         self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
 
-    def __call__(self, runs: Runs, over: Sequence[int]) -> None:
+    def take(self, runs: Runs, over: Sequence[int]) -> None:
         """Takes those of some runs; where one cannot be computed, that is what its run failed of."""
         begun = [i for i in over if runs.arrays["done"][i]]
         if len(begun) > 1 and self.columns:
@@ -39,18 +39,22 @@ class KeptSeries:
             except SolverError:  # of one of them: alone it says which
                 pass
         for i in begun:
-            try:
-                if run := bare_of(runs, i, self.parts):
-                    self._take([i], [len(run.t)], run)
-            except SolverError as error:
-                runs.failures.setdefault(i, error)
+            if run := bare_of(runs, i, self.parts):
+                self.take_one(runs, i, run)
 
-    def _take(self, begun: Sequence[int], counts: Sequence[int], of: Bare) -> None:
-        """counts[k] samples of run begun[k], one behind the other."""
+    def take_one(self, runs: Runs, i: int, run: Result) -> None:
+        """The same of run i, which `run` is."""
+        try:
+            self._take([i], [len(run.t)], run, int(run.start_row is not None))
+        except SolverError as error:
+            runs.failures.setdefault(i, error)
+
+    def _take(self, begun: Sequence[int], counts: Sequence[int], of: Result, row: int = 0) -> None:
+        """counts[k] samples of run begun[k], one after the other, to rows from `row` on."""
         columns, first = [(self.arrays[name], of[name]) for name in self.names], 0
         for i, count in zip(begun, counts, strict=True):
             for kept, column in columns:
-                kept[i, :count] = column[first : first + count]
+                kept[i, row : row + count] = column[first : first + count]
             first += count
 
 
@@ -60,7 +64,9 @@ def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> Bare | None:
         return None
     n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
     t, y, memory, state = runs.samples(i)
-    return bare(source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts)
+    made = bare(source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts)
+    made.accelerations = runs.accelerations(i)
+    return made
 
 
 def _joined(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[list[int], Bare]:

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gudgeon.assembly.followed import tell_of_runs
 from gudgeon.assembly.journals import check_places, parting
-from gudgeon.assembly.redundant_rows import left_out
-from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS, ON_DEMAND
+from gudgeon.assembly.redundant_rows import contradiction, left_out
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.failure import INTERRUPTED
+from gudgeon.integrators.threads import available_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, counts_of_runs
 from gudgeon.language.shown import counted
@@ -26,27 +26,26 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
 from gudgeon.model.room import check_room
+from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.results.batch import STATES, Batch, States, as_failures, given_values, parts_of, wanted_names
 from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Bare, Result, State
 from gudgeon.results.samples import without_start
-from gudgeon.simulation.arguments import method_of
+from gudgeon.simulation.arguments import DRIVES, method_of
 from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside
-from gudgeon.simulation.conclusion import conclude
-from gudgeon.simulation.diagnose import may_not_hold, not_held
+from gudgeon.simulation.conclusion import conclude, contradicted
+from gudgeon.simulation.diagnose import indeterminate, may_not_hold, not_held
 from gudgeon.simulation.each_run import EachRun
-from gudgeon.simulation.hidden_jumps import any_in_batch
+from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
 from gudgeon.simulation.kept_series import KeptSeries, bare_of
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
-from gudgeon.simulation.single_runs import Asked, run_singly
 from gudgeon.simulation.wanted_peaks import Looker, Told, search_of, wanted_peaks
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
-
 
 
 def simulate_many(
@@ -57,13 +56,13 @@ def simulate_many(
     audit: bool | str = True,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
-    simulation = simulation.of_method(method) if isinstance(method, str) and method in ON_DEMAND else simulation
+    method, progress = text(method, "method"), function(progress, "progress")
+    simulation = simulation.of_method(method, progress)
     compiled, source = simulation.compiled, simulation.source
     names, against = wanted_peaks(source, peaks), check_beside(source, against)
     each = EachRun(compiled, t_end, output, step)
     worn = taken_contours(source, contour, runs=True)
     starts = _Starts(simulation, parameters, start, each, worn)
-    method, progress = text(method, "method"), function(progress, "progress")
     stop, side_by_side, level = flag(stop, "stop"), flag(side_by_side, "side_by_side"), audit_level(audit)
     workers = available_threads() if threads is None else threads
     if not is_whole(workers) or workers < 1:
@@ -80,14 +79,7 @@ def simulate_many(
     check_room(compiled, times.most, len(p), series, parts_of(source, series or ()), workers)
     steps = each.lengths_of_steps(chosen, p, times, bad)
     bad |= each.bad
-    together = chosen in (*INTEGRATORS, *ON_DEMAND, ADAPTIVE) and not left_out(compiled)
-    if together and not any_in_batch(source, p, starts.t, times.ends(), bad):  # else each run looks for its own
-        return _in_c(simulation, starts, (p, motion, steps), times, bad, asked)
-    options: dict[str, Any] = {"method": method, "rtol": rtol, "stop": stop, "peaks": names, "against": against}
-    options["audit"] = audit
-    given = [step] * len(p) if each.steps is None else each.steps
-    own = [options | {"output": times.of(i)[times.skipped[i] :], "step": given[i]} for i in range(len(p))]
-    return run_singly(simulation, (starts.given, starts.is_given, p), times, own, starts.states, bad, asked)
+    return _ran(simulation, starts, (p, motion, steps), times, bad, asked)
 
 
 def _kept(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
@@ -97,26 +89,47 @@ def _kept(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | 
     return tuple(name for name in wanted_names(source, keep, "keep") if name != "t")
 
 
-def _in_c(
+def _ran(
     simulation: Simulation, starts: _Starts, numbers: tuple[Array, Array, Array], times: Times, bad: dict[int, Any],
     asked: Asked,
 ) -> Batch:  # fmt: skip
-    """Runs that go from start to end in C."""
+    """Runs from start to end. A drive that jumps ends its run before."""
     p, motion, steps = numbers
+    jumps = first_jumps(simulation.source, p, starts.t, times.ends().tolist(), bad)
+    own_times = times.before({i: end_before(jump, starts.t) for i, jump in jumps.items()})
     kept = None if asked.keep is None else KeptSeries(simulation.source, asked.keep, len(p), times)
     runs = many.Runs(
-        simulation.compiled, p, motion, times, asked.method, steps, asked.rtol, asked.stop, asked.audit,
-        asked.side_by_side, asked.threads, kept,
+        simulation.compiled, p, motion, own_times, asked.method, steps, asked.rtol, asked.stop, asked.audit,
+        asked.side_by_side, asked.threads, kept is not None, DRIVES.get(asked.method),
     )  # fmt: skip
     runs.begin(starts.states)
     runs.leave_out(bad)
     runs.looks = searches = starts.searches(p, bad, asked)
+    results = _Results(simulation, runs, starts, asked, kept)
     before = time.perf_counter()
-    runs.run(asked.progress)
+    results.run(asked.progress)
+    for i in (i for i in jumps if i not in runs.failures and runs.is_complete(i)):
+        runs.failures[i] = jump_failure(simulation.source, jumps[i])
     tell_of_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
-    told = [search.told() if search else Told() for search in searches]
-    batch = _of_runs(_Results(simulation, runs, starts, asked, told), kept)
+    results.told = [search.told() if search else Told() for search in searches]
+    batch = _of_runs(results, times)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What every run of a batch is asked for, checked."""
+
+    method: str
+    rtol: float
+    threads: int
+    progress: Progress | None
+    stop: bool
+    side_by_side: bool
+    keep: tuple[str, ...] | None  # series; None: states
+    peaks: tuple[str | Rubbing, ...]  # series whose peaks over all steps are wanted, and what rubs
+    against: Simulation | None  # of those less this scene's
+    audit: int  # level of the audit
 
 
 class _Starts:
@@ -179,35 +192,63 @@ class _Starts:
 
 @dataclass
 class _Results:
-    """The Result of run i from what C has stored."""
+    """The Result of run i from what is stored of it."""
 
     simulation: Simulation
     runs: many.Runs
     starts: _Starts
     asked: Asked
-    told: Sequence[Told]  # by run; empty where nobody looked
+    kept: KeptSeries | None
+    told: Sequence[Told] = ()  # by run; empty where nobody looked
+    said: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that were checked
+
+    def run(self, progress: Progress | None) -> None:
+        """All of them."""
+        self.runs.over = self._take if self.kept or self.runs.drive or left_out(self.runs.compiled) else None
+        self.runs.run(progress)
+
+    def _take(self, over: Sequence[int]) -> None:
+        """Check runs that are over as C does not, and keep their series."""
+        runs = self.runs
+        if runs.drive:
+            for i in over:
+                made = self._check(i)
+                if self.kept:
+                    self.kept.take_one(runs, i, made)
+            return
+        for i in over if left_out(runs.compiled) else ():
+            if runs.arrays["done"][i] and (error := contradiction(self._problem(i), runs.trajectory(i))):
+                runs.failures.setdefault(i, error)
+        if self.kept:
+            self.kept.take(runs, over)
+
+    def _check(self, i: int) -> Result:
+        """Run i, which Python drove; by its samples it may have failed."""
+        problem, trajectory = replace(self._problem(i), take=self.runs.take), self.runs.trajectory(i)
+        made = conclude(problem, trajectory, self.starts.given[i], self.starts.is_given[i])
+        made, error = contradicted(problem, trajectory, made)
+        if error is None and made.diagnostics.interrupted:
+            error = SolverError(INTERRUPTED, float(trajectory.t[-1]))
+        if error is not None:
+            self.runs.failures.setdefault(i, error)
+        self.said[i] = made.diagnostics.notes
+        return made
+
+    def _problem(self, i: int) -> Problem:
+        """Run i with what is to be said of its start."""
+        problem, t0, remarks = self.runs.problem(i), self.starts.t, self.starts.remarks[i]
+        begin = problem.q, problem.v
+        if self.starts.states:
+            remarks += off_constraints(problem.compiled, problem.p, t0, *begin)
+        return replace(problem, remarks=remarks + parting(problem.compiled, problem.p, t0, *begin, problem.memory))
 
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""
-        runs, compiled, x, n = self.runs, self.simulation.compiled, self.runs.arrays, self.simulation.compiled.n
-        method, asked = self.asked.method, self.asked
-        times = runs.times.of(i)
-        error = runs.failures.get(i)
-        if error is not None and not x["done"][i]:
+        runs, error = self.runs, self.runs.failures.get(i)
+        if error is not None and not runs.arrays["done"][i]:
             raise error
-        begin = x["start"][i, :n], x["start"][i, n:], x["remembered"][i, : compiled.n_memory]
-        remarks = self.starts.remarks[i]
-        if self.starts.states:
-            remarks += off_constraints(compiled, x["p"][i], self.starts.t, *begin[:2])
-        remarks += parting(compiled, x["p"][i], self.starts.t, *begin)
-        problem = Problem(
-            compiled, x["p"][i], times, *begin, float(x["step"][i]), method=method, rtol=asked.rtol,
-            p_free=None if method == "rk4" else x["p_motion"][i], stop=asked.stop, remarks=remarks, audit=asked.audit,
-            start_is_sample=not runs.times.skipped[i],
-        )  # fmt: skip
-        trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
-        given = (self.starts.given[i], self.starts.is_given[i], seconds)
-        made = conclude(compiled, method, problem, trajectory, *given, soon=False)
+        given = self.starts.given[i], self.starts.is_given[i]
+        made = conclude(self._problem(i), runs.trajectory(i), *given, soon=False)
         if self.told:
             self.told[i].to(made)
         if isinstance(error, SolverError):
@@ -220,12 +261,16 @@ class _Results:
         """What runs should say of themselves, as far as it is known without their samples; of those that have any."""
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
-        some = may_not_hold(source, x["p"], x["size"], counted["phi_max"], counted["grazes"], peaks) & (x["done"] > 0)
+        size = mechanism_sizes(source, x["p"])
+        some = may_not_hold(source, x["p"], size, counted["phi_max"], counted["grazes"], peaks) & (x["done"] > 0)
         found = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
         for i in np.flatnonzero(some).tolist():
             begin, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])
             told = not_held(self.simulation.compiled, x["p"][i], t0, begin, counts, peaks[i])
             found[i] = (*found.get(i, ()), *told)
+        for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
+            found[i] = (*found.get(i, ()), *indeterminate(source))
+        found |= self.said
         for i, each in enumerate(self.told):
             found[i] = (*found.get(i, ()), *each.notes)
         return found
@@ -236,9 +281,9 @@ class _Results:
         return without_start(run) if run and self.runs.times.skipped[i] else run
 
 
-def _of_runs(results: _Results, kept: KeptSeries | None) -> Batch:
-    """What C has stored, without a copy."""
-    runs, source, times = results.runs, results.simulation.source, results.runs.times
+def _of_runs(results: _Results, times: Times) -> Batch:
+    """What is stored, without a copy, at the output times that were asked for."""
+    runs, source, kept = results.runs, results.simulation.source, results.kept
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
     alone = np.flatnonzero((x["done"] == 1) & (times.skipped == 1))  # the start is all that they have
     for rows in kept.arrays.values() if kept else (x["y"], x["state"]):
@@ -248,7 +293,8 @@ def _of_runs(results: _Results, kept: KeptSeries | None) -> Batch:
         runs.let_go()
     else:
         y, state = times.without_starts(x["y"]), times.without_starts(x["state"])
-        states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], state[:, :, :joints])
+        work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless else y[:, :, 2 * n :]
+        states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
     numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source, t=times.requested(), states=states, samples=x["done"] - times.skipped * (x["done"] > 1),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from hashlib import sha256
@@ -16,7 +15,7 @@ from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
-from gudgeon.errors import BadValueError, InputError, SolverError
+from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
@@ -26,12 +25,12 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.model.room import check_room
-from gudgeon.simulation.arguments import MAX_STEPS, METHODS, derived_for, end_of, method_of, output_times, step_of
+from gudgeon.simulation.arguments import MAX_STEPS, derived_for, end_of, integrate, method_of, output_times, step_of
 from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.equations import Equations
-from gudgeon.simulation.hidden_jumps import up_to_a_jump
+from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
 from gudgeon.simulation.wanted_peaks import Looker, search_of, wanted_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -207,7 +206,7 @@ class Simulation(Equations):
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, from_start, level,
         )  # fmt: skip
         search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
-        result = self._ran(*up_to_a_jump(problem), given, is_given, search)
+        result = self._ran(problem, given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
 
@@ -272,21 +271,21 @@ class Simulation(Equations):
         settings = {"method": method, "rtol": rtol, "step": step}
         return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
 
-    def _ran(
-        self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Looker | None
-    ) -> Result:
-        """What the time loop made of it and `search` found. Raises SolverError with `partial`; `jump`: at the end."""
+    def _ran(self, problem: Problem, given: Array, is_given: Array, search: Looker | None) -> Result:
+        """What the time loop made of it and `search` found. Raises SolverError with `partial`."""
+        t0 = float(problem.t[0])
+        jump = first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
+        if jump:
+            problem = replace(problem, t=problem.t[problem.t < end_before(jump, t0)])
         with CtrlC() as ctrl_c:
             problem = replace(problem, take=ctrl_c.take, look=search)
-            before = time.perf_counter()
-            trajectory = METHODS[problem.method](problem)
-            spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
-            result = conclude(self.compiled, problem.method, problem, trajectory, given, is_given, spent)
+            trajectory = integrate(problem)
+            result = conclude(problem, trajectory, given, is_given)
             if search:
                 search.told().to(result)
-            result, contradicts = contradicted(problem, trajectory, result)
-            ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
-            stopped = trajectory.stopped or contradicts or (None if ended else jump)
+            result, stopped = contradicted(problem, trajectory, result)
+            if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it came to the jump
+                stopped = stopped or jump_failure(self.source, jump)
         result = late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result

@@ -44,7 +44,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine with a gigabyte of memory and ten megabytes of disk, where no run may begin."""
     monkeypatch.setattr(room, "free_memory", lambda: GB)
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(2500))
-    for place in ("simulation.simulation.METHODS", "integrators.batch.Runs.run", "simulation.single_runs._Runs.run"):
+    for place in ("integrators.batch.Runs.here", "integrators.batch.Runs.run"):
         monkeypatch.setattr(f"gudgeon.{place}", None)
 
 

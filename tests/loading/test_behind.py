@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators import adaptive, rk4
+from gudgeon.integrators import batch as many
 from gudgeon.loading import behind, build
 from gudgeon.loading.behind import Behind, is_allowed
 from gudgeon.loading.build import compile_kernels
@@ -72,8 +72,8 @@ def same(a: Result, b: Result) -> bool:
 @pytest.mark.usefixtures("nobody")
 @pytest.mark.parametrize("method", ["rodas5p", pytest.param("rk4", marks=pytest.mark.slow)])
 def test_a_run_goes_on_with_the_optimized_library(cache: Cache, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(adaptive, "CHUNK", 7)
-    monkeypatch.setattr(rk4, "CHUNK", 7)
+    monkeypatch.setattr(many, "CHUNK", 7)
+    monkeypatch.setattr(many, "CHUNK_RK4", 7)
     step = {"step": 1e-2} if method == "rk4" else {}
     simulation, called = loaded(), list[int]()
 

@@ -64,11 +64,13 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
         return plain(run)
 
     monkeypatch.setattr(Bare, "evaluation", property(noted))
+    first = batch.result.bare(0, PARTS)
+    stored = set() if first is None or first.accelerations is None else {"a"}  # by a method that Python drives
     for name in known:
         asked.clear()
         found = batch[name]
         assert set(asked) <= {known[name].parts} and known[name].parts <= PARTS, name
-        assert bool(asked) == bool(known[name].parts) or not isinstance(batch.result.bare(0, PARTS), Bare)
+        assert bool(asked) == bool(known[name].parts - stored), name
         assert found.shape == (len(batch), batch.t.shape[-1])
 
 

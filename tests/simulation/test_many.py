@@ -126,6 +126,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
         threads[i % 2].submit(fetched.fetch, i, list(own), True).result()
         each[i].append(own)
     assert len(fetched.all) == 2 and all(own.full for own in fetched.all)
+    runs.driven = {}  # none by a method in Python
     runs.contacts, runs.cuts = fetched.joined(9)
     whole = [np.concatenate([np.zeros(0, IMPACT_DTYPE), *several]) for several in each]
     expected = [own[np.argsort(own["t_on"], kind="stable")] for own in whole]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.threads import available_threads
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
 from gudgeon.studies.ensemble.folder import image

@@ -16,7 +16,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError, InputError
 from gudgeon.integrators.adaptive import RTOL
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.threads import available_threads
 from gudgeon.language.parser import parse
 from gudgeon.language.units import TIME
 from gudgeon.results.batch import Array

@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.threads import available_threads
 from gudgeon.loading.find import is_known
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation

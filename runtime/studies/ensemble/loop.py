@@ -11,7 +11,7 @@ from threading import Event
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.integrators.batch import GLANCE, available_threads
+from gudgeon.integrators.threads import GLANCE, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.files.room import check_disk, check_memory
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.threads import available_threads
 from gudgeon.model.evaluation import evaluated_bytes
 from gudgeon.model.room import sample_bytes
 from gudgeon.results.batch import parts_of

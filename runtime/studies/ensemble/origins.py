@@ -14,8 +14,8 @@ import numpy as np
 
 from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.integrators.batch import available_threads
 from gudgeon.integrators.kinematic import along
+from gudgeon.integrators.threads import available_threads
 from gudgeon.language.tree import from_json, names
 from gudgeon.model.parameter_sets import given_each, prepare_sets
 from gudgeon.results.batch import Array, parts_of

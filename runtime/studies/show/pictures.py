@@ -14,7 +14,7 @@ from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import GudgeonError
-from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.threads import available_threads
 from gudgeon.results.reports.html_page import lines, text
 
 if TYPE_CHECKING:

@@ -1,0 +1,213 @@
+"""What is stored of runs: arrays that C or a driver in Python fills, lists that are fetched, and each run read back."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.audit import Finding
+from gudgeon.contract.boundary import (
+    COUNT_NAMES,
+    ENDED,
+    N_COUNTS,
+    N_PEAK,
+    N_RESIDUALS,
+    N_WORK,
+    OVER,
+    RESIDUAL_NAMES,
+    STALLED,
+    STOPPED,
+)
+from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators import trace
+from gudgeon.integrators.audit import as_findings
+from gudgeon.integrators.contacts import Contacts
+from gudgeon.integrators.events import fetch_events, no_states, resolution, split_undefined
+from gudgeon.integrators.times import Times
+from gudgeon.integrators.trajectory import (
+    IMPACT_DTYPE,
+    NO_CHANGE_POINTS,
+    Counts,
+    Trajectory,
+    counts_of,
+    joined,
+    no_events,
+    plain,
+)
+from gudgeon.model.compiled import Array, CompiledModel
+
+
+class _Driven(NamedTuple):
+    """What arrays have no place for, of a run that Python drove."""
+
+    impacts: NDArray[Any]
+    events: NDArray[Any]
+    no_number: NDArray[Any]
+    change_points: tuple[int, float]
+
+
+class StoredRuns:
+    """Arrays by run, and by place where there are samples; what is not reached is NaN."""
+
+    struct: Any  # the arrays as C has them
+
+    def __init__(
+        self, compiled: CompiledModel, method: str, p: Array, motion: Array, times: Times, step: Array, places: int,
+        in_python: bool,
+    ) -> None:  # fmt: skip
+        self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
+        n, N, size, nc = self.n, times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
+        self.arrays: dict[str, NDArray[Any]] = {
+            "place": np.arange(n) % places, "p": p, "p_motion": motion, "step": step,
+            "start": np.full((n, 2 * compiled.n), np.nan),
+            "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
+            "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
+            "latched": np.empty((places, N, max(compiled.n_memory, 1))), "state": np.zeros((places, N, nc), np.int8),
+            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc), "t_last": np.full(n, times.start),
+            "seconds": np.zeros(n), "ending": np.zeros(1, np.intc),
+            "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, N_RESIDUALS), np.nan),
+            "peaks": np.full((n, nc, N_PEAK), np.nan),
+        }  # fmt: skip
+        if in_python:
+            self.arrays["a"] = np.full((places, N, compiled.n), np.nan)
+        self.driven: dict[int, _Driven] = {}
+        self.fetched = Contacts(compiled)
+        self.events: dict[int, list[NDArray[Any]]] = {}  # of runs that have any, with states
+        self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)  # once all are over: by run
+        self.failures: dict[int, GudgeonError] = {}
+        self.interrupted = False
+
+    def keep_trace(self) -> None:
+        """Runs that are yet to begin keep what a picture needs of each step."""
+        joints, x = len(self.compiled.source.clearances), self.arrays
+        x["trace"], x["traced"] = np.empty((self.n, trace.ROWS, trace.width(joints))), np.zeros(self.n, np.int_)
+        self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], written=True), trace.ROWS
+        self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
+
+    def _join_contacts(self) -> None:
+        """Contacts of all runs, once these are over."""
+        if not self.driven:
+            self.contacts, self.cuts = self.fetched.joined(self.n)
+            return
+        each = [self.driven[i].impacts if i in self.driven else self.contacts for i in range(self.n)]
+        self.contacts, self.cuts = joined(each), np.cumsum([0, *map(len, each)])
+
+    def store(self, i: int, found: Trajectory) -> None:
+        """Fill the arrays of run i, which Python drove."""
+        x, k, N, n = self.arrays, int(self.arrays["place"][i]), len(found.t), self.compiled.n
+        for columns, values in ((slice(n), found.q), (slice(n, 2 * n), found.v), (slice(2 * n, None), found.work)):
+            x["y"][k, :N, columns] = values
+        x["latched"][k, :N, : self.compiled.n_memory] = found.memory
+        x["state"][k, :N, : found.state.shape[1]] = found.state
+        if found.a is not None:
+            x["a"][k, :N] = found.a
+        x["done"][i], x["t_last"][i], x["seconds"][i], x["phase"][i] = N, found.t[-1], found.seconds, OVER
+        ended = ENDED if len(self.times.of(i)) > N or found.t[-1] < self.times.of(i)[-1] else 0
+        x["status"][i] = STOPPED if found.interrupted else ended
+        x["counts"][i] = [getattr(found.counts, name, 0) for name in COUNT_NAMES]
+        x["residuals"][i] = [getattr(found.counts, name, math.nan) for name in RESIDUAL_NAMES]
+        x["peaks"][i, : len(found.peaks)] = found.peaks
+        self.driven[i] = _Driven(found.impacts, found.events, found.no_number, found.change_points)
+        if found.stopped is not None:
+            self.failures[i] = found.stopped
+
+    def fetch(self, i: int, run: Any, last: bool) -> None:
+        """Takes over the lists of contacts and events of run i."""
+        if self.compiled.source.clearances:
+            self.fetched.fetch(i, run, last)
+        if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
+            self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
+
+    def findings(self, i: int) -> tuple[Finding, ...]:
+        """What the audit of run i found; of one that Python drove nothing is checked on the way."""
+        if i in self.driven:
+            return ()
+        return as_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
+
+    def impacts_of(self, i: int) -> NDArray[Any]:
+        """IMPACT_DTYPE, the contacts of run i by their onset."""
+        if i in self.driven:
+            return self.driven[i].impacts
+        return self.contacts[self.cuts[i] : self.cuts[i + 1]].copy()
+
+    def all_impacts(self) -> tuple[NDArray[Any], ...]:
+        """The same of all runs, views of one array."""
+        return tuple(self.contacts[a:b] for a, b in pairwise(self.cuts.tolist()))
+
+    def all_events(self) -> tuple[NDArray[Any], ...]:
+        """EVENT_DTYPE, the user events of all runs by time."""
+        events = [no_events()] * self.n
+        for i in (*self.events, *self.driven):
+            events[i] = plain(self._events_of(i)[0])
+        return tuple(events)
+
+    def _events_of(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Return the user events of run i by time, and those that are no number from a time on.
+
+        What C lists has the states there too.
+        """
+        if i in self.driven:
+            return self.driven[i].events, self.driven[i].no_number
+        if i not in self.events:
+            return no_states(self.compiled), no_states(self.compiled)
+        x, times = self.arrays, self.times.of(i)
+        events, lost = split_undefined(self.compiled, np.concatenate(self.events[i]))
+        if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
+            return events, lost
+        t_last = self._times_of(i)[-1] + resolution(times)
+        return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
+
+    def is_complete(self, i: int) -> bool:
+        """Whether run i came to the last of its times."""
+        reached = self._times_of(i)
+        return self.arrays["status"][i] != STOPPED and len(reached) > 0 and reached[-1] >= self.times.of(i)[-1]
+
+    def counts(self, i: int) -> Counts:
+        """Sums and maxima over the steps of run i."""
+        return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
+
+    def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
+        """Times of the samples of run i that were reached, and views of these: (q, v, works), memory, codes."""
+        x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
+        t, joints = self._times_of(i), len(compiled.source.clearances)
+        y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
+        return t, y, memory[:, : compiled.n_memory], state[:, :joints]
+
+    def accelerations(self, i: int) -> Array | None:
+        """Views of q̈ at the samples of run i, as a method found them that Python drives."""
+        a: Array | None = self.arrays.get("a")
+        return None if a is None else a[self.arrays["place"][i], : self.arrays["done"][i]]
+
+    def _times_of(self, i: int) -> Array:
+        """Return the times (s) of the samples of run i that were reached."""
+        done = int(self.arrays["done"][i])
+        t = self.times.of(i)[:done].copy()
+        if done and self.arrays["status"][i] in (ENDED, STOPPED, STALLED):
+            t[-1] = self.arrays["t_last"][i]
+        return t
+
+    def trajectory(self, i: int) -> Trajectory:
+        """Return run i; of several runs a copy, without their arrays."""
+        own, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
+        (t, y, memory, state), a, driven = self.samples(i), self.accelerations(i), self.driven.get(i)
+        error, (events, no_number) = self.failures.get(i), self._events_of(i)
+        joints = len(self.compiled.source.clearances)
+        is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
+        return Trajectory(
+            t, own(y[:, :n]), own(y[:, n : 2 * n]), None if a is None else own(a), own(memory), own(state),
+            own(y[:, 2 * n :]), self.impacts_of(i), own(x["peaks"][i, :joints]), self.counts(i),
+            is_stopped, error if isinstance(error, SolverError) and not is_stopped else None,
+            seconds=float(x["seconds"][i]), events=plain(events), event_states=None if driven else events,
+            no_number=plain(no_number), trace=self._trace(i), audit=self.findings(i),
+            change_points=driven.change_points if driven else NO_CHANGE_POINTS,
+        )  # fmt: skip
+
+    def _trace(self, i: int) -> trace.Trace | None:
+        if "trace" not in self.arrays:
+            return None
+        rows = self.arrays["trace"][i, : self.arrays["traced"][i]]
+        return trace.Trace.of_rows(rows, len(self.compiled.source.clearances))
