@@ -165,7 +165,7 @@ def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> t
 
 
 def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
-    from gudgeon.assembly.search import velocities
+    from gudgeon.assembly.start import velocities
 
     try:
         return velocities(closure, q), None

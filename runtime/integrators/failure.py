@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.rank import nearly_dependent_rows
 from gudgeon.contract.boundary import (
     CHATTERING,
     JAMMED,

@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.assembly.followed import tell_of_runs
 from gudgeon.assembly.journals import check_places, parting
-from gudgeon.assembly.redundant_rows import left_out
+from gudgeon.assembly.rank import left_out
 from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS, ON_DEMAND
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive

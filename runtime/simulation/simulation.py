@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
-from gudgeon.assembly.redundant_rows import check_start
+from gudgeon.assembly.rank import check_start
 from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive

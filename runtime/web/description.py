@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.assembly.large import LARGE
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.redundant_rows import OPEN, left_out
+from gudgeon.assembly.rank import OPEN, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
 from gudgeon.contract.methods import KINEMATIC
