@@ -16,7 +16,7 @@ import numpy as np
 
 from gudgeon.commands.common import at_numbers, check_addresses, check_file, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.written import wrote
+from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import quantity

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.written import wrote
+from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.files.writing import Aside
 from gudgeon.loading.find import find_mechanism, read_bytes

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.written import wrote
+from gudgeon.commands.told import wrote
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import label, quantity, scale
