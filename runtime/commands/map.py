@@ -12,7 +12,7 @@ from gudgeon.contract.kernel_source import Slot
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import tolerance
-from gudgeon.language.suggestions import unknown
+from gudgeon.language.names import unknown
 from gudgeon.model.parameters import addresses, number, value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, axis, typed

@@ -28,8 +28,8 @@ from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shortened
 from gudgeon.files.room import check_disk, check_memory
 from gudgeon.files.writing import write_bytes
+from gudgeon.language.names import unknown
 from gudgeon.language.shown import path_text, print_json, visible
-from gudgeon.language.suggestions import unknown
 from gudgeon.loading.find import find_mechanism
 from gudgeon.model.default_step import T_END, scene_end, scene_number
 from gudgeon.model.evaluation import evaluated_bytes

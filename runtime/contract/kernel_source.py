@@ -12,8 +12,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
-from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.contour_info import ContourInfo
+from gudgeon.contract.clearance_info import ClearanceInfo, ContourInfo
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
 from gudgeon.contract.stored import as_text, complete, shorten, tuples

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.suggestions import near
+from gudgeon.language.names import near
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import choice_of_a_law, expression_by_name, place_of_word

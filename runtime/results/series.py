@@ -28,8 +28,8 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import JointInfo, KernelSource, PointInfo
 from gudgeon.errors import UnknownNameError
 from gudgeon.language import tree as expression_tree
+from gudgeon.language.names import near
 from gudgeon.language.output_units import unit_of
-from gudgeon.language.suggestions import near
 from gudgeon.language.wanted import told
 from gudgeon.results.state import Array
 

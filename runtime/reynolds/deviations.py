@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.wanted import number_of, positive, text
 from gudgeon.model.arrays import taken
 from gudgeon.reynolds.bearing import Bearing
