@@ -18,8 +18,7 @@ from gudgeon.assembly.closure import CLOSED, Closure
 from gudgeon.assembly.linkage import arm_of
 from gudgeon.assembly.rank import tied
 from gudgeon.errors import AssemblyError
-from gudgeon.model.compiled import Array
-from gudgeon.model.far_masses import far_masses
+from gudgeon.model.compiled import Array, far_masses
 from gudgeon.model.written import reason
 
 FAR = 100.0  # times the next longest: so far apart are lengths in mm and those left in m

@@ -32,9 +32,8 @@ from gudgeon.language.names import unknown
 from gudgeon.language.shown import path_text, print_json, visible
 from gudgeon.loading.find import find_mechanism
 from gudgeon.model.default_step import T_END, scene_end, scene_number
-from gudgeon.model.evaluation import evaluated_bytes
+from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
 from gudgeon.model.parameters import prepare, value
-from gudgeon.model.room import sample_bytes
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.from_file import load

@@ -10,7 +10,7 @@ from gudgeon.drawing.joint_at import axis_of
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import turned
 from gudgeon.model.compiled import Array
-from gudgeon.model.corners import corner_at
+from gudgeon.model.contours import corner_at
 
 GAP = 0.5  # units: between a slider and each wall of its guide, if not more
 

@@ -28,8 +28,7 @@ from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
-from gudgeon.model.steep import steep_force, unbounded_drive
-from gudgeon.model.written import of_time, rate_reason, reason, trees, undefined_here
+from gudgeon.model.written import of_time, rate_reason, reason, steep_force, trees, unbounded_drive, undefined_here
 
 TOLD = {
     JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "

@@ -24,8 +24,8 @@ from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
+from gudgeon.model.evaluation import check_room
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.model.room import check_room
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, derived_for, end_of, method_of, output_times, step_of
 from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.scripts import carried_script
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.undefined import partials
+from gudgeon.model.written import partials
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
