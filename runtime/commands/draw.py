@@ -23,7 +23,7 @@ from gudgeon.language.plot_units import quantity
 from gudgeon.language.quantities import number_of_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.model.parameters import spaced
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
 
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure

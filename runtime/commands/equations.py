@@ -14,7 +14,7 @@ from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model

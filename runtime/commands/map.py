@@ -20,8 +20,7 @@ from gudgeon.studies.box import Range
 from gudgeon.studies.map import USUAL, VerdictBox, VerdictMap, default_steps, verdict_box, verdict_map
 from gudgeon.studies.runs import FIXED, Setting, natural_step
 from gudgeon.studies.show.box import show_box
-from gudgeon.studies.show.map import show_map
-from gudgeon.studies.show.map_words import PASCAL
+from gudgeon.studies.show.map import PASCAL, show_map
 
 
 @dataclass(frozen=True)

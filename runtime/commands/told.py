@@ -16,7 +16,7 @@ import typer
 
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import path_text, print_json, visible
-from gudgeon.waiting.last_word import INTERRUPTED, last_word
+from gudgeon.waiting.ctrl_c import INTERRUPTED, last_word
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 

@@ -9,8 +9,7 @@ from pathlib import Path
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.exchange.linkage import Linkage
 from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import address_in, of_pmks
-from gudgeon.exchange.pmks_before_2023 import BEGIN, of_old_pmks
+from gudgeon.exchange.pmks import BEGIN, address_in, of_old_pmks, of_pmks
 from gudgeon.exchange.pylinkage import of_pylinkage
 from gudgeon.files.reading import MAX_BYTES, read_named
 

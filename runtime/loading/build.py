@@ -19,8 +19,8 @@ from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_ca
 from gudgeon.loading.compiler import begin, finish
 from gudgeon.loading.engine import engine_digest, own_texts
 from gudgeon.loading.library import Library, carried, opened
+from gudgeon.waiting.asking import working
 from gudgeon.waiting.programs import Programs
-from gudgeon.waiting.working import working
 
 LIBRARY = "kernels.so"
 PRESENT = "gudgeon_prepare"  # a function that every scene's library has

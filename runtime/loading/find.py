@@ -19,9 +19,8 @@ from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.engine import contents
 from gudgeon.loading.shipped import PACKAGE, committed, committed_header, shipped, shipped_file
-from gudgeon.waiting.collector import at_rest
-from gudgeon.waiting.imports import GENERATOR, READER, whole
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
+from gudgeon.waiting.imports import GENERATOR, READER, at_rest, whole
 
 if TYPE_CHECKING:
     from gudgeon.loading.ahead import Ahead
