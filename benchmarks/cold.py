@@ -5,7 +5,7 @@
 Each start is a process of its own. A cold one has an empty cache: it reads, derives, emits and compiles one scene of a
 copy of a shipped file, whose engine is foreseen (`Ahead.foresee`), but for the first one, of which no C is kept. One
 after an edit has the cache of the start before it, as a designer has who changes a file: it derives and compiles anew,
-but what scenes share is there (loading/shared.py). A warm one finds equations and library. `all` is from the start of
+but what scenes share is there (loading/ahead.py). A warm one finds equations and library. `all` is from the start of
 the process to its first result, `optimized` to when the optimized library is there, which another process makes
 behind the first result (loading/behind.py; with GUDGEON_QUICK=0 it is waited for). The least wall time of a few is
 told, and the processor time of Python and of the compiler up to the first result; before, one start is thrown away: it

@@ -28,7 +28,7 @@ import gudgeon
 from benchmarks import callgrind
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.rhs_time import operations
+from gudgeon.studies.methods import operations
 from tests.oracles import press_dense
 from tests.oracles.press_dense import Press
 

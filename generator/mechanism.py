@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 
 from gudgeon.errors import Location
 from gudgeon.language.curves import Curve
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.tree import Expr, Name, Number, replaced
 from gudgeon.language.units import Dimension
 

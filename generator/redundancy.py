@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gudgeon.assembly.linkage import angles, mechanism_size
 from gudgeon.assembly.mobility import SAMPLES, check_freedoms, configurations, find_mobility
 from gudgeon.assembly.rank import RANK, rank, tied
-from gudgeon.assembly.search import search
+from gudgeon.assembly.start import search
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.generator.equations.constraints import Row

@@ -31,8 +31,8 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, LimitError, Location, NotYamlError, UnknownKeyError, together
+from gudgeon.files.reading import MAX_BYTES
 from gudgeon.language.names import YAML_NULL
 
 MOST_PIECES = 512  # more than the 1000 characters that an expression may have can be cut into

@@ -13,8 +13,7 @@ import os
 import signal
 import sys
 
-from gudgeon.waiting.ctrl_c import ENDING
-from gudgeon.waiting.last_word import INTERRUPTED, is_the_program, last_word, nothing_more
+from gudgeon.waiting.ctrl_c import ENDING, INTERRUPTED, is_the_program, last_word, nothing_more
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 

@@ -26,7 +26,7 @@ import numpy as np
 import gudgeon
 from gudgeon.assembly.large import nearest_step, smallest
 from gudgeon.assembly.rank import rank, tied
-from gudgeon.assembly.search import search
+from gudgeon.assembly.start import search
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result

@@ -16,8 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from gudgeon.cli import app
-from gudgeon.commands.group import name_of
+from gudgeon.cli import app, name_of
 from tests.packages import LINKAGE, ROOT, Place, sdist, there_are
 
 STUDY = """\

@@ -73,7 +73,7 @@ GROUPS = {
     ),
     "starts": (
         ("runtime/assembly/closure.py", "runtime/assembly/followed.py", "runtime/assembly/mobility.py",
-         "runtime/assembly/journals.py", "runtime/assembly/redundant_rows.py"),
+         "runtime/assembly/journals.py", "runtime/assembly/rank.py"),
         (*_tests("assembly", "start", "journals", "assemblies", "far_starts", "large"),
          *_tests("simulation", "many_starts", "massless", "restart"), *_tests("integrators", "guide")),
     ),

@@ -12,7 +12,7 @@ import pytest
 
 import tests.benches  # noqa: F401
 from benchmarks import callgrind, laws, rhs
-from benchmarks.peers import cvode_sweep, ideal, press  # noqa: E402
+from benchmarks.peers import cvode, ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
 from benchmarks.race import page as race_page
 from benchmarks.race import record as race_record
@@ -152,7 +152,7 @@ def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
 @needs_compiler
 def test_the_peers_of_the_sweep_are_the_runs_of_the_sweep() -> None:
     c, omega = np.array([3e-4, 6e-4]), np.array([math.pi, 5.0 * math.pi])
-    first, second = cvode_sweep.works(c, omega)
+    first, second = cvode.sweep_works(c, omega)
     assert second == press.work("lubricated")
     geometry = first.press.geometry
     assert (first.press.clearance, geometry.omega1, geometry.omega4) == (3e-4, math.pi, -math.pi)

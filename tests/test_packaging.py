@@ -17,8 +17,7 @@ import pytest
 from ruamel.yaml import YAML
 
 import gudgeon
-from gudgeon.cli import app
-from gudgeon.commands.group import name_of
+from gudgeon.cli import app, name_of
 from tests.minimum import CALLS
 from tests.packages import PYTHONS, copy_sources
 

@@ -21,8 +21,8 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import compiler
 from gudgeon.loading.build import build_into
 from gudgeon.loading.cache import Cache
-from gudgeon.loading.carried import CARRIED, file_name, platform
 from gudgeon.loading.generated_scenes import read_scenes
+from gudgeon.loading.library import CARRIED, file_name, platform
 
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)

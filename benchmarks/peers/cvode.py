@@ -12,6 +12,7 @@ Each takes (work, rtol) and returns (samples, seconds of integration only, right
 from __future__ import annotations
 
 import ctypes
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from time import perf_counter
@@ -20,7 +21,8 @@ from typing import Any
 import numpy as np
 from cffi import FFI
 
-from benchmarks.peers.press import Kernel, Samples, Work, switch
+from benchmarks.peers.press import OUTPUTS, Kernel, Samples, Work, switch
+from benchmarks.peers.press import work as press_work
 
 ATOL = 1e-3  # of rtol: lengths of a clearance are a thousandth of a metre
 MAX_STEPS = 10**6
@@ -186,3 +188,24 @@ def _run(solver: InC, work: Work) -> Samples:
             solver.locate(closed)
         rows[row] = solver.y[:24]
     return Samples(rows, (np.array(onsets[0]), np.array(onsets[1])))
+
+
+def sweep_works(c: np.ndarray, omega: np.ndarray) -> list[Work]:
+    """Return a lubricated work for each pair of a clearance (m) and a speed (rad/s)."""
+    plain = press_work("lubricated")
+    return [
+        replace(plain, press=replace(plain.press.at_speed(float(speed)), clearance=float(gap)))
+        for gap, speed in zip(c, omega, strict=True)
+    ]
+
+
+def sweep(all_works: list[Work], rtol: float) -> tuple[np.ndarray, float]:
+    """Run `in_c` on one work after the other, in one thread.
+
+    Return the slider's y (runs, OUTPUTS), m, and the seconds of integration of all runs.
+    """
+    y, seconds = np.empty((len(all_works), OUTPUTS)), 0.0
+    for k, work in enumerate(all_works):
+        samples, spent, _ = in_c(work, rtol)
+        y[k], seconds = samples.q[:, 22], seconds + spent
+    return y, seconds

@@ -20,7 +20,6 @@ from benchmarks.peers import (
     andrews,
     chains,
     cvode,
-    cvode_sweep,
     dop853,
     exudyn_andrews,
     exudyn_press,
@@ -174,7 +173,7 @@ def peer_sweep(rtol: float) -> Found:
     """CVODE on the same."""
     columns = many.grid(*SWEEP)
     c, omega = np.asarray(columns["c"]), np.asarray(columns["omega"])
-    return sweep_found(*cvode_sweep.run(cvode_sweep.works(c, omega), rtol))
+    return sweep_found(*cvode.sweep(cvode.sweep_works(c, omega), rtol))
 
 
 def entries() -> list[Entry]:

@@ -11,7 +11,7 @@ from gudgeon.generator.field import DEPTHS, MAPPING, POINTS, RESULTS, SCALARS, V
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 
 _AXES = {"x": 0, "y": 1}
 

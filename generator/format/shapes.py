@@ -28,7 +28,7 @@ from gudgeon.generator.field import (
 )
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.suggestions import known_hint, nearest, unknown_name
+from gudgeon.language.names import known_hint, nearest, unknown_name
 
 MOST_FINDINGS = 50
 OVERRIDE = "override of "  # the "file" of a text that comes from an override

@@ -16,7 +16,7 @@ from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.reader.shapes import Weighed, read_sides
 from gudgeon.generator.yaml import Items, Map, Text
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 

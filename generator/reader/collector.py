@@ -24,9 +24,8 @@ from gudgeon.generator.reader.result_names import CamAngle, Penetration, ResultD
 from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml import NO_MERGE, Map, Text
 from gudgeon.language.curves import Curve
-from gudgeon.language.names import RESERVED
+from gudgeon.language.names import RESERVED, unknown_name
 from gudgeon.language.parser import at, check_dimension, parse
-from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names, replaced
 from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension

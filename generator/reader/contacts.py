@@ -19,8 +19,8 @@ from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
 from gudgeon.generator.reader.materials import ELASTIC, Materials
 from gudgeon.generator.yaml import Map, Text
+from gudgeon.language.names import known_hint, unknown_name
 from gudgeon.language.parser import at
-from gudgeon.language.suggestions import known_hint, unknown_name
 from gudgeon.language.tree import Number, names
 
 

@@ -13,9 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gudgeon.contract.limits import MAX_BYTES, MAX_TABLE_BYTES
 from gudgeon.errors import BadValueError, LimitError, Location, MissingKeyError, UnitError
-from gudgeon.files.beside import read_beside
+from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_beside
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import CURVE
 from gudgeon.generator.reader.collector import Reader

@@ -23,8 +23,8 @@ from gudgeon.generator.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
+from gudgeon.language.names import known_hint, nearest
 from gudgeon.language.shown import counted
-from gudgeon.language.suggestions import known_hint, nearest
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS
 

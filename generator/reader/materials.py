@@ -14,7 +14,7 @@ from gudgeon.generator.mechanism import Choice, Material, Quantity, following
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.yaml import Map, Text
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 
 ELASTIC = ("E", "nu")  # what contact asks of a material
 EXAMPLE = "materials: {steel: {E: 210 GPa, nu: 0.3, density: 7850 kg/m^3}}"

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
 from gudgeon.generator.mechanism import GROUND, PointRef
 from gudgeon.generator.yaml import Map, Text, kind_of
-from gudgeon.language.suggestions import known_hint, unknown_name
+from gudgeon.language.names import known_hint, unknown_name
 from gudgeon.language.units import Dimension
 
 IMPLIED_POINTS = ("origin", "com", "tail", "head")

@@ -12,7 +12,7 @@ from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml import Map, Text
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.tree import Name
 from gudgeon.language.units import (
     ACCELERATION,

@@ -31,8 +31,8 @@ from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.result_names import LATER, ResultNames
 from gudgeon.generator.yaml import Map, Text, kind_of
+from gudgeon.language.names import unknown_name
 from gudgeon.language.parser import at
-from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Expr, Name, Number, names
 from gudgeon.language.units import LENGTH
 

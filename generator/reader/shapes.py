@@ -17,8 +17,8 @@ from gudgeon.generator.reader.fields import Around, Values, kind_key, read_field
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.places import CORNERS_OF_SIDES
 from gudgeon.generator.yaml import Map, Text
+from gudgeon.language.names import unknown_name
 from gudgeon.language.parser import parse
-from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
 from gudgeon.language.units import INERTIA, LENGTH, MASS, Dimension
 

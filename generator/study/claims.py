@@ -23,8 +23,8 @@ from gudgeon.generator.study.spec import (
     Trial,
 )
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
+from gudgeon.language.names import unknown_name
 from gudgeon.language.shown import counted
-from gudgeon.language.suggestions import unknown_name
 
 KEYS = ("source", "numbers", "trends")
 NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")

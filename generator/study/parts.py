@@ -11,9 +11,8 @@ from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.spec import RESERVED, WEAR_LAWS, StudyFile, WearRounds, Written
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.names import LABEL, check_not_null
+from gudgeon.language.names import LABEL, check_not_null, known_hint, nearest, unknown_name
 from gudgeon.language.parser import parse
-from gudgeon.language.suggestions import known_hint, nearest, unknown_name
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
 MOST_TEXT = 1000  # characters of words for people

@@ -43,7 +43,7 @@ from gudgeon.generator.study.spec import (
     Written,
 )
 from gudgeon.generator.yaml import Map, Text, kind_of, parse_yaml
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 
 _SET = "value of "  # where what the command line sets was read
 

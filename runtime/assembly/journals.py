@@ -13,8 +13,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import contour_of, depth_at, widest
-from gudgeon.model.corners import corner_at, corner_gap, slider_of
+from gudgeon.model.contours import contour_of, corner_at, corner_gap, depth_at, slider_of, widest
 
 FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
 ROUNDED = 1e-9  # of the clearance, that a start in contact may be off

@@ -15,7 +15,7 @@ from gudgeon.assembly.failures import not_closed
 from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
 from gudgeon.assembly.journals import check_places, in_walls
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
-from gudgeon.assembly.search import velocities
+from gudgeon.assembly.start import velocities
 from gudgeon.commands.common import at_numbers, check_addresses
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number

@@ -1,6 +1,6 @@
 """`gudgeon check`: read a mechanism file and say whether it is valid; with -v, what each scene becomes.
 
-With -v each scene is derived anew: a table of numbers, then the story of each scene (reduction_story.py): what went
+With -v each scene is derived anew: a table of numbers, then the story of each scene: what went
 step by step and why, what is left and solved, operations before and after, which methods fit, what was skipped, and
 how long each stage of the derivation took. No line is longer than 100 columns.
 """
@@ -8,14 +8,16 @@ how long each stage of the derivation took. No line is longer than 100 columns.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.commands import assembly_story as story
 from gudgeon.commands.common import settings
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.reduction_story import story_data, tell
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.ledger import Story
+from gudgeon.contract.ledger_words import ledger_lines, outcome
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
 from gudgeon.integrators.adaptive import begins_with
@@ -25,6 +27,7 @@ from gudgeon.model.contours import in_contours
 
 if TYPE_CHECKING:
     from rich.table import Table
+    from rich.text import Text
 
     from gudgeon.generator.mechanism import Mechanism
 
@@ -234,3 +237,47 @@ def _table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, in
     for name in names:
         table.add_row(name, *(f"{found[name]:,}" if name in found else "–" for found in facts.values()))
     return table
+
+
+def tell(
+    scenes: Mapping[str, KernelSource], rest: Callable[[KernelSource], Iterable[tuple[str, str]]]
+) -> Iterator[Text | Table]:
+    """Scene by scene the ledger, what it comes to, and `rest` below; of a ledger told before what differs."""
+    from rich.text import Text
+
+    known: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
+    for scene, source in scenes.items():
+        ledger, lines = list(ledger_lines(source)), [*outcome(source), *rest(source)]
+        same = next((other for other in known if other[1] == ledger), None)
+        if same:
+            lines = [line for line in lines if line not in same[2]]
+            yield Text(f"scene {scene}: as {same[0]}{', but' if lines else ''}", style="bold")
+        else:
+            known.append((scene, ledger, lines))
+            yield Text(f"scene {scene}", style="bold")
+        yield _ledger_table([] if same else ledger, lines)
+
+
+def _ledger_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
+    """Without rules; the ledger's columns are as wide in a table without one."""
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=bool(ledger))
+    for name in ("coordinates", "rows"):
+        table.add_column(name, justify="right", no_wrap=True, min_width=len(name))
+    table.add_column()
+    for n, m, text in ledger:
+        table.add_row(f"{n:,}", f"{m:,}", Text(text))
+    for name, text in lines:
+        table.add_row(name, "", Text(text))
+    table.add_row()
+    return table
+
+
+def story_data(story: Story) -> dict[str, Any]:
+    """For scripts: the story, with the coordinates and rows that each step leaves."""
+    left = [{"coordinates left": n, "rows left": m} for _, n, m in story.ledger()]
+    data = asdict(story)
+    data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]
+    return data

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError, Location, OutputError, UnknownNameError, shortened
 from gudgeon.files.writing import check_target
-from gudgeon.language.suggestions import unknown
+from gudgeon.language.names import unknown
 from gudgeon.loading.find import find_mechanism, generator_hash, read_bytes
 from gudgeon.model.parameters import TOGETHER, addresses, as_parameter, check, given_slots, value
 

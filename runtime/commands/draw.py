@@ -16,14 +16,14 @@ import numpy as np
 
 from gudgeon.commands.common import at_numbers, check_addresses, check_file, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.written import wrote
+from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import quantity
 from gudgeon.language.quantities import number_of_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.model.parameters import spaced
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
 
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure
@@ -165,7 +165,7 @@ def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> t
 
 
 def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
-    from gudgeon.assembly.search import velocities
+    from gudgeon.assembly.start import velocities
 
     try:
         return velocities(closure, q), None

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.written import note, wrote
+from gudgeon.commands.told import note, wrote
 from gudgeon.errors import InputError, shortened
 from gudgeon.files.writing import PART, Aside, check_target, read_regular
 from gudgeon.loading import compiler

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.written import show, wrote
+from gudgeon.commands.told import show, wrote
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.written import wrote
+from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.files.writing import Aside
 from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
 
 if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
@@ -69,7 +69,7 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
 def _text(document: Document, suffix: str, drawn: Drawn) -> str:
     """In the format of a suffix; a page and a .tex show the mechanism too, where matplotlib is."""
     from gudgeon.generator.targets.latex.render import render
-    from gudgeon.teaching.markdown import markdown
+    from gudgeon.teaching.notebook import markdown
 
     if suffix == ".md":
         return markdown(document)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.written import note, wrote
+from gudgeon.commands.told import note, wrote
 from gudgeon.errors import InputError
 from gudgeon.exchange.read import mechanism_of
 from gudgeon.files.writing import write_text

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.written import wrote
+from gudgeon.commands.told import wrote
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.files.writing import write_bytes
+from gudgeon.language.names import unknown_name
 from gudgeon.language.plot_units import label, quantity, scale
-from gudgeon.language.suggestions import unknown_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

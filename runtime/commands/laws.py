@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.commands.common import check_file, need_suffix, settings
 from gudgeon.errors import BadValueError
+from gudgeon.language.names import unknown_name
 from gudgeon.language.shown import one_line, plain_console, print_json, visible
-from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.units import si_unit
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from gudgeon.contract.kernel_source import Slot
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import tolerance
-from gudgeon.language.suggestions import unknown
+from gudgeon.language.names import unknown
 from gudgeon.model.parameters import addresses, number, value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, axis, typed
@@ -20,8 +20,7 @@ from gudgeon.studies.box import Range
 from gudgeon.studies.map import USUAL, VerdictBox, VerdictMap, default_steps, verdict_box, verdict_map
 from gudgeon.studies.runs import FIXED, Setting, natural_step
 from gudgeon.studies.show.box import show_box
-from gudgeon.studies.show.map import show_map
-from gudgeon.studies.show.map_words import PASCAL
+from gudgeon.studies.show.map import PASCAL, show_map
 
 
 @dataclass(frozen=True)

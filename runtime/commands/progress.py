@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from gudgeon.language.shown import visible
-from gudgeon.waiting import working
+from gudgeon.waiting.asking import told_to
 
 Report = Callable[[float, str], None]  # fraction done, a few words
 MEMORY = 600.0  # s that speed is measured over: blocks of a long study come minutes apart
@@ -52,7 +52,7 @@ def status_line(quiet: bool = False) -> Iterator[None]:
     if quiet or not looked_at():
         yield
         return
-    with working.told_to(_status):
+    with told_to(_status):
         yield
 
 

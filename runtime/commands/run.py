@@ -1,29 +1,46 @@
-"""`gudgeon run`: simulate scenes, compare each with the ideal one, write and show what came out."""
+"""`gudgeon run`: simulate scenes, compare each with the ideal one, write and show what came out.
+
+- `check_needs` asks whether there is memory and disk for all scenes, before the first of them begins.
+- `verify` and `write_reports`: `--verify` checks the contacts of each run, `--report` writes its page. For a page each
+  scene is run again, and its result is saved again with what that run showed.
+- `origin_of` and `check_origin`: from which mechanism file a result is, so that none of another's is written over.
+  Two files may have one name inside. A result notes a digest of its file's path and of its bytes: the same path,
+  edited, or the same bytes, moved, is the same mechanism. A result that notes nothing may be replaced.
+"""
 
 from __future__ import annotations
 
+import mmap
+import os
+import re
 import sys
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from hashlib import sha256
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, have, known_here, settings
-from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.run_needs import check_needs
-from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
+from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shortened
+from gudgeon.files.room import check_disk, check_memory
+from gudgeon.files.writing import write_bytes
+from gudgeon.language.names import unknown
 from gudgeon.language.shown import path_text, print_json, visible
-from gudgeon.language.suggestions import unknown
+from gudgeon.loading.find import find_mechanism
 from gudgeon.model.default_step import T_END, scene_end, scene_number
+from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
 from gudgeon.model.parameters import prepare, value
 from gudgeon.results.results import Result
+from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.from_file import load
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.model.compiled import Array
     from gudgeon.results.reports.comparison import SceneReport
     from gudgeon.simulation.simulation import Simulation
 
@@ -31,6 +48,8 @@ Settings: TypeAlias = Mapping[str, float | str]  # address -> SI, or text with a
 Files: TypeAlias = dict[str, str]  # scene, or "picture" -> path
 
 IDEAL = "ideal"
+ORIGIN = "origin"  # attribute of the file
+_NOTED = re.compile(rb"gudgeon-origin ([0-9a-f]{16}) ([0-9a-f]{16})")  # found without HDF5, which takes time to import
 
 
 @dataclass(frozen=True)
@@ -190,7 +209,6 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
 
 def _hand_over(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
     """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
-    from gudgeon.commands.run_reports import verify, write_reports
     from gudgeon.results.reports.comparison import compare
     from gudgeon.results.series import default_watch
 
@@ -298,3 +316,91 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
             console.print(f"note: {visible(note)}")
         print("".join(f"wrote {path_text(path)}\n" for path in session.files.values()), end="")
     session.shown = True
+
+
+def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
+    """MemoryError where samples and all that follows from them do not fit, OutputError where their files do not.
+
+    scenes: each with its numbers. Files hold every series, and take the places of older ones, one after the other; a
+    disk is not asked where no file is written.
+    """
+    from gudgeon.results.series import catalogue
+
+    given, counts = request.output, dict[str, float]()
+    for name, (one, p) in scenes.items():
+        counts[name] = 1.0 + (scene_number(one.source, "output", p, DEFAULT_OUTPUT) if given is None else given)
+    most = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
+    each = {name: sample_bytes(one.compiled) + evaluated_bytes(one.compiled) for name, (one, _) in scenes.items()}
+    check_memory(sum(counts[name] * each[name] for name in scenes), most)
+    if find_spec("h5py"):
+        files = [8.0 * counts[name] * (1 + len(catalogue(one.source))) for name, (one, _) in scenes.items()]
+        older = sum(_size(request.out, one.source.mechanism, name) for name, (one, _) in scenes.items())
+        check_disk(request.out, max(*files, sum(files) - older), f"the results, {most},")
+
+
+def _size(out: Path, mechanism: str, scene: str) -> int:
+    path = result_path(out, mechanism, scene)
+    return path.stat().st_size if path.is_file() else 0
+
+
+def report_path(out: Path, mechanism: str, scene: str) -> Path:
+    """Where the page of a scene goes: beside its result."""
+    return out / f"{mechanism}_{scene}.html"
+
+
+def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
+    """Check the contacts of every run (Result.check); a run whose contacts are wrong goes to `failures` too."""
+    for scene, run in runs.items():
+        if not run.source.clearances:
+            continue
+        try:
+            with status_line(quiet=quiet):
+                found = run.check()
+            notes = (*run.diagnostics.notes, *found.notes, f"{len(found.faults) or 'no'} faults of contacts at"
+                     f" {found.samples} samples")  # fmt: skip
+            runs[scene] = replace(run, diagnostics=replace(run.diagnostics, notes=notes))
+            found.raise_faults()
+        except GudgeonError as error:
+            failures.setdefault(scene, error)
+
+
+def write_reports(
+    runs: dict[str, Result], simulations: Mapping[str, Simulation], references: Mapping[str, Result], out: Path,
+    save: Callable[[Mapping[str, Result]], None], files: dict[str, str], unwritten: list[GudgeonError], quiet: bool,
+) -> None:  # fmt: skip
+    """Fills `files` and `unwritten`; `runs` are then the examined ones. A run that Ctrl-C ended is told as it is."""
+    from gudgeon.simulation.examine import examine
+
+    for scene, run in runs.items():
+        try:
+            if not run.diagnostics.interrupted:
+                with status_line(quiet=quiet):
+                    runs[scene] = run = examine(simulations[scene], run, references.get(scene))
+                save({scene: run})
+            path = report_path(out, run.source.mechanism, scene)
+            write_bytes(path, run.report().to_html().encode())
+            files[f"report {scene}"] = str(path)
+        except GudgeonError as error:
+            unwritten.append(error)
+        except MemoryError as error:
+            unwritten.append(MemoryShortage(error))
+
+
+def origin_of(mechanism: str, digest: str) -> str:
+    """Of a mechanism as it was named on the command line, and the digest of its bytes."""
+    place = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
+    return f"gudgeon-origin {place[:16]} {digest[:16]}"
+
+
+def check_origin(path: Path, origin: str) -> None:
+    """InputError where a result of another mechanism file stands at `path`."""
+    ours = _NOTED.match(origin.encode())
+    try:
+        with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+            noted = _NOTED.search(data)
+            found = set(noted.groups()) if noted else set()
+    except (OSError, ValueError):  # none there; what may be replaced is known when it is written
+        return
+    if ours and found and not found & set(ours.groups()):
+        told = f"--out: {shortened(path)} is the result of another mechanism file that has the same name"
+        raise InputError(told, hint="name another folder with --out, or remove it; or change `name:` in one of them")

@@ -15,7 +15,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.model.parameters import addresses, number, prepare, value
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.waiting.last_word import INTERRUPTED
+from gudgeon.waiting.ctrl_c import INTERRUPTED
 
 
 class Measured(Protocol):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gudgeon.commands.common import check_file, check_folder, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.written import told_as_json, wrote
+from gudgeon.commands.told import told_as_json, wrote
 from gudgeon.errors import BadValueError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import path_text

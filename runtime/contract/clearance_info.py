@@ -1,4 +1,4 @@
-"""A joint with play as the runtime knows it."""
+"""A joint with play, and a bearing that is not a circle, as the runtime knows them."""
 
 from __future__ import annotations
 
@@ -36,3 +36,12 @@ class ClearanceInfo:
     def at_wall(self) -> bool:
         """Whether it is a slider's corner at a wall of its guide."""
         return "." in self.name
+
+
+@dataclass(frozen=True)
+class ContourInfo:
+    """The depths of a joint's bearing beyond its circle: `count` slots from the slot `first` on."""
+
+    joint: str
+    first: int
+    count: int

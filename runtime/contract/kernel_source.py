@@ -6,14 +6,14 @@ Nothing else crosses. Stored as JSON: a warm start needs neither SymPy nor Jinja
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, asdict, dataclass, field, fields
 from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
-from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.contour_info import ContourInfo
+from gudgeon.contract.clearance_info import ClearanceInfo, ContourInfo
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
 from gudgeon.contract.stored import as_text, complete, shorten, tuples
@@ -22,6 +22,8 @@ HEADER = "model.h"
 ENGINE_ENDS = "/* The engine reads no further: scenes that have all this in common share its code. */"
 MAIN = "scene.c"  # what is compiled of a scene's files, beside the engine
 ENGINE_PART = 0  # what is compiled side by side: the engine, and MAIN in parts
+GIVEN = 1.001  # times a parameter's default
+GIVEN_ZERO = 0.001  # where that is zero
 
 
 @dataclass(frozen=True)
@@ -296,3 +298,12 @@ def _defaults() -> dict[str, Any]:
     mappings = ("files", "outputs", "simulate", "reference")
     nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in mappings}
     return {"main": MAIN, **nothing, **plain, "story": {}}
+
+
+def given_parameters(slots: Sequence[Slot], first: int) -> dict[int, float]:
+    """Return a value for every second slot from `first` on, by its number. Choices of a name keep their defaults.
+
+    With these a library is compared with values of the NumPy target (model/reference.py).
+    """
+    own = [(k, slot) for k, slot in enumerate(slots) if k % 2 == first and not slot.words]
+    return {k: GIVEN * slot.default or GIVEN_ZERO for k, slot in own if math.isfinite(slot.default)}

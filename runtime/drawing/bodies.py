@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.guides import axes_of, gap_of
-from gudgeon.drawing.joint_at import axis_of, guide_and_slider, is_block, sliding
+from gudgeon.drawing.joint_at import axes_of, axis_of, gap_of, guide_and_slider, is_block, sliding
 from gudgeon.drawing.plan import Plan
 from gudgeon.drawing.posture import Posture, anchors, body_of, distinct
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, rounded

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.drawing.guides import corners, in_walls
-from gudgeon.drawing.joint_at import axis_of
+from gudgeon.drawing.joint_at import axis_of, corners, in_walls
 from gudgeon.drawing.plan import is_wide
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, turned

@@ -9,8 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from gudgeon.drawing.bodies import BLOCK, SLOT, guide_ends
-from gudgeon.drawing.guides import axes_of, gap_of
-from gudgeon.drawing.joint_at import JointAt
+from gudgeon.drawing.joint_at import JointAt, axes_of, gap_of
 from gudgeon.drawing.plan import Plan, is_wide
 from gudgeon.drawing.posture import GROUND, body_of
 from gudgeon.drawing.shapes import Disc, Line, Shape, hatching, rectangle, rounded, turned

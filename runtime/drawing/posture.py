@@ -18,7 +18,7 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
 from gudgeon.language.units import DIMENSIONLESS
 from gudgeon.model.compiled import Array
-from gudgeon.model.corners import slider_of
+from gudgeon.model.contours import slider_of
 
 GROUND = "ground"
 UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # of a file that a later gudgeon wrote

@@ -1,18 +1,22 @@
-"""A whole drawing: bodies, joints, what moves them, insets of joints with play, gravity, a scale, all names."""
+"""A whole drawing: bodies, joints, what moves them, insets of joints with play, gravity, a scale, all names.
+
+Symbols of joints are drawn by their declarations (generator/kinds/joints).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from gudgeon.drawing.arrows import Arrows, round_number
-from gudgeon.drawing.bodies import bodies, names_of_bodies
+from gudgeon.drawing.bodies import BLOCK, bodies, names_of_bodies
 from gudgeon.drawing.insets import in_contact, insets
-from gudgeon.drawing.joints import joints, names_of_joints
+from gudgeon.drawing.joint_at import JointAt, gap_of, has_rail
 from gudgeon.drawing.movers import HEAD, arcs, arrow, gravity_of, movers, names_of_movers
+from gudgeon.drawing.pen import Pen
 from gudgeon.drawing.plan import Plan, make_plan
-from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.posture import Posture, type_of
 from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, box_of
 from gudgeon.model.compiled import Array
 
@@ -93,3 +97,24 @@ def _beside(
 def length_text(length: float) -> str:
     """A round length in mm or m."""
     return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
+
+
+def joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
+    """Those of a scene, by kind."""
+    for part in posture.parts("joints"):
+        pen = Pen(posture, part, plan)
+        type_of(part).symbol.draw(pen)
+        yield from pen.shapes
+
+
+def names_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> Iterator[Label]:
+    """Beside each, and beside the `arcs` of arrows around it: radii in units by joint."""
+    for part in posture.parts("joints"):
+        symbol = type_of(part).symbol
+        place = symbol.place(JointAt(posture, part))
+        clear, way = max(symbol.clear, arcs.get(part.name, 0.0)), 45.0
+        if has_rail(part) and part.name in plan.ways:  # beyond the ground, where nothing slides
+            x, y = plan.ways[part.name]
+            clear, way = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
+            clear += gap_of(posture, part, plan.unit) / plan.unit
+        yield Label(f"joint {part.name}", "joint", part.name, place, clear * plan.unit, way)

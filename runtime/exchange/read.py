@@ -6,14 +6,12 @@ import json
 import os
 from pathlib import Path
 
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.exchange.linkage import Linkage
 from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import address_in, of_pmks
-from gudgeon.exchange.pmks_before_2023 import BEGIN, of_old_pmks
+from gudgeon.exchange.pmks import BEGIN, address_in, of_old_pmks, of_pmks
 from gudgeon.exchange.pylinkage import of_pylinkage
-from gudgeon.files.reading import read_named
+from gudgeon.files.reading import MAX_BYTES, read_named
 
 KNOWN = "JSON of pylinkage (Linkage.to_json, mechanism_to_json), or a text with a link that PMKS+ shares"
 

@@ -1,12 +1,20 @@
-"""Files that are named in a call or on the command line: regular, and not too large."""
+"""Files that are read: regular, and not too large. Those that a mechanism names lie in its folder, behind no link.
+
+`read_named` reads what a call or the command line names, `read_beside` what a mechanism names.
+"""
 
 from __future__ import annotations
 
 import os
 import stat
+from pathlib import Path
 
-from gudgeon.errors import InputError, LimitError, Location, shortened
+from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
 from gudgeon.files.writing import kind
+
+_PARTS = 8  # of a path, at most
+MAX_BYTES = 1 << 20  # of a mechanism file
+MAX_TABLE_BYTES = 1 << 26  # of a table that a curve is read from: a million points and more
 
 
 def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: str = "") -> bytes:
@@ -38,3 +46,55 @@ def check_regular(found: os.stat_result, told: str, hint: str = "") -> None:
         pipe = stat.S_ISFIFO(found.st_mode)
         hint = "write what comes through the pipe to a file first" if pipe else hint
         raise InputError(f"cannot read {told}: it is {kind(found)}, not a file", hint=hint)
+
+
+def read_beside(file: str | os.PathLike[str], name: str, most: int, where: Location | None = None) -> bytes:
+    """At most so many bytes of `name`, a path relative to the folder of `file`. InputError if it may not be read.
+
+    No folder on the way and not the file itself may be a link, so that nothing outside is ever read.
+    """
+    parts = name.split("/")
+    if not 0 < len(parts) <= _PARTS or any(part in ("", ".", "..") or _odd(part) for part in parts):
+        hint = "expected the name of a file in the mechanism's folder or below: lift.csv, data/lift.csv"
+        raise BadValueError(f"{name[:60]!r} is no path to a table", where, hint)
+    try:
+        data, found = _read(Path(file).parent, parts, most)
+    except OSError as error:
+        linked = _is_link(Path(file).parent, parts)
+        why = "a link is not followed" if linked else error.strerror or error
+        hint = "expected a file in the folder of the mechanism or below"
+        raise InputError(f"cannot read the table {name}: {why}", where, hint) from error
+    if not stat.S_ISREG(found.st_mode):
+        raise InputError(f"cannot read the table {name}: it is {kind(found)}, not a file", where, "name a CSV file")
+    if (size := max(found.st_size, len(data))) > most:
+        raise LimitError(f"a table of {size} bytes", where, f"expected at most {most}")
+    return data
+
+
+def _odd(part: str) -> bool:
+    return "\\" in part or not part.isprintable()
+
+
+def _read(folder: Path, parts: list[str], most: int) -> tuple[bytes, os.stat_result]:
+    """Bytes and what they are of; folder by folder, so that nobody can put a link in between."""
+    here = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        for part in parts[:-1]:
+            below = os.open(part, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC, dir_fd=here)
+            os.close(here)
+            here = below
+        found = os.stat(parts[-1], dir_fd=here, follow_symlinks=False)
+        if not stat.S_ISREG(found.st_mode) and not stat.S_ISLNK(found.st_mode):
+            return b"", found  # a pipe or device is not opened
+        handle = os.open(parts[-1], os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=here)
+    finally:
+        os.close(here)
+    with open(handle, "rb") as opened:
+        found = os.fstat(handle)
+        regular = stat.S_ISREG(found.st_mode) and found.st_size <= most
+        return opened.read(most + 1) if regular else b"", found
+
+
+def _is_link(folder: Path, parts: list[str]) -> bool:
+    """Whether a link is on the way: for what is told."""
+    return any(os.path.islink(folder.joinpath(*parts[: k + 1])) for k in range(len(parts)))

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.followed import unfollowed
-from gudgeon.assembly.redundant_rows import check_start, left_out
+from gudgeon.assembly.rank import check_start, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.boundary import (
     AUDITED,

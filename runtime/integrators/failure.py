@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.rank import nearly_dependent_rows
 from gudgeon.contract.boundary import (
     CHATTERING,
     JAMMED,
@@ -30,8 +30,7 @@ from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
-from gudgeon.model.steep import steep_force, unbounded_drive
-from gudgeon.model.written import of_time, rate_reason, reason, trees, undefined_here
+from gudgeon.model.written import of_time, rate_reason, reason, steep_force, trees, unbounded_drive, undefined_here
 
 TOLD = {
     JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "

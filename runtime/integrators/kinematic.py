@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.branch_rates import branches_told
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.rank import branches_told
 from gudgeon.contract.boundary import EVENTS_FULL, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.events import resolution

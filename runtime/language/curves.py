@@ -1,8 +1,11 @@
 """Curves through points: cubic splines and monotone cubics, as coefficients and as numbers.
 
 A spline has a continuous second derivative: C. de Boor, A Practical Guide to Splines (2001), chapter IV. A monotone
-cubic is C¹ (monotone.py). Between knots k and k + 1 a curve is
-y = c0 + h (c1 + h (c2 + h c3)) with h = x - x_k: all targets evaluate this, by Horner's rule and in this order.
+cubic is C¹ and never beyond the points on either side: F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17 (1980)
+238–246; F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304.
+
+Between knots k and k + 1 a curve is y = c0 + h (c1 + h (c2 + h c3)) with h = x - x_k: all targets evaluate this, by
+Horner's rule and in this order.
 """
 
 from __future__ import annotations
@@ -15,8 +18,6 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
-from gudgeon.language.monotone import monotone_slopes
 
 if TYPE_CHECKING:
     from gudgeon.language.units import Dimension
@@ -272,3 +273,36 @@ def _tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
     for k in range(len(rows) - 2, -1, -1):
         right[k] -= above[k] * right[k + 1]
     return right
+
+
+def monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, flat_ends: bool) -> list[float]:
+    """Return the slopes at the knots: weighted harmonic means of the rises on both sides, 0 at extremes.
+
+    h, rises: lengths and rises of the pieces, (n,). `repeats`: the end is the beginning; `flat_ends`: no slope there.
+    """
+    if repeats:
+        inner = [_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)]
+        return [*inner, inner[0]]
+    inner = [_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
+    if flat_ends:
+        return [0.0, *inner, 0.0]
+    if not inner:
+        return [rises[0], rises[0]]
+    first, last = _end_slope(*h[:2], *rises[:2]), _end_slope(*h[:-3:-1], *rises[:-3:-1])
+    return [first, *inner, last]
+
+
+def _mean(a: float, b: float, p: float, q: float) -> float:
+    """The slope between pieces of lengths a, b and rises p, q."""
+    if p * q <= 0.0:
+        return 0.0
+    w, v = 2.0 * b + a, b + 2.0 * a
+    return (w + v) / (w / p + v / q)
+
+
+def _end_slope(a: float, b: float, p: float, q: float) -> float:
+    """The slope at the end of the outer piece (a, p) by the parabola through it and its neighbour (b, q), limited."""
+    slope = ((2.0 * a + b) * p - a * q) / (a + b)
+    if slope * p <= 0.0:
+        return 0.0
+    return 3.0 * p if p * q <= 0.0 and abs(slope) > 3.0 * abs(p) else slope

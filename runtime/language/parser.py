@@ -21,7 +21,7 @@ from gudgeon.errors import ExpressionError, LimitError, Location
 from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.suggestions import nearest
+from gudgeon.language.names import nearest
 from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, at
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, unit

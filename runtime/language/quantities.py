@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
+from gudgeon.language.names import unknown_name
 from gudgeon.language.parser import at, check_dimension, parse
-from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import evaluate, names
 from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import dimension

@@ -12,8 +12,7 @@ from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.names import WORDS, advice_on, character_text
-from gudgeon.language.suggestions import nearest
+from gudgeon.language.names import WORDS, advice_on, character_text, nearest
 from gudgeon.language.tree import Number
 from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit, symbol_dimension, unit
 from gudgeon.language.wanted import IN_RANGE

@@ -16,7 +16,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from gudgeon.errors import ExpressionError, InputError, InputErrors, Location, UnitError, UnknownNameError, together
-from gudgeon.language.suggestions import nearest
+from gudgeon.language.names import nearest
 from gudgeon.language.units import OTHER_WORDS, UNITS, Dimension, describe, symbol_dimension, unit
 
 _MAX_SHOWN, _MAX_LISTED = 3, 6  # proposals, units that fit

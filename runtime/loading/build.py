@@ -16,12 +16,11 @@ from gudgeon.loading import compiler
 from gudgeon.loading.ahead import Ahead, own_lines
 from gudgeon.loading.behind import KIND, SOURCE, Behind, is_allowed
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
-from gudgeon.loading.carried import carried
-from gudgeon.loading.compiling import begin, finish
+from gudgeon.loading.compiler import begin, finish
 from gudgeon.loading.engine import engine_digest, own_texts
-from gudgeon.loading.library import Library, opened
+from gudgeon.loading.library import Library, carried, opened
+from gudgeon.waiting.asking import working
 from gudgeon.waiting.programs import Programs
-from gudgeon.waiting.working import working
 
 LIBRARY = "kernels.so"
 PRESENT = "gudgeon_prepare"  # a function that every scene's library has

@@ -1,16 +1,24 @@
-"""The C compiler: which one, its flags, and everything about this machine that a library depends on."""
+"""The C compiler: which one, its flags, everything about this machine that a library depends on, and one call of it."""
 
 from __future__ import annotations
 
+import errno
 import os
+import signal
 import sys
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import cache as remember
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading.cache import Cache, default_cache, digest
+from gudgeon.loading.engine import include_flags
 from gudgeon.waiting.programs import Programs
+
+if TYPE_CHECKING:
+    import subprocess
 
 INSTALL_COMPILER = (
     "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
@@ -48,6 +56,10 @@ INEXACT = frozenset((
     "-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only", "-fassociative-math",
     "-freciprocal-math", "-fno-signed-zeros",
 ))  # fmt: skip
+FULL = {
+    "No space left on device": errno.ENOSPC, "Disk quota exceeded": errno.EDQUOT, "File too large": errno.EFBIG,
+    "File size limit exceeded": errno.EFBIG,
+}  # fmt: skip
 
 
 def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
@@ -180,3 +192,40 @@ def cpu() -> str:
 def plain() -> dict[str, str]:
     """The environment for the compiler: messages in English, because we read some; where zig keeps its C library."""
     return {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), **os.environ, "LC_ALL": "C"}
+
+
+def unit_line(
+    portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = ""
+) -> tuple[str, ...]:  # fmt: skip
+    """The line for one unit of a library (of_unit): what it shares with others stays inside."""
+    command = find_compiler()
+    options = of_unit(flags(portable, command, quick), unit)
+    return (*command, *options, "-fvisibility=hidden", *include_flags(), "-c", *files, "-o", made)
+
+
+def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
+    """A compiler under way in the folder."""
+    environment = {**plain(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
+    try:
+        return programs.begin([*line], folder, environment)
+    except OSError as error:
+        raise BuildError(f"the compiler {line[0]} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
+
+
+def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
+    """Wait; what to raise where it failed: OSError for a full disk (another folder is tried then), else BuildError."""
+    out, err = programs.wait(process)
+    if process.returncode == 0 and made.is_file():
+        return None
+    said = (err or out).strip()
+    for text, code in FULL.items():
+        if text in said:
+            return OSError(code, f"the compiler said: {text}")
+    if process.returncode == -signal.SIGXFSZ:
+        return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
+    first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
+    line = " ".join(map(str, process.args))  # type: ignore[arg-type]
+    told = f"failed (exit status {process.returncode})"
+    if process.returncode == 0:
+        told = f"ended without an error, and made no {made.name}"
+    return BuildError(f"the C compiler {told}:\n  {first}\n  called as {line}")

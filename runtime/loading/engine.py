@@ -1,16 +1,19 @@
 """The engine: the C that all scenes share (engine/), beside which a scene's own is compiled.
 
-What of it a scene needs is decided by the sizes in its model.h, here as in C.
+What of it a scene needs is decided by the sizes in its model.h, here as in C. `contents` reads all files of a folder
+quickly, for each start asks whether one of hundreds changed.
 """
 
 from __future__ import annotations
 
+import os
 import re
+from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 
 from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.loading.cache import digest
-from gudgeon.loading.contents import contents
 from gudgeon.loading.shipped import PACKAGE
 
 ENGINE = PACKAGE / "engine"
@@ -88,3 +91,19 @@ def _with_sizes(text: str, values: dict[str, int]) -> str:
         elif holds and not line.startswith("#"):
             kept.append(line)
     return "\n".join(kept) + "\n"
+
+
+def contents(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
+    """(path from the folder with "/", bytes) of files that end so, in the order of their paths' parts."""
+    found, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
+    while left:
+        parts, place = left.pop()
+        with os.scandir(place) as entries:
+            for entry in entries:
+                if entry.name.endswith(suffixes):
+                    found.append(([*parts, entry.name], entry.path))
+                elif entry.name != "__pycache__" and entry.is_dir():
+                    left.append(([*parts, entry.name], entry.path))
+    for parts, place in sorted(found):
+        with open(place, "rb", buffering=0) as file:
+            yield "/".join(parts), file.read()

@@ -12,18 +12,15 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.limits import MAX_BYTES, MAX_TABLE_BYTES
 from gudgeon.contract.methods import SMOOTH, STAGES
 from gudgeon.errors import BadValueError, InputError, LimitError
-from gudgeon.files.beside import read_beside
-from gudgeon.files.reading import read_named
+from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_beside, read_named
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.contents import contents
+from gudgeon.loading.engine import contents
 from gudgeon.loading.shipped import PACKAGE, committed, committed_header, shipped, shipped_file
-from gudgeon.waiting.collector import at_rest
-from gudgeon.waiting.imports import GENERATOR, READER, whole
-from gudgeon.waiting.working import working
+from gudgeon.waiting.asking import working
+from gudgeon.waiting.imports import GENERATOR, READER, at_rest, whole
 
 if TYPE_CHECKING:
     from gudgeon.loading.ahead import Ahead

@@ -2,10 +2,17 @@
 
 cffi's parser of declarations takes a tenth of a second to import. What it makes of the engine's is kept in declared.py,
 which `make generated` writes; other declarations, and the engine's while they are being edited, are parsed here.
+
+A wheel carries libraries for machines without a compiler (`carried`): shipped mechanisms, one run at a time.
+`tools/wheels.py` compiles them when it makes a wheel for a platform, without instructions that only some processors
+have; a clone has none. They are known by the texts that they were compiled from, so that an edited file, or another
+engine, never gets them.
 """
 
 from __future__ import annotations
 
+import os
+import sys
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -13,12 +20,15 @@ from typing import Any, Protocol
 
 from _cffi_backend import FFI
 
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import declared
 from gudgeon.loading.cache import digest
-from gudgeon.loading.engine import all_declarations, lane_declarations
+from gudgeon.loading.engine import all_declarations, engine_digest, lane_declarations, own_texts
+from gudgeon.loading.shipped import PACKAGE
 from gudgeon.waiting.imports import CFFI, whole
 
 HASTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
+CARRIED = PACKAGE / "carried"
 
 
 @dataclass(frozen=True)
@@ -113,3 +123,24 @@ def _parsed(text: str) -> Any:
     ffi = FFI()
     ffi.cdef(text)
     return ffi
+
+
+def carried(source: KernelSource) -> Library | None:
+    """The library of this source; None where the wheel has none for this machine, or the user names a compiler."""
+    if os.environ.get("CC"):
+        return None
+    path = CARRIED / platform(sys.platform, os.uname().machine) / file_name(source)
+    try:
+        return opened(path, source.cdef) if path.is_file() else None
+    except ImportError:  # of another C library, as musl
+        return None
+
+
+def platform(system: str, machine: str) -> str:
+    """The folder of such machines."""
+    return f"{system}-{machine}"
+
+
+def file_name(source: KernelSource) -> str:
+    """By everything that it was compiled from."""
+    return digest(["carried/1", source.main, source.cdef, engine_digest(), *own_texts(source)])[:32] + ".so"

@@ -61,7 +61,7 @@ def _unknown(what: str, name: str, names: tuple[str, ...]) -> InputError:
     if not names:
         told = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
         return InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
-    from gudgeon.language.suggestions import nearest
+    from gudgeon.language.names import nearest
 
     guess = nearest(name, names)
     return UnknownNameError(

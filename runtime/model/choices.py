@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import told
 

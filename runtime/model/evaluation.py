@@ -1,4 +1,4 @@
-"""Everything that follows from samples of a run: one pass of the compiled model over them, in C."""
+"""Everything that follows from samples of a run, in one pass of C over them, and the memory that samples take."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ CLEARANCE_COLUMNS = CLEARANCE_COLUMN_NAMES
 MANY = 10_000  # samples from which on it is asked whether there is memory for what follows from them
 FIRST, SOON = 256, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
+OF_A_RUN = 1000  # bytes, about: a run's own lists and counts
 
 
 @dataclass(frozen=True)
@@ -154,3 +155,29 @@ def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Arra
         return taken(values, name, (rows, columns))
     taken(values[:0] if values.ndim else values, name, (0, columns))
     return values if len(values) == rows else taken(values, name, (rows, columns))
+
+
+def sample_bytes(compiled: CompiledModel) -> int:
+    """Of one sample as methods keep it: its time, motion (of a kinematic scene q̈ too), works, memory and codes."""
+    orders = 2 if compiled.source.degrees_of_freedom else 3
+    numbers = 1 + orders * compiled.n + N_WORK + max(compiled.n_memory, 1)
+    return 8 * numbers + max(len(compiled.source.clearances), 1)
+
+
+def check_room(
+    compiled: CompiledModel, samples: float, runs: int = 1, kept: Collection[str] | None = None,
+    parts: Collection[str] = (), at_once: int = 1,
+) -> None:  # fmt: skip
+    """MemoryError where the samples of so many runs, each with as many, are more than there is memory for.
+
+    kept: these series of each run in place of its states, which then lie there `at_once` runs at a time, with the
+    `parts` that they follow from.
+    """
+    if kept is None:
+        size = float(samples) * sample_bytes(compiled) * runs
+    else:
+        size = float(samples) * (sample_bytes(compiled) + evaluated_bytes(compiled, parts)) * min(runs, at_once)
+        size += float(samples) * 8 * (len(kept) + 1) * runs
+    size += runs * (OF_A_RUN + 16 * compiled.n_p) if runs > 1 else 0
+    several = f"{runs} runs of {samples:.0f} samples each" if runs > 1 else f"{samples:.0f} samples"
+    check_memory(size, several)

@@ -18,7 +18,7 @@ from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import AT_ONCE, Array, CompiledModel
 from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, number, without_baumgarte
 from gudgeon.model.sizes import far_clearances
-from gudgeon.model.undefined import undefined_rows
+from gudgeon.model.written import undefined_rows
 
 FLOATS = (float, np.floating)  # what may be no number
 Values: TypeAlias = float | str

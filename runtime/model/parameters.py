@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.suggestions import near
+from gudgeon.language.names import near
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import choice_of_a_law, expression_by_name, place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance, zero_inertia
-from gudgeon.model.undefined import undefined_number
+from gudgeon.model.written import undefined_number
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.reference import given_parameters
+from gudgeon.contract.kernel_source import given_parameters
 from gudgeon.errors import AuditError
 
 if TYPE_CHECKING:

@@ -1,30 +1,54 @@
-"""What a file's own expressions are worth at a state: which one is no number there, and why.
+"""What a file's own expressions are worth at a state: which one is not a number there, and why.
 
 C computes with them and finds out that something is not finite; here their trees are walked again to say what.
+
+- Why an expression is not a number: the smallest part of it that is none, and which of its names has it.
+- Which force has no finite slope at a state, and which drive no bounded second rate at a time. Methods that need the
+  Jacobian cannot go on from a force without a slope, others can.
+- Numbers that are undefined as the file writes them, where simplified formulas have a value: C has d for
+  cos(acos(d)). The file's own numbers were checked when the file was read; here those of a run are.
 """
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.defined import is_defined_everywhere
-from gudgeon.language.tree import Binary, Call, Expr, calls, evaluate, from_json, names, reached
+from gudgeon.language.defined import is_defined_everywhere, may_be_undefined, undefined_part
+from gudgeon.language.tree import (
+    Binary,
+    Call,
+    CurveCall,
+    Expr,
+    Number,
+    Unary,
+    calls,
+    evaluate,
+    from_json,
+    names,
+    reached,
+    replaced,
+)
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
-from gudgeon.model.culprit import Values, culprit
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
 MOST_CORNERS = 64  # of a where, that are looked at one after the other
+Values = Callable[[str], float]
+_SHORT = (1e-8, 1e-10, 1e-12)  # ways over which a rise is looked at, of a size of 1
+_STEEPER, _ROUNDING = 3.0, 1e-13  # how much each shorter way is steeper at least; what is no rise
+_JUMP = 0.9  # of the rise over the longest way, that one over the shortest has where it is a jump: of that methods know
+REMEDY = "expected finite numbers: is there a division by zero, or a root of a negative number?"
 
 
 def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
@@ -244,3 +268,179 @@ def _told(
             place = f"line {info.line}, column {info.column}"
             return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {culprit(source, tree, values)}"
     return ""
+
+
+def culprit(source: KernelSource, tree: Expr, values: Values) -> str:
+    """The smallest part of an expression that is not finite while what it is made of is, in words."""
+    way = _way(tree, values)
+    called = _written_out(source)
+    within = next((one for part in way[::-1] for one, whole in called if whole == part), None)
+    place = f"in {within.address} (line {within.line}, column {within.column}), " if within else ""
+    return place + _words(way[-1], values)
+
+
+def _written_out(source: KernelSource) -> list[tuple[WrittenInfo, Expr]]:
+    """The file's expressions by name, with the trees of others in place of their names."""
+    written = {one.address.partition(".")[2]: from_json(json.loads(one.tree)) for one in source.expressions}
+    known: dict[str, Expr] = {}
+
+    def whole(name: str) -> Expr:
+        if name not in known:
+            used = {used.path for used in names(written[name])} & written.keys()
+            known[name] = replaced(written[name], {other: whole(other) for other in used})
+        return known[name]
+
+    return [(one, whole(name)) for name, one in zip(written, source.expressions, strict=True)]
+
+
+def _way(tree: Expr, values: Values) -> list[Expr]:
+    """From an expression to that part."""
+    for part in _parts(tree, values):
+        if not isinstance(part, Number) and not math.isfinite(evaluate(part, values)):
+            return [tree, *_way(part, values)]
+    return [tree]
+
+
+def _parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
+    """What the value of an expression is made of."""
+    match tree:
+        case Unary(operand=operand):
+            return (operand,)
+        case Binary(left=left, right=right):
+            return left, right
+        case Call(function="where", arguments=(left, right, then, otherwise)):
+            return left, right, then if evaluate(left, values) < evaluate(right, values) else otherwise
+        case Call(arguments=parts):
+            return parts
+    return ()
+
+
+def _words(tree: Expr, values: Values) -> str:
+    numbers = [float(evaluate(part, values)) for part in _parts(tree, values)]
+    told = [f"{number:.12g}" for number in numbers]
+    match tree:
+        case Binary(operator="/"):
+            return f"{told[0]} divided by {told[1]}"
+        case Binary(operator="**"):
+            return f"the power {told[1]} of {told[0]}"
+        case Binary(operator=operator):
+            return f"{told[0]} {operator} {told[1]}"
+        case CurveCall(function=function, curve=curve):
+            return f"curve {function} {curve.outside(numbers[0])}"
+        case Call(function=function):
+            return f"{function} of {', '.join(told)}"
+    return "a number that is not finite"
+
+
+def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
+    """The drive whose second rate is far larger at a time than beside it; "": none."""
+    zero = np.zeros(compiled.n)
+    beside = 1e-4 * max(abs(t), 1e-9)
+    near = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
+    at, apart = (
+        np.nan_to_num(np.abs([compiled.closed_gamma(float(s), zero, zero, p) for s in times]), nan=none).max(axis=0)
+        for times, none in ((near, np.inf), ((t - beside, t + beside), 0.0))
+    )
+    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive" and at[k] > 100.0 * apart[k]]
+    return compiled.source.start_rows[max(rows, key=lambda k: at[k])].owner if rows else ""
+
+
+def steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
+    """Which force rises without bound beside a state, or is no number there, and by what; "" where none does."""
+    values, constant = values_at(source, p, t, q, v), {slot.address for slot in source.slots}
+    for info, tree in trees(source, ("forces",)):
+        for path in sorted({name.path for name in names(tree)}):
+            here = float(values(path))
+            if f"parameters.{path}" not in constant and _is_steep(_by(tree, path, values), here):
+                where = f"{info.address} (line {info.line}, column {info.column})"
+                beside = "" if path == "t" else f", {path} = {here:.9g}"
+                return f"the slope of {where} by {path} is not finite at t = {t:.9g} s{beside}"
+    return ""
+
+
+def _by(tree: Expr, path: str, values: Values) -> Callable[[float], float]:
+    """An expression as a function of one of its names."""
+    return lambda x: float(evaluate(tree, lambda name: x if name == path else values(name)))
+
+
+def _is_steep(at: Callable[[float], float], here: float) -> bool:
+    """Whether a function is finite at a place, and its slope is not."""
+    value, size = at(here), 1.0 + abs(here)
+    for side in (-size, size):
+        rises = [abs(at(here + side * way) - value) for way in _SHORT]
+        if not all(map(math.isfinite, rises)):
+            return math.isfinite(value)
+        slopes = [rise / way for rise, way in zip(rises, _SHORT, strict=True)]
+        grows = all(later > _STEEPER * earlier for earlier, later in zip(slopes, slopes[1:], strict=False))
+        if grows and _ROUNDING * abs(value) < rises[-1] < _JUMP * rises[0]:
+            return True
+    return False
+
+
+@dataclass(frozen=True)
+class Partial:
+    """An expression that may be undefined: its own slot, -1 of one that has none, and those of the names in it."""
+
+    address: str
+    tree: Expr
+    slot: int
+    slots: Mapping[str, int]
+
+
+def undefined_rows(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
+    """Which runs, (n,) of p (n, n_slots + n_derived), may have an undefined number; undefined_number is exact."""
+    found = np.zeros(len(p), dtype=np.bool_)
+    for one in _concerned(source, p):
+        known = {name: p[:, k] for name, k in one.slots.items()}
+        undefined = may_be_undefined(one.tree, known)
+        found |= undefined & ~is_given[:, one.slot].astype(bool) if one.slot >= 0 else undefined
+    return found
+
+
+def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
+    """What is said of the first undefined number of one run; "" where there is none."""
+    for one in _concerned(source, p[np.newaxis]):
+        known = {name: float(p[k]) for name, k in one.slots.items()}
+        if one.slot >= 0 and is_given[one.slot]:
+            continue
+        if (value := undefined_part(one.tree, known)) is not None:
+            by = ", ".join(f"{name} = {number:.6g}" for name, number in known.items())
+            return f"{one.address} has a part that is {value} with {by}\n  {REMEDY}"
+    return ""
+
+
+def _concerned(source: KernelSource, p: Array) -> list[Partial]:
+    """The expressions that name a slot which differs in some run from the file's."""
+    kept = vars(source)
+    if "partial_slots" not in kept:
+        kept["partial_slots"] = sorted({k for one in partials(source) for k in one.slots.values()})
+        kept["partial_defaults"] = np.array([source.slots[k].default for k in kept["partial_slots"]])
+    slots = kept["partial_slots"]
+    if not slots:
+        return []
+    differ = (p[:, slots] != kept["partial_defaults"]).any(axis=0)
+    if not differ.any():
+        return []
+    changed = {slots[k] for k in np.flatnonzero(differ).tolist()}
+    return [one for one in partials(source) if not changed.isdisjoint(one.slots.values())]
+
+
+def partials(source: KernelSource) -> list[Partial]:
+    """Return the expressions of parameters, drives and forces that may be undefined; read once for each source."""
+    kept = vars(source)
+    if "partials" not in kept:
+        kept["partials"] = _read_partials(source)
+    found: list[Partial] = kept["partials"]
+    return found
+
+
+def _read_partials(source: KernelSource) -> list[Partial]:
+    place, found = source.place, []
+    trees = [(slot.address, slot.tree, k) for k, slot in enumerate(source.slots) if slot.tree]
+    for address, tree, k in [*trees, *((one.address, one.tree, -1) for one in source.written)]:
+        expr = from_json(json.loads(tree))
+        used = dict.fromkeys(name.path for name in names(expr))
+        slots = {name: place.get(f"parameters.{name}", place.get(name, -1)) for name in used}
+        if not is_defined_everywhere(expr):
+            found.append(Partial(address, expr, k, {name: at for name, at in slots.items() if at >= 0}))
+    return found

@@ -19,8 +19,7 @@ from gudgeon.contract.boundary import SHALLOW
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import contour_of, depth_at
-from gudgeon.model.corners import corner_at
+from gudgeon.model.contours import contour_of, corner_at, depth_at
 from gudgeon.results.series import point_motion
 
 if TYPE_CHECKING:

@@ -125,7 +125,7 @@ class Result(Shown):
         """Times at which an event of the file happened, (k,), s. UnknownNameError names the nearest event."""
         names = [event.name for event in self.source.events]
         if text(name, "the name of an event") not in names:
-            from gudgeon.language.suggestions import nearest
+            from gudgeon.language.names import nearest
 
             guess = nearest(name, names)
             hint = f"did you mean {guess!r}?" if guess else f"its events: {', '.join(names) or 'none'}"

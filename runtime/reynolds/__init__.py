@@ -6,9 +6,8 @@
     >>> film.force, film.error, film.leakage, film.pressure.max()
 """
 
-from gudgeon.reynolds.bearing import Bearing
+from gudgeon.reynolds.bearing import Bearing, Film
 from gudgeon.reynolds.deviations import Deviation, deviation
-from gudgeon.reynolds.film import Film
 from gudgeon.reynolds.solver import solve
 from gudgeon.reynolds.tables import Table, table
 

@@ -20,9 +20,8 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.reynolds.equation import Equation
-from gudgeon.reynolds.grid import Array
-from gudgeon.waiting.apart import apart
+from gudgeon.reynolds.equation import Array, Equation
+from gudgeon.waiting.asking import apart
 
 Flags = NDArray[np.bool_]
 STEPS = 1000  # of an active set that only grows, at worst by a cell a step; from a coarser grid it takes a few

@@ -11,12 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.wanted import number_of, positive, text
 from gudgeon.model.arrays import taken
-from gudgeon.reynolds.bearing import Bearing
-from gudgeon.reynolds.film import check_finite
-from gudgeon.reynolds.grid import Array
+from gudgeon.reynolds.bearing import Bearing, check_finite
+from gudgeon.reynolds.equation import Array
 from gudgeon.reynolds.solver import CELLS
 from gudgeon.reynolds.tables import table
 

@@ -5,17 +5,24 @@
 in a frame that turns with the mean speed of the surfaces, ½(ω_i + ω_j): there the gap only closes, with the effective
 squeeze velocity w (docs/physics.md, section 4). Pressures are in units of 12 μ (R/c)², flows of c R², rates in 1/s.
 B. J. Hamrock, S. R. Schmid, B. O. Jacobson, Fundamentals of Fluid Film Lubrication, 2nd ed., Marcel Dekker 2004.
+
+The nodes of a `Grid` are close together where the film is thin, and towards the ends of the bearing.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
+from scipy.optimize import brentq
 
-from gudgeon.reynolds.grid import Array, Grid
+Array = NDArray[np.float64]
+ROUND = 2.0 * math.pi
+UNIFORM = 0.5  # share of the nodes that lie evenly; the others follow Sommerfeld's angle, close where h is small
 
 
 @dataclass(frozen=True)
@@ -81,3 +88,96 @@ class Equation:
         return sparse.csr_matrix(
             sparse.kron(sparse.coo_matrix((values, places), shape=(n, n)), sparse.diags(grid.height))
         )
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Nodes and the cells around them. φ counts from the widest gap, ζ = z/R from the middle to an end.
+
+    Along a sealed bearing nothing changes: it has one node, in a cell as long as the half.
+    """
+
+    eps: float
+    phi: Array  # (n,) nodes
+    right: Array  # (n,) a cell's end towards larger φ
+    left: Array  # (n,) and towards smaller
+    apart: Array  # (n,) from a node to the next
+    weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes lie evenly: no error but that of p
+    zeta: Array  # (m,) nodes but that at the end, where p = 0
+    height: Array  # (m,) lengths of cells; behind an open end's node as much as is left (m + 1,)
+    gaps: Array  # (m,) from a node to the next, the last to the end; (0,) if sealed
+    weight_along: Array  # (m,) Simpson's, of the half
+
+    @property
+    def sealed(self) -> bool:
+        return not len(self.gaps)
+
+    @property
+    def h(self) -> Array:
+        """(n,) film thickness over c at nodes."""
+        return np.asarray(1.0 + self.eps * np.cos(self.phi))
+
+
+def made(eps: float, l_over_d: float, around: int, along: int, start: float = 0.0) -> Grid:
+    """A grid with a node at φ = start; along = 0: of a sealed bearing."""
+    spread = ROUND / around
+    shift = float(_spread(np.array([start]), eps)[0])
+    both = _places(shift + 0.5 * spread * np.arange(2 * around, dtype=float), eps)
+    phi, right = both[::2], both[1::2]
+    left = np.concatenate([[right[-1] - ROUND], right[:-1]])
+    apart = np.concatenate([phi[1:], [phi[0] + ROUND]]) - phi
+    weight = spread / _density(phi, eps)
+    if not along:
+        whole = np.array([l_over_d])
+        return Grid(eps, phi, right, left, apart, weight, np.zeros(1), whole, np.zeros(0), whole)
+    layer = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # p changes along as quickly as around
+    zeta, slope = _along(np.linspace(0.0, 1.0, 2 * along + 1), l_over_d, layer)
+    height = np.diff(np.concatenate([[0.0], zeta[1::2], [l_over_d]]))
+    simpson = np.where(np.arange(along) % 2, 4.0, 2.0) / (3.0 * along)
+    simpson[0] *= 0.5
+    nodes = zeta[::2]
+    return Grid(eps, phi, right, left, apart, weight, nodes[:-1], height, np.diff(nodes), simpson * slope[:-1:2])
+
+
+def _density(phi: Array, eps: float) -> Array:
+    return np.asarray(UNIFORM + (1.0 - UNIFORM) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi)))
+
+
+def _spread(phi: Array, eps: float) -> Array:
+    """In it nodes lie evenly: a mean of φ and Sommerfeld's angle γ, (1 + ε cos φ)(1 − ε cos γ) = 1 − ε².
+
+    dγ = √(1 − ε²)/h dφ.
+    """
+    turns = np.floor((phi + math.pi) / ROUND)
+    half = 0.5 * (phi - ROUND * turns)
+    gamma = 2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + ROUND * turns
+    return np.asarray(UNIFORM * phi + (1.0 - UNIFORM) * gamma)
+
+
+def _places(spread: Array, eps: float) -> Array:
+    """φ of `_spread`: Newton's method between bounds, which are halved where it does not halve its last step.
+
+    Both variables are never more than π apart; at ε → 1 the slope jumps so that Newton alone goes to and fro.
+    """
+    low, high, phi, last = spread - math.pi, spread + math.pi, spread.copy(), np.full_like(spread, ROUND)
+    for _ in range(200):
+        off = _spread(phi, eps) - spread
+        low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)
+        step = -off / _density(phi, eps)
+        halved = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last))
+        last = np.where(halved & (off != 0.0), 0.5 * (low + high) - phi, step)
+        phi = phi + last
+        if float(np.max(abs(last))) <= 1e-14 * float(np.max(abs(spread), initial=1.0)):
+            break
+    return phi
+
+
+def _along(share: Array, reach: float, layer: float) -> tuple[Array, Array]:
+    """ζ from 0 to reach and its slope by `share`: at the end `layer` times what it were if it lay evenly."""
+    if layer > 0.98:
+        return reach * share, np.full_like(share, reach)
+    b = brentq(lambda b: b / math.sinh(b) - layer, 1e-3, 700.0)
+    return (
+        np.asarray(reach * (1.0 - np.sinh(b * (1.0 - share)) / math.sinh(b))),
+        np.asarray(reach * b * np.cosh(b * (1.0 - share)) / math.sinh(b)),
+    )

@@ -9,7 +9,7 @@ import numpy as np
 
 from gudgeon.language.plot_units import scale
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
-from gudgeon.reynolds.film import Film
+from gudgeon.reynolds.bearing import Film
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

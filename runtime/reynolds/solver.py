@@ -11,11 +11,19 @@ from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import instance, number_of
-from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, choice, pair
+from gudgeon.reynolds.bearing import (
+    CAVITATIONS,
+    ENDS,
+    Bearing,
+    Film,
+    cells_of,
+    check_eccentricity,
+    check_finite,
+    choice,
+    pair,
+)
 from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solved
-from gudgeon.reynolds.equation import Equation
-from gudgeon.reynolds.film import Film, check_finite
-from gudgeon.reynolds.grid import ROUND, Array, Grid, made
+from gudgeon.reynolds.equation import ROUND, Array, Equation, Grid, made
 
 CELLS = (192, 24)  # around, from the middle to an end
 COARSEST = 64  # cells around, below which the active set needs no start

@@ -11,11 +11,9 @@ from numpy.typing import ArrayLike
 from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import instance
 from gudgeon.model.arrays import taken
-from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, choice
+from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, check_finite, choice
 from gudgeon.reynolds.cavitation import Motion
-from gudgeon.reynolds.equation import Equation
-from gudgeon.reynolds.film import check_finite
-from gudgeon.reynolds.grid import Array
+from gudgeon.reynolds.equation import Array, Equation
 from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, refined
 
 MOST_STATES = 1_000_000  # a day of solving

@@ -9,7 +9,7 @@ from time import monotonic
 
 import numpy as np
 
-from gudgeon.assembly.redundant_rows import contradiction
+from gudgeon.assembly.rank import contradiction
 from gudgeon.errors import SolverError
 from gudgeon.integrators.audit import audit_failure
 from gudgeon.integrators.trajectory import Problem, Trajectory

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.rank import dependent_rows
 from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
@@ -20,10 +20,9 @@ from gudgeon.integrators.audit import notes_of
 from gudgeon.integrators.times import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import widest
-from gudgeon.model.corners import corner_gap
+from gudgeon.model.contours import corner_gap, widest
 from gudgeon.model.seams import seams
-from gudgeon.model.steep import unbounded_drive
+from gudgeon.model.written import unbounded_drive
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.peaks import first_force, piled_up
 from gudgeon.results.series import without_masses

@@ -13,8 +13,7 @@ import numpy as np
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.integrators.adaptive import integrated_angles
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import contour_of, depth_at
-from gudgeon.model.corners import corner_gap
+from gudgeon.model.contours import contour_of, corner_gap, depth_at
 from gudgeon.model.parameters import without_baumgarte
 
 if TYPE_CHECKING:

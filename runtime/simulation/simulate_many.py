@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.assembly.followed import tell_of_runs
 from gudgeon.assembly.journals import check_places, parting
-from gudgeon.assembly.redundant_rows import contradiction, left_out
+from gudgeon.assembly.rank import contradiction, left_out
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
@@ -24,8 +24,8 @@ from gudgeon.language.shown import counted
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
+from gudgeon.model.evaluation import check_room
 from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
-from gudgeon.model.room import check_room
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.results.batch import STATES, Batch, States, as_failures, given_values, parts_of, wanted_names
 from gudgeon.results.peaks import peaks_of

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
-from gudgeon.assembly.redundant_rows import check_start
+from gudgeon.assembly.rank import check_start
 from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators import adaptive
@@ -23,8 +23,8 @@ from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
+from gudgeon.model.evaluation import check_room
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.model.room import check_room
 from gudgeon.simulation.arguments import MAX_STEPS, derived_for, end_of, integrate, method_of, output_times, step_of
 from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside

@@ -19,8 +19,7 @@ from gudgeon.language.wanted import flag, function, mapping, numbers, positive
 from gudgeon.model.default_step import plain_end
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import runs as measured
-from gudgeon.studies.methods import ADAPTIVE, choice
-from gudgeon.studies.rhs_time import RhsTime, time_rhs
+from gudgeon.studies.methods import ADAPTIVE, RhsTime, choice, time_rhs
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
 
 FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes

@@ -1,19 +1,31 @@
-"""Which methods `gudgeon bench` measures in a scene, and why others are left out."""
+"""Which methods `gudgeon bench` measures in a scene, and why others are left out.
+
+`gudgeon bench` also measures the time of one right-hand side, beside the number of operations in it.
+"""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from importlib.util import find_spec
 
+import numpy as np
+
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.methods import CHOOSING, INTEGRATORS, STAGED
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
 from gudgeon.language.wanted import listed
+from gudgeon.model.compiled import Array
+from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.runs import Setting, natural_step, window
 
 ADAPTIVE = (*CHOOSING, "auto")
+BATCH, REPEATS = 20_000, 9
 
 
 def adaptive(simulation: Simulation) -> bool:
@@ -53,3 +65,70 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
         told = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
         raise BadValueError("none of the methods fits", hint="; ".join(told))
     return found, list(dict.fromkeys(left_out))
+
+
+@dataclass(frozen=True)
+class RhsTime:
+    """One call of ẏ = f(t, y), at one state."""
+
+    state: str  # "start", or which joint is in contact
+    seconds: float  # the least over several batches
+    operations: int  # additions, multiplications, divisions, functions on the way that this state takes
+    t: float
+    q: Array  # (n,)
+    v: Array
+
+
+def time_rhs(simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS) -> list[RhsTime]:
+    """At the start and, where a joint with play touches within `longest` (s), at the first peak of its force."""
+    start = simulation.start()
+    free = simulation.compiled.memory_array(None)
+    found = [_time(simulation, "start", 0.0, start.q, start.v, free, batch, repeats)]
+    if (run := _touching(simulation, longest)) is not None:
+        closed = [j.name for j, code in zip(simulation.source.clearances, run.state[-1], strict=True) if code]
+        state = f"{', '.join(closed)} in contact"
+        found.append(
+            _time(simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed)
+        )
+    return found
+
+
+def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
+    """Of the equations of motion, every film, and the dry forces of the joints that are closed."""
+    total = 0
+    for kernel, count in simulation.source.operations.items():
+        names = [j.name for j in simulation.source.clearances if kernel.endswith(f"_{j.name}_force")]
+        if kernel == "dynamics" or (names and (kernel.startswith("film_") or names[0] in (closed or []))):
+            total += count
+    return total
+
+
+def _touching(simulation: Simulation, longest: float) -> Result | None:
+    """A run that ends at the first contact's peak force, with the contact closed."""
+    if not simulation.source.clearances:
+        return None
+    step = natural_step(simulation)
+    try:
+        work = window(simulation, longest, Setting("rk4", step))
+        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False, peaks=()).impacts
+        if not len(impacts):
+            return None
+        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step, stop=False, peaks=())
+    except SolverError:
+        return None
+    return run if run.state[-1].any() else None
+
+
+def _time(
+    simulation: Simulation, state: str, t: float, q: Array, v: Array, memory: Array, batch: int, repeats: int,
+    closed: list[str] | None = None,
+) -> RhsTime:  # fmt: skip
+    model = simulation.compiled
+    y, latched = np.concatenate([q, v, np.zeros(N_WORK)]), model.memory_array(memory)
+    arguments = (batch, t, model.pointer(y), model.pointer(latched), model.pointer(simulation.p))
+    best = np.inf
+    for _ in range(repeats):
+        before = time.perf_counter()
+        model.lib.gudgeon_time_rhs(*arguments)
+        best = min(best, (time.perf_counter() - before) / batch)
+    return RhsTime(state, best, operations(simulation, closed), t, q.copy(), v.copy())

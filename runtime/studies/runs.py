@@ -19,7 +19,7 @@ from gudgeon.model.default_step import plain_end, scene_end, scene_step
 from gudgeon.model.parameters import prepare
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.words import seconds
+from gudgeon.studies.show.tables import seconds
 
 NAN = math.nan
 Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`

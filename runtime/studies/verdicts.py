@@ -16,7 +16,7 @@ from gudgeon.language.plot_units import quantity
 from gudgeon.model.contours import widest
 from gudgeon.results.results import Result
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, difference, size
-from gudgeon.studies.words import rough_share, seconds, share
+from gudgeon.studies.show.tables import rough_share, seconds, share
 
 OF_A_CELL = 2048  # bytes, about: its numbers, what it says, the job that it was
 Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and with a finer one

@@ -1,12 +1,19 @@
 """Whether a run is still wanted: Ctrl-C and progress while its loop is in C (engine/run/asked.c).
 
 C asks each EVERY seconds, wherever it is, and gives up what it is at when told so.
+
+- `Asker`: what C calls while it runs.
+- `apart` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
+- `working` reports that deriving or compiling is under way, before anything runs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -15,6 +22,10 @@ if TYPE_CHECKING:
 
 EVERY = 0.05  # s between two questions
 _functions: dict[int, tuple[Any, Any]] = {}  # by the id of what cffi knows, which is kept: no other gets the same
+Result = TypeVar("Result")
+Teller = Callable[[str], AbstractContextManager[None]]  # what is done -> what surrounds it
+
+_teller: ContextVar[Teller | None] = ContextVar("teller", default=None)
 
 
 class Asker:
@@ -63,3 +74,45 @@ def _function(compiled: CompiledModel) -> Any:
         asked = ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=keep)
         _functions[id(ffi)] = ffi, asked
     return _functions[id(ffi)][1]
+
+
+def apart(work: Callable[[], Result]) -> Result:
+    """What `work` returns or raises, called in another thread; it holds nothing but memory, and lets others run.
+
+    Ctrl-C is raised here at once and the thread ends on its own; a process that ends meanwhile waits for it. Not by
+    Thread.join: one that a signal interrupts may leave its lock taken, and the next never returns.
+    """
+    results: list[Result] = []
+    errors: list[BaseException] = []
+    gate = threading.Lock()
+    gate.acquire()
+
+    def call() -> None:
+        try:
+            results.append(work())
+        except BaseException as error:
+            errors.append(error)
+        gate.release()
+
+    threading.Thread(target=call).start()
+    while not (results or errors):
+        gate.acquire(timeout=0.05)
+    if errors:
+        raise errors[0]
+    return results[0]
+
+
+def working(text: str) -> AbstractContextManager[None]:
+    """Surrounds what takes a while; nothing where nobody listens."""
+    teller = _teller.get()
+    return teller(text) if teller else nullcontext()
+
+
+@contextmanager
+def told_to(teller: Teller) -> Iterator[None]:
+    """While the block runs `teller` surrounds what takes a while in it, in this thread."""
+    token = _teller.set(teller)
+    try:
+        yield
+    finally:
+        _teller.reset(token)

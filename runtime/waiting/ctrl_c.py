@@ -1,8 +1,12 @@
-"""Ctrl-C is raised only where it is asked for: none falls between what was computed and the note of it."""
+"""Ctrl-C is raised only where it is asked for: none falls between what was computed and the note of it.
+
+`last_word` is the last message of a program that is interrupted, INTERRUPTED its exit code.
+"""
 
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 from collections.abc import Callable
 from time import monotonic
@@ -11,6 +15,8 @@ from typing import Any
 
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 PATIENCE = 1.0  # s after a first Ctrl-C, from which on another one is raised wherever Python is
+INTERRUPTED = 130
+_whole: list[bool] = []  # not empty where the process is the command `gudgeon` and nothing else
 
 
 class CtrlC:
@@ -78,3 +84,20 @@ class EndingSignals:
     def _interrupt(self, number: int, _: FrameType | None) -> None:
         self._ended.append(number)
         signal.raise_signal(signal.SIGINT)
+
+
+def is_the_program() -> None:
+    """The process is the command and nothing else: its last word is the last thing that it does."""
+    _whole.append(True)
+
+
+def nothing_more() -> None:
+    """A second Ctrl-C would find nothing but the end, and make another one of it: Python, as it ends, lets it kill."""
+    if _whole:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def last_word() -> None:
+    """That it was interrupted."""
+    nothing_more()
+    print("interrupted", file=sys.stderr)

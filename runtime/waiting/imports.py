@@ -2,15 +2,18 @@
 
 They take a second and more, so they are imported in a thread of their own: Ctrl-C is raised at once in the main thread,
 and what is being imported comes to its end beside it.
+
+`at_rest` stops the collector of garbage meanwhile: what is made there stays.
 """
 
 from __future__ import annotations
 
+import gc
 import sys
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
-
-from gudgeon.waiting.collector import at_rest
 
 RUNTIME = ("numpy", "gudgeon.simulation.simulation")
 READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reader.read")
@@ -18,6 +21,7 @@ GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.gener
 CFFI = ("cffi", "pycparser", "cffi.cparser")
 LOOK = 0.05  # s, after which a signal is looked for
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
+_frozen = False  # whether somebody's objects are known to be: to count a million of them takes ten milliseconds
 
 
 def whole(*names: str) -> None:
@@ -48,3 +52,23 @@ def _is_imported(name: str) -> bool:
     """To its end: not while another thread is still at it."""
     module = sys.modules.get(name)
     return module is not None and not getattr(getattr(module, "__spec__", None), "_initializing", False)
+
+
+@contextmanager
+def at_rest() -> Iterator[None]:
+    """Nothing is looked for within; what is garbage meanwhile is found when all objects are looked through next.
+
+    All that was made is as old as can be when this ends: as new objects, they would be looked through at once.
+    """
+    global _frozen
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            _frozen = _frozen or gc.get_freeze_count() > 0
+            if not _frozen:  # somebody's frozen objects stay so
+                gc.freeze()
+                gc.unfreeze()
+            gc.enable()

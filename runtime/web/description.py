@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.assembly.large import LARGE
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.redundant_rows import OPEN, left_out
+from gudgeon.assembly.rank import OPEN, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
 from gudgeon.contract.methods import KINEMATIC
@@ -24,7 +24,7 @@ from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import SMOOTH, T_END, default_step
 from gudgeon.model.parameters import GAINS, conditions, prepare
 from gudgeon.model.sizes import size_places
-from gudgeon.model.undefined import partials
+from gudgeon.model.written import partials
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump

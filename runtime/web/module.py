@@ -16,11 +16,10 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.compiler import plain, zig
-from gudgeon.loading.compiling import finish
+from gudgeon.loading.compiler import finish, plain, zig
 from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
+from gudgeon.waiting.asking import working
 from gudgeon.waiting.programs import Programs
-from gudgeon.waiting.working import working
 
 MODULE = "simulator.wasm"
 # what simulator.js calls, where a scene has it

@@ -10,15 +10,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.scripts import carried_script
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.undefined import partials
+from gudgeon.model.written import partials
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 
 UNDEFINED = "undefined.js"
-FILES = ("boundary.js", "run.js", UNDEFINED, "loops.js", "drift.js", "start.js", "simulator.js")
+FILES = ("boundary.js", "run.js", UNDEFINED, "loops.js", "start.js", "simulator.js")
 DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of what is not shown
 
 
@@ -94,6 +93,8 @@ def element(name: str, told: str) -> str:
 @cache
 def code(name: str) -> str:
     """JavaScript of this room, as a page carries it."""
+    from gudgeon.generator.targets.javascript.module import carried_script
+
     return carried_script(file_text(name))
 
 

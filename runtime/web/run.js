@@ -201,7 +201,7 @@ class Run {
         return Object.fromEntries(places.map(([name, place, count]) => [name, memory.copy(place, count)]));
     }
 
-    /* Rows that were redundant with the file's numbers go on saying nothing new (assembly/redundant_rows.py). */
+    /* Rows that were redundant with the file's numbers go on saying nothing new (assembly/rank.py). */
     checkLeftOut() {
         const {left_out, open, rows} = this.about, {lib, n} = this.sim;
         if (!left_out.length) return;

@@ -25,7 +25,7 @@ from gudgeon.web.look import look, style
 from gudgeon.web.page import DESCRIPTION, Parts, code, file_text, packed_element, packed_module, script
 from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 
-APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
+APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js")
 PANEL = "gudgeon-panel"
 PROGRAM = "gudgeon-program"  # what begin.js unpacks and runs: a third of its size
 ROOM = 62_000  # bytes of a module beside which there is room for the full formulation

@@ -1,6 +1,6 @@
 /*
  * A scene of gudgeon in a page or in Node: the C that was emitted for it and the engine's, as WebAssembly, called as
- * Python calls them. Numbers are SI, angles rad. With start.js, run.js, loops.js and drift.js this is one script
+ * Python calls them. Numbers are SI, angles rad. With start.js, run.js and loops.js this is one script
  * (`script` of web.page):
  *
  *     const sim = await gudgeon.load(description, module);   // JSON, and base64 or bytes, as Python wrote them

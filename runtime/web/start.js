@@ -6,7 +6,7 @@ const FIRST_STEP = 1 / 8, LEAST_STEP = 1e-7; // shares of that way
 const NEAR = 0.2; // rad, or share of the size: tells two assemblies apart (assembly/followed.py); no step goes so far
 const MOST_TRIES = 3000; // steps of that way, some milliseconds each for the largest linkages
 
-/* The error of a start that a page does not look for any further, as Python does (assembly/search.py). */
+/* The error of a start that a page does not look for any further, as Python does (assembly/start.py). */
 function searched(text) { return Object.assign(new Error(text), {searched: true}); }
 
 /* A length or an angle with the unit that people read, any other number in SI. */

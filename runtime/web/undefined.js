@@ -1,6 +1,6 @@
 /*
  * Parts of expressions, as they are written, that are no finite numbers: simplified formulas of C may lack them. Does
- * what runtime/language/defined.py and runtime/model/undefined.py do.
+ * what runtime/language/defined.py and runtime/model/written.py do.
  */
 const argumentsOf = (tree) => (tree[0] === "curve" ? [tree[2]] : tree.slice(1));
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly import linkage, start
-from gudgeon.assembly.search import search
+from gudgeon.assembly.start import search
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.model.parameters import prepare
 from tests.scenes import loader

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.assembly.journals import check_places
-from gudgeon.assembly.search import search
+from gudgeon.assembly.start import search
 from gudgeon.cli import app
 from gudgeon.errors import AssemblyError, UnknownNameError
 from gudgeon.model.parameters import prepare

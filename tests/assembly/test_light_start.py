@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import gudgeon
-from gudgeon.assembly.dead_centre import dependent_rows
+from gudgeon.assembly.rank import dependent_rows
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler

@@ -16,7 +16,7 @@ from typer.models import CommandInfo
 
 import gudgeon
 from gudgeon import cli
-from gudgeon.commands.group import name_of
+from gudgeon.cli import name_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 from tests.slow import slow_but

@@ -21,8 +21,7 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
 from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import address_in, of_pmks
-from gudgeon.exchange.pmks_before_2023 import of_old_pmks
+from gudgeon.exchange.pmks import address_in, of_old_pmks, of_pmks
 from gudgeon.exchange.pylinkage import of_pylinkage
 from gudgeon.exchange.read import mechanism_of, read_linkage
 from gudgeon.generator.reader.read import read_mechanism

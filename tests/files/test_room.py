@@ -18,8 +18,7 @@ import gudgeon
 from gudgeon.errors import OutputError
 from gudgeon.files import room
 from gudgeon.files.room import check_disk, check_memory, free_disk, free_memory, in_bytes
-from gudgeon.model.evaluation import evaluated_bytes
-from gudgeon.model.room import sample_bytes
+from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import axis
 from gudgeon.studies.box import Range

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gudgeon.language.suggestions import near, nearest, unknown
+from gudgeon.language.names import near, nearest, unknown
 
 ADDRESSES = (
     "omega", "c", "bodies.crank.mass", "bodies.crank.length", "bodies.rod.length", "bearings.wrist.clearance",

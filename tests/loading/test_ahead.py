@@ -15,7 +15,7 @@ import pytest
 import gudgeon
 from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
-from gudgeon.loading import build, shared
+from gudgeon.loading import ahead, build
 from gudgeon.loading.ahead import Ahead, own_lines
 from gudgeon.loading.cache import LIST, _seal
 from gudgeon.waiting.programs import Programs
@@ -162,7 +162,7 @@ def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monke
         assert not early.take(own_folders / "scene_1.o", part_1(source), broken)
     (own_folders / "broken.c").write_text("#error of the engine\n")
     (own_folders / "rod.yaml").write_text(ROD.replace("mass: 1", "mass: 2"))  # this process has the other one
-    monkeypatch.setattr(shared, "UNIT", own_folders / "broken.c")
+    monkeypatch.setattr(ahead, "UNIT", own_folders / "broken.c")
     with pytest.raises(BuildError, match="of the engine"):
         gudgeon.load(own_folders / "rod.yaml")
     monkeypatch.setenv("CC", "no-such-compiler")

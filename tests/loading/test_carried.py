@@ -14,7 +14,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BuildError
-from gudgeon.loading import build, carried, compiler
+from gudgeon.loading import build, compiler, library
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.generated_scenes import read_scene, read_scenes
 from gudgeon.loading.shipped import GENERATED
@@ -29,11 +29,11 @@ def carries_the_pendulum(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     source = read_scene(GENERATED / "pendulum", "ideal")
     assert source is not None
     (tmp_path / "made").mkdir()
-    folder = tmp_path / "carried" / carried.platform(sys.platform, os.uname().machine)
+    folder = tmp_path / "carried" / library.platform(sys.platform, os.uname().machine)
     folder.mkdir(parents=True)
     made = build.build_into(tmp_path / "made", source, Cache(tmp_path / "cache"))
-    made.rename(folder / carried.file_name(source))
-    monkeypatch.setattr(carried, "CARRIED", tmp_path / "carried")
+    made.rename(folder / library.file_name(source))
+    monkeypatch.setattr(library, "CARRIED", tmp_path / "carried")
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "empty"))
     monkeypatch.setenv("PATH", "")
     monkeypatch.setitem(sys.modules, "ziglang", None)
@@ -59,9 +59,9 @@ def test_a_shipped_mechanism_runs_without_a_compiler(
 def test_what_differs_is_not_taken(wheel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An edited text, another engine, a library that is none; and a compiler that the user names is never passed by."""
     source = read_scene(GENERATED / "pendulum", "ideal")
-    assert source is not None and carried.carried(source) is not None
+    assert source is not None and library.carried(source) is not None
     edited = replace(source, files={**source.files, "dynamics.c": source.files["dynamics.c"] + "\n"})
-    assert carried.carried(edited) is None
+    assert library.carried(edited) is None
     with pytest.raises(BuildError, match="no C compiler"):
         build.compile_kernels(edited)
     with pytest.raises(BuildError, match="no C compiler"):  # asked to compile anew
@@ -71,10 +71,10 @@ def test_what_differs_is_not_taken(wheel: Path, monkeypatch: pytest.MonkeyPatch)
         with pytest.raises(BuildError, match="no-such-cc"):
             build.compile_kernels(source)
     with monkeypatch.context() as other:
-        other.setattr(carried, "engine_digest", lambda: "another")
-        assert carried.carried(source) is None
-    (wheel / carried.file_name(source)).write_bytes(b"of another C library")
-    assert carried.carried(source) is None
+        other.setattr(library, "engine_digest", lambda: "another")
+        assert library.carried(source) is None
+    (wheel / library.file_name(source)).write_bytes(b"of another C library")
+    assert library.carried(source) is None
     assert not compiler.is_there()
 
 

@@ -19,8 +19,8 @@ import pytest
 
 import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError, LimitError, UnknownNameError
+from gudgeon.files.reading import MAX_BYTES
 from gudgeon.loading import shipped
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.find import derived, find_mechanism, generator_hash, kernel_source, model_key, read_bytes

@@ -15,7 +15,7 @@ import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.loading.find import find_mechanism  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
-from gudgeon.results.signals import WINDOWS, low_pass, spectrum  # noqa: E402
+from gudgeon.results.series import WINDOWS, low_pass, spectrum  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 RATE, N = 1000.0, 2000

@@ -7,7 +7,7 @@ import pytest
 
 from gudgeon.reynolds import Bearing, deviation
 from gudgeon.reynolds.deviations import law_force
-from gudgeon.reynolds.grid import Array
+from gudgeon.reynolds.equation import Array
 from tests.oracles.butenschoen import ATTITUDE, ROTATION, WIDTHS
 
 MOTION = np.array([0.0, 0.35, 0.9, 1.25, 0.5 * np.pi, 1.9, 2.4, np.pi])

@@ -13,8 +13,7 @@ import pytest
 
 import gudgeon
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.search import search
-from gudgeon.assembly.start import assemble
+from gudgeon.assembly.start import assemble, search
 from gudgeon.contract.boundary import IMPACT_COLUMN_NAMES, N_IMPACT_COLUMNS
 from gudgeon.errors import BadValueError, GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators import contacts

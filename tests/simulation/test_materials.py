@@ -19,7 +19,7 @@ from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import axis, typed
 from gudgeon.studies.ensemble.notes import gathered
-from gudgeon.studies.show.map_words import value
+from gudgeon.studies.show.map import value
 
 STEEL, BRONZE = (206e9, 0.3, 7850.0), (110e9, 0.34, 8800.0)
 R, C, DISC, THICK = 10e-3, 0.3e-3, 12e-3, 15e-3

@@ -23,7 +23,7 @@ from gudgeon.contract.methods import STAGED
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.bench import ADAPTIVE, REFERENCES, SECOND, TRUSTED, Row, SceneBench, bench, other_than, references
-from gudgeon.studies.rhs_time import operations, time_rhs
+from gudgeon.studies.methods import operations, time_rhs
 from gudgeon.studies.runs import (
     ONSETS,
     Attempt,

@@ -21,8 +21,8 @@ from gudgeon.studies.runs import ONSETS, Error, Setting, Work, difference
 from gudgeon.studies.show.box import WORST, count, grouped, kind, worst_cells
 from gudgeon.studies.show.box_figure import box_figure, telling
 from gudgeon.studies.show.map import compared
+from gudgeon.studies.show.tables import seconds
 from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, limits_of
-from gudgeon.studies.words import seconds
 from tests.programs import needs_compiler
 
 AUTO = Setting("auto", 1e-8)

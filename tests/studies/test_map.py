@@ -15,11 +15,11 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies import words
 from gudgeon.studies.axes import Axis, axis, clearances, typed
 from gudgeon.studies.map import VerdictMap, default_clearances, default_steps, verdict_map
 from gudgeon.studies.runs import Attempt, Error, Setting, Work
 from gudgeon.studies.show.map import command, verdict
+from gudgeon.studies.show.tables import seconds, share
 from gudgeon.studies.verdicts import Cell, Limits, Status, judge
 from tests.programs import needs_compiler
 
@@ -258,9 +258,9 @@ def test_command_writes_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     ("value", "text"), [(0.5, "50 %"), (0.049, "4.9 %"), (2e-3, "0.20 %"), (4e-7, "4e-7"), (math.nan, "–")]
 )
 def test_shares_in_words(value: float, text: str) -> None:
-    assert words.share(value) == text
+    assert share(value) == text
 
 
 @pytest.mark.parametrize(("value", "text"), [(1e-4, "100 µs"), (2.5e-8, "25 ns"), (0.0098, "9.8 ms"), (2.0, "2 s")])
 def test_steps_in_words(value: float, text: str) -> None:
-    assert words.seconds(value) == text
+    assert seconds(value) == text

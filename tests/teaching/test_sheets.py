@@ -24,7 +24,7 @@ from gudgeon.language.parser import parse
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
-from gudgeon.teaching.markdown import markdown
+from gudgeon.teaching.notebook import markdown
 from gudgeon.teaching.questions import make_questions
 from gudgeon.teaching.sheet import Question, Subject, make_subject
 from gudgeon.web.numbers import groups

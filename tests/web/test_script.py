@@ -8,7 +8,7 @@ import pytest
 
 import gudgeon.generator.targets.latex
 import gudgeon.web
-from gudgeon.language.scripts import carried_script
+from gudgeon.generator.targets.javascript.module import carried_script
 
 FOLDERS = (gudgeon.web, gudgeon.generator.targets.latex)
 FILES = [file for folder in FOLDERS for file in sorted(Path(str(folder.__file__)).parent.glob("*.js"))]

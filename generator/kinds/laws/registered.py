@@ -19,13 +19,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadNameError, InputError, LawError, Location, shortened
-from gudgeon.files.reading import read_named
+from gudgeon.files.reading import MAX_BYTES, read_named
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
 from gudgeon.generator.kinds.laws.law import OWN, RESULTS, Law, State, house
-from gudgeon.language.names import check_label
-from gudgeon.language.suggestions import known_hint
+from gudgeon.language.names import check_label, known_hint
 from gudgeon.language.units import Dimension
 from gudgeon.language.wanted import path
 

@@ -8,8 +8,7 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.contour_info import ContourInfo
+from gudgeon.contract.clearance_info import ClearanceInfo, ContourInfo
 from gudgeon.contract.kernel_source import (
     BodyInfo,
     Condition,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import defaultdict
 from contextlib import suppress
 
@@ -26,6 +27,8 @@ _OF_STATES = (
     "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", DYNAMICS, "reduced_project",
     DIRECTIONS, STEP, RATES, THIRD,
 )  # fmt: skip
+# as we write them: alone on their lines, or behind code with a space on either side
+_COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTALL | re.MULTILINE)
 
 
 def equations_script(program: Program) -> str:
@@ -130,3 +133,11 @@ def play_kernel(model: Model) -> Kernel:
         for name, value in zip(_motion(model, i), values, strict=True):
             build.line(Statement(name, sp.sympify(value)))
     return build.build((*STATE, PARAMETERS))
+
+
+def carried_script(text: str) -> str:
+    """Return a JavaScript file of gudgeon's as a page carries it: without comments and indents, line by line.
+
+    Lines stay lines, for they end statements.
+    """
+    return re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text))

@@ -11,10 +11,9 @@ from functools import cache
 from pathlib import Path
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.targets.javascript.module import equations_script
+from gudgeon.generator.targets.javascript.module import carried_script, equations_script
 from gudgeon.generator.targets.latex.document import Block, Carried, Listing, Section, paragraph
 from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
-from gudgeon.language.scripts import carried_script
 
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
 MOST_C = 600_000  # characters of C that a page carries

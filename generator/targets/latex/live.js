@@ -84,7 +84,7 @@ const gudgeonValues = (() => {
 
     /*
      * What a joint remembers at the sample: rates of closing, NaN of the free, first; inner states of laws last. Of a
-     * run that keeps none of it (carried.js) a contact is closed by no number, so that its force is none either.
+     * run that keeps none of it (`Recorded`) a contact is closed by no number, so that its force is none either.
      */
     function latch(joint) {
         const joints = Object.keys(equations.joints), i = joints.indexOf(joint), {run, k} = state;

@@ -33,8 +33,8 @@ from gudgeon.generator.targets.numpy.printer import (
     remark,
 )
 from gudgeon.language.curves import MARGIN, Curve
+from gudgeon.language.names import unknown, unknown_name
 from gudgeon.language.quantities import number_of_text
-from gudgeon.language.suggestions import unknown, unknown_name
 from gudgeon.language.wanted import mapping, number_of
 
 Array = NDArray[np.float64]

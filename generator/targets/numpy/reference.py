@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import N_ENERGY, N_REACTION_COLUMNS
-from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.reference import given_parameters
+from gudgeon.contract.kernel_source import KernelSource, given_parameters
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.kernels.program import Program

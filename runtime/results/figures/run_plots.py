@@ -159,7 +159,7 @@ class Plot:
         amplitude A on a line of the spectrum has A (between lines flattop is off least). BadValueError for samples
         that are not even, or no numbers.
         """
-        from gudgeon.results.signals import spectrum
+        from gudgeon.results.series import spectrum
 
         every = [name for some in names for name in listed_names(some, "names", SERIES)]
         found = {name: spectrum(self.run.t, self.run[name], window) for name in every}
@@ -175,7 +175,7 @@ class Plot:
         causal: as an amplifier does, with its delay; False: forwards and back, without phase. BadValueError for
         samples that are not even, or a cutoff beyond half their rate.
         """
-        from gudgeon.results.signals import low_pass
+        from gudgeon.results.series import low_pass
 
         run = self.run
         left = low_pass(run.t, run[name], positive(cutoff, "cutoff"), order, flag(causal, "causal"))

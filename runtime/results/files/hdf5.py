@@ -27,7 +27,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.room import check_disk
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import path as named
-from gudgeon.waiting.apart import apart
+from gudgeon.waiting.asking import apart
 from gudgeon.waiting.ctrl_c import CtrlC
 
 Array: TypeAlias = NDArray[Any]

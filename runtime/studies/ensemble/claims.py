@@ -13,7 +13,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, InputError, UnknownKeyError, together
 from gudgeon.generator.study.spec import ALONG, COUNTS, NumberClaim, Selection, TrendClaim, Trial
-from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.names import unknown_name
 from gudgeon.language.units import unit
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, Check, Look

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
-from gudgeon.language.suggestions import unknown
+from gudgeon.language.names import unknown
 from gudgeon.language.wanted import names, path
 from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
 from gudgeon.studies.ensemble.folder import DATASET, h5py_module, readable

@@ -69,7 +69,7 @@ def unit_of(measure: Measure, source: KernelSource) -> str | None:
 
 def unknown_of(measure: Measure, source: KernelSource) -> InputError:
     """What is said of a measure of something that no scene has."""
-    from gudgeon.language.suggestions import unknown_name
+    from gudgeon.language.names import unknown_name
 
     if measure.statistic in OF_JOINTS:
         return unknown_name("joint with play", measure.of, _joints(source, measure.statistic in WEAR), measure.of.where)

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.files.room import check_disk, check_memory
 from gudgeon.integrators.threads import available_threads
-from gudgeon.model.evaluation import evaluated_bytes
-from gudgeon.model.room import sample_bytes
+from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
 from gudgeon.results.batch import parts_of
 from gudgeon.studies.ensemble.loop import SIDE_BY_SIDE
 from gudgeon.studies.ensemble.measures import series_of

@@ -11,8 +11,8 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, ExpressionError, InputError, Location
 from gudgeon.language.dimension_check import names_over_units
+from gudgeon.language.names import unknown_name
 from gudgeon.language.parser import at, check_dimension, parse
-from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import Dimension, dimension
 from gudgeon.model.choices import place_of_word

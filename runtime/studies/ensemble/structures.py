@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError
-from gudgeon.files.beside import read_beside
+from gudgeon.files.reading import MAX_BYTES, read_beside
 from gudgeon.loading.find import find_mechanism
 
 if TYPE_CHECKING:

@@ -10,9 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors, shortened, together
-from gudgeon.files.reading import read_named
+from gudgeon.files.reading import MAX_BYTES, read_named
 from gudgeon.language.wanted import flag, function, mapping, path, whole
 from gudgeon.loading.shipped import shipped_study
 from gudgeon.studies.ensemble.claimed import write_claims

@@ -12,8 +12,7 @@ from gudgeon.integrators.peers.driver import NAMES
 from gudgeon.language.shown import path_text, print_json
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import NAN, Setting
-from gudgeon.studies.show.tables import console, new_table, write_files
-from gudgeon.studies.words import seconds, share
+from gudgeon.studies.show.tables import console, new_table, seconds, share, write_files
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

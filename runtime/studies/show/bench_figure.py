@@ -16,7 +16,7 @@ from gudgeon.language.shown import in_figure
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import Setting
-from gudgeon.studies.words import seconds, share
+from gudgeon.studies.show.tables import seconds, share
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.shown import path_text, print_json
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, partial, tell_failures
-from gudgeon.studies.show.map_words import compared
-from gudgeon.studies.show.tables import console, new_table, write_files
+from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, partial, tell_failures
+from gudgeon.studies.show.tables import console, new_table, seconds, share, write_files
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
-from gudgeon.studies.words import seconds, share
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

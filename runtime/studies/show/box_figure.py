@@ -18,8 +18,8 @@ from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import VerdictBox
 from gudgeon.studies.show.box import count
+from gudgeon.studies.show.tables import seconds
 from gudgeon.studies.verdicts import SEVERITY, Status
-from gudgeon.studies.words import seconds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,9 +13,9 @@ from matplotlib.patches import Patch, Rectangle
 from gudgeon.language.shown import in_figure
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
-from gudgeon.studies.show.map_words import compared, explain, value
+from gudgeon.studies.show.map import compared, explain, value
+from gudgeon.studies.show.tables import seconds
 from gudgeon.studies.verdicts import Cell, Status
-from gudgeon.studies.words import seconds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -17,8 +17,7 @@ from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
-from gudgeon.studies.show.tables import console, new_table
-from gudgeon.studies.words import seconds
+from gudgeon.studies.show.tables import console, new_table, seconds
 
 MOST_KINDS = 8
 MOST_TRENDS = 16  # that are told one by one

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.language.names import unknown
 from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
-from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, mapping, number_of, text, told
 from gudgeon.studies.show.study_signals import alike, crossings
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.shown import one_line
-from gudgeon.results.signals import low_pass, spectrum
+from gudgeon.results.series import low_pass, spectrum
 
 NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
 SAME = 1e-9  # of a run: so far apart, samples are at the same share of it
