@@ -67,7 +67,7 @@ class JointExamined:
     joint: str
     impacting: float  # share of the time from an onset until the penetration first stops growing
     F_rms: float  # N, over all of the time
-    taken: float  # J, by normal contact forces while the surfaces approached
+    taken: float  # J, by normal contact forces while the surfaces approached; NaN of surfaces that do not give
     returned: float  # J, by these while they parted; what is missing was damped
     friction: float  # J, taken by tangential contact forces
     film: float  # J, taken by the film

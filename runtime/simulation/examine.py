@@ -151,7 +151,8 @@ def _joint(
             angle = np.arctan2(other[f"{name}.ey"][at], other[f"{name}.ex"][at]) - theta
             along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
         normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
-    touching = (other[f"{name}.delta"][at] > 0.0) if joint.dry else np.zeros(len(at), bool)
+    rigid = name in run.source.rigid  # closed by its latch, at δ = 0, where its force does no work along the normal
+    touching = (other.state[at, k] > 0) if rigid else joint.dry & (other[f"{name}.delta"][at] > 0.0)
     slip = (solid[f"{name}.Ft"] * other[f"{name}.vt"])[at]
     in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
     of_both = _film_power(solid, joint)[at] if solid is not other and joint.film else in_film
@@ -163,6 +164,7 @@ def _joint(
     impacting = _until_turns(run, other, k, name) / span if joint.dry else math.nan
     rms = math.sqrt(float(weights @ force**2) / span)
     taken, returned, friction = found if joint.dry else (math.nan,) * 3
+    taken, returned = (math.nan, math.nan) if rigid else (taken, returned)
     return JointExamined(
         name, impacting, rms, taken, returned, friction, film if joint.film else math.nan,
         *_restitution(run, other, k, name),

@@ -148,6 +148,21 @@ def test_a_rigid_contact_wears_where_it_is_closed(tmp_path: Path, mu: float) -> 
         assert found == pytest.approx([load, mu * load], rel=1e-6, abs=1e-12)
 
 
+@needs_compiler
+def test_friction_of_a_rigid_contact_is_told(tmp_path: Path) -> None:
+    """All that a joint that only slides takes is friction's; surfaces that do not give take and return nothing."""
+    (tmp_path / "rig.yaml").write_text(RIGID.replace("SWAY", "8 N"), encoding="utf-8")
+    simulation = gudgeon.load(tmp_path / "rig.yaml", "loose")
+    run = simulation.simulate(1.0, output=100)
+    examined = gudgeon.examine(simulation, run).diagnostics.examined
+    assert examined is not None and len(run.impacts) == 1
+    (told,) = examined.joints
+    assert told.friction == pytest.approx(-run["work.clearances"][-1], rel=1e-6) and told.friction > 0.05
+    assert math.isnan(told.taken) and math.isnan(told.returned)
+    worn = gudgeon.wear(simulation, run, "J", k=1.0, law="reye")
+    assert worn.bearing.volume == pytest.approx(told.friction, rel=1e-6)
+
+
 OILED = RIG.replace("contacts: {", "contacts: {oiled: {normal: {law: hertz, stiffness: K, restitution: 1, dissipation: "
                     "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, mixed: {law: christensen, roughness: 20 um}, "
                     "film: {law: ocvirk, viscosity: 0.02, shear: true}}, ") + f"""
