@@ -62,7 +62,7 @@ def conclude(
         compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
         accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
         diagnostics=diagnose(compiled, method, problem, x, balance, seconds), events=x.events,
-        event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled),
+        event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled), begun=problem.begun,
     )  # fmt: skip
     if evaluation is not None:
         if not compiled.source.massless and (told := unbalanced(x.t, evaluation.energy, x.work, balance[0])):

@@ -62,13 +62,17 @@ def examine(
 
 def _again(
     simulation: Simulation, run: Result, t: Array, settings: dict[str, Any], progress: Progress | None,
-    peaks: tuple[str | Rubbing, ...] = (),
+    peaks: tuple[str | Rubbing, ...] = (), beyond: float = math.nan,
 ) -> Iterator[Result]:  # fmt: skip
-    """The run at times t: begun as the file says, and begun in its first sample. What ends early is none."""
-    begin = begin_of(run)
-    for start in (None, begin) if begin.t == 0.0 else (begin,):
+    """The run at times t: begun as the file says, and begun in its first sample. What ends early is none.
+
+    `beyond` (s): up to which a run goes that an event or an error ends at the last of the times; NaN: none does.
+    """
+    begin, ends = begin_of(run), math.isfinite(beyond)
+    times = np.append(t, beyond) if ends else t
+    for start in (None, begin) if begin.t == 0.0 and run.begun is None else (begin,):
         try:
-            other = repeated(simulation, t, start, settings, progress, peaks)
+            other = repeated(simulation, times, start, settings, progress, peaks, ends)
         except GudgeonError:  # a start that does not close any more
             continue
         if other is not None and other.diagnostics.interrupted:
@@ -105,8 +109,10 @@ def as_it_was(
     simulation: Simulation, run: Result, t: Array, progress: Progress | None, peaks: tuple[str | Rubbing, ...] = ()
 ) -> Result | None:
     """The run again, bit for bit, at times t, among which are its own; None where that cannot be had."""
-    usual = settings_of(run)[0]
-    for other in (x for own in _as_it_went(usual) for x in _again(simulation, run, t, own, progress, peaks)):
+    usual, to = settings_of(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
+    for other in (x for own in _as_it_went(usual) for x in _again(simulation, run, t, own, progress, peaks, to)):
+        if other.t[-1] != t[-1]:  # its event is not quite where it was
+            continue
         same = np.searchsorted(other.t, run.t)
         if np.array_equal(other.q[same], run.q, equal_nan=True) and np.array_equal(other.v[same], run.v):
             return other

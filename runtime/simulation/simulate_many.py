@@ -203,7 +203,7 @@ class _Results:
         problem = Problem(
             compiled, x["p"][i], times, *begin, float(x["step"][i]), method=method, rtol=asked.rtol,
             p_free=None if method == "rk4" else x["p_motion"][i], stop=asked.stop, remarks=remarks, audit=asked.audit,
-            start_is_sample=not runs.times.skipped[i],
+            start_is_sample=not runs.times.skipped[i], begun=self.starts.states[i] if self.starts.states else None,
         )  # fmt: skip
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)
