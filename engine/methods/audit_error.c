@@ -17,7 +17,7 @@ static int branches_fit(const Run *run, const Aside *aside)
     for (int k = 0; k < N_SWITCHES; k++)
         fit &= !(run->memory.side[k] * aside->g[k] < 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
-        fit &= !run->memory.latch[i].closed == !(aside->clearance[i].delta > 0.0);
+        fit &= !gives(i) || !run->memory.latch[i].closed == !(aside->clearance[i].delta > 0.0);
     return fit;
 }
 

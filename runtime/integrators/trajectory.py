@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields
 from functools import cache
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,9 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import Look
 from gudgeon.integrators.trace import Trace
 from gudgeon.model.compiled import Array, CompiledModel
+
+if TYPE_CHECKING:
+    from gudgeon.results.state import State
 
 IMPACT_DTYPE = np.dtype(
     [("joint", "i4"), ("t_on", "f8"), ("t_off", "f8"), ("deltadot", "f8"), ("F_peak", "f8"), ("t_peak", "f8")]
@@ -73,6 +76,7 @@ class Problem:
     remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
     start_is_sample: bool = True  # False: t[0] was not requested
     audit: int = 1  # level of the audit (contract/audit.py)
+    begun: State | None = None  # that the run goes on from
     look: Look | None = None  # is shown the states of all steps
     take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
 

@@ -67,7 +67,7 @@ class JointExamined:
     joint: str
     impacting: float  # share of the time from an onset until the penetration first stops growing
     F_rms: float  # N, over all of the time
-    taken: float  # J, by normal contact forces while the surfaces approached
+    taken: float  # J, by normal contact forces while the surfaces approached; NaN of surfaces that do not give
     returned: float  # J, by these while they parted; what is missing was damped
     friction: float  # J, taken by tangential contact forces
     film: float  # J, taken by the film
@@ -138,6 +138,7 @@ class Diagnostics:
     stiff_steps: int = 0  # of the steps, those of the stiff method
     jacobians: int = 0
     last_step: float = float("nan")  # s, of a fixed step, where the last one up to t_end is shorter; NaN: it is not
+    t_end: float = float("nan")  # s, up to which a run was to go that ended before; NaN: it went there
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
     examined: Examined | None = None  # by other runs, for a report; None: nobody asked

@@ -69,6 +69,7 @@ class Result(Shown):
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
     start_row: Result | None = field(default=None, repr=False)  # the start (N = 1), where it was not requested
+    begun: State | None = field(default=None, repr=False)  # given as `start`, which samples round; None: not known
 
     def __getitem__(self, name: str) -> Array:
         """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""

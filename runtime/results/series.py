@@ -264,7 +264,8 @@ def _frictions(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, name in enumerate(source.frictions):
         yield f"{name}.F", _of("N", "friction on the second body", "friction", k, 0)
         yield f"{name}.v", _of("m/s", "slip", "friction", k, 1)
-        yield f"{name}.mode", _stored("", "0 stick, else the sign of the slip", "memory", first + k)
+        modes = "0 stick, 2 at rest by other rows, else the sign of the slip"
+        yield f"{name}.mode", _stored("", modes, "memory", first + k)
 
 
 def _elements(source: KernelSource) -> Iterator[tuple[str, Series]]:

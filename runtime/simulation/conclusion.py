@@ -26,6 +26,8 @@ from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
 
 KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
+AT_REST = 1e-9  # m/s, of a slip (engine/run/friction.c)
+HELD = 2.0  # the mode of a friction that others hold at rest, the same
 AFTER_CTRL_C = 0.1  # s that the energy balance of an interrupted run may take; without it its residual is NaN
 
 
@@ -62,7 +64,7 @@ def conclude(
         compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
         accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
         diagnostics=diagnose(problem, x, balance), events=x.events,
-        event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled),
+        event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled), begun=problem.begun,
     )  # fmt: skip
     if evaluation is not None:
         if not compiled.source.massless and (told := unbalanced(x.t, evaluation.energy, x.work, balance[0])):
@@ -72,11 +74,29 @@ def conclude(
     result = result if problem.start_is_sample else without_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
-        result = with_undefined(result, evaluation)
+        result = with_undetermined(with_undefined(result, evaluation), evaluation)
         result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation
     return result
+
+
+def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
+    """Return the run, its notes with frictions that drives or other frictions hold at rest from sample to sample."""
+    first, found = len(run.source.clearances), list[str]()
+    for k, name in enumerate(run.source.frictions):
+        mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
+        rests = (mode != 0.0) & ((mode == HELD) | (np.abs(slip) <= AT_REST))
+        lasts = rests[1:] & rests[:-1]
+        if lasts.any():
+            t, count = float(run.t[lasts.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
+            found.append(
+                f"friction {name} is at rest by drives or by other friction from t = {t:.9g} s on, in {count}: any"
+                " force within its static limit fits there, so its force, what drives give and reactions are not"
+                " determined; the run has the last force of sliding, or 0"
+            )
+    notes = (*run.diagnostics.notes, *found)
+    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if found else run
 
 
 def _accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:

@@ -49,6 +49,7 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
     return Diagnostics(
         method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
         last_step=last if last != used else math.nan,
+        t_end=float(problem.t[-1]) if len(x.t) and x.t[-1] < problem.t[-1] else math.nan,
         rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
         rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
         right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,

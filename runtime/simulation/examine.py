@@ -62,13 +62,17 @@ def examine(
 
 def _again(
     simulation: Simulation, run: Result, t: Array, settings: dict[str, Any], progress: Progress | None,
-    peaks: tuple[str | Rubbing, ...] = (),
+    peaks: tuple[str | Rubbing, ...] = (), beyond: float = math.nan,
 ) -> Iterator[Result]:  # fmt: skip
-    """The run at times t: begun as the file says, and begun in its first sample. What ends early is none."""
-    begin = begin_of(run)
-    for start in (None, begin) if begin.t == 0.0 else (begin,):
+    """The run at times t: begun as the file says, and begun in its first sample. What ends early is none.
+
+    `beyond` (s): up to which a run goes that an event or an error ends at the last of the times; NaN: none does.
+    """
+    begin, ends = begin_of(run), math.isfinite(beyond)
+    times = np.append(t, beyond) if ends else t
+    for start in (None, begin) if begin.t == 0.0 and run.begun is None else (begin,):
         try:
-            other = repeated(simulation, t, start, settings, progress, peaks)
+            other = repeated(simulation, times, start, settings, progress, peaks, ends)
         except GudgeonError:  # a start that does not close any more
             continue
         if other is not None and other.diagnostics.interrupted:
@@ -105,8 +109,10 @@ def as_it_was(
     simulation: Simulation, run: Result, t: Array, progress: Progress | None, peaks: tuple[str | Rubbing, ...] = ()
 ) -> Result | None:
     """The run again, bit for bit, at times t, among which are its own; None where that cannot be had."""
-    usual = settings_of(run)[0]
-    for other in (x for own in _as_it_went(usual) for x in _again(simulation, run, t, own, progress, peaks)):
+    usual, to = settings_of(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
+    for other in (x for own in _as_it_went(usual) for x in _again(simulation, run, t, own, progress, peaks, to)):
+        if other.t[-1] != t[-1]:  # its event is not quite where it was
+            continue
         same = np.searchsorted(other.t, run.t)
         if np.array_equal(other.q[same], run.q, equal_nan=True) and np.array_equal(other.v[same], run.v):
             return other
@@ -151,7 +157,8 @@ def _joint(
             angle = np.arctan2(other[f"{name}.ey"][at], other[f"{name}.ex"][at]) - theta
             along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
         normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
-    touching = (other[f"{name}.delta"][at] > 0.0) if joint.dry else np.zeros(len(at), bool)
+    rigid = name in run.source.rigid  # closed by its latch, at δ = 0, where its force does no work along the normal
+    touching = (other.state[at, k] > 0) if rigid else joint.dry & (other[f"{name}.delta"][at] > 0.0)
     slip = (solid[f"{name}.Ft"] * other[f"{name}.vt"])[at]
     in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
     of_both = _film_power(solid, joint)[at] if solid is not other and joint.film else in_film
@@ -163,6 +170,7 @@ def _joint(
     impacting = _until_turns(run, other, k, name) / span if joint.dry else math.nan
     rms = math.sqrt(float(weights @ force**2) / span)
     taken, returned, friction = found if joint.dry else (math.nan,) * 3
+    taken, returned = (math.nan, math.nan) if rigid else (taken, returned)
     return JointExamined(
         name, impacting, rms, taken, returned, friction, film if joint.film else math.nan,
         *_restitution(run, other, k, name),

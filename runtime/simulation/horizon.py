@@ -112,11 +112,11 @@ def _parting(
 
 def repeated(
     simulation: Simulation, times: Array, start: State | None, settings: dict[str, Any],
-    progress: Progress | None, peaks: tuple[str | Rubbing, ...] = (),
+    progress: Progress | None, peaks: tuple[str | Rubbing, ...] = (), stop: bool = False,
 ) -> Result | None:  # fmt: skip
-    """A run through `times`, as far as it goes, None: not even from the start; events do not end it."""
+    """A run through `times`, as far as it goes, None: not even from the start; `stop`: whether events may end it."""
     try:
-        return simulation.simulate(output=times, start=start, progress=progress, stop=False, peaks=peaks, **settings)
+        return simulation.simulate(output=times, start=start, progress=progress, stop=stop, peaks=peaks, **settings)
     except SolverError as error:
         return cast("Result | None", error.partial)
 
@@ -179,7 +179,9 @@ def _tolerances(simulation: Simulation, run: Result) -> Array:
 
 
 def begin_of(run: Result) -> State:
-    """The start of a run, as a state to start from."""
+    """The start of a run, as a state to start from: the one that it was given, or its first sample."""
+    if run.begun is not None:
+        return replace(run.begun, parameters=run.final.parameters)
     run = run.start_row or run
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
 

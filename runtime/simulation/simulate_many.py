@@ -240,7 +240,8 @@ class _Results:
         begin = problem.q, problem.v
         if self.starts.states:
             remarks += off_constraints(problem.compiled, problem.p, t0, *begin)
-        return replace(problem, remarks=remarks + parting(problem.compiled, problem.p, t0, *begin, problem.memory))
+        remarks += parting(problem.compiled, problem.p, t0, *begin, problem.memory)
+        return replace(problem, remarks=remarks, begun=self.starts.states[i] if self.starts.states else None)
 
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""

@@ -202,8 +202,8 @@ class Simulation(Equations):
             remarks += off_constraints(self.compiled, p, t0, q, v)
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
-            self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
-            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, from_start, level,
+            self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state, chosen,
+            tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, from_start, level, begin,
         )  # fmt: skip
         search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(problem, given, is_given, search)

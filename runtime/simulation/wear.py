@@ -131,6 +131,7 @@ class Rubs:
         self.path, self.compiled, self.asked = Path(compiled, numbers, ()), compiled, asked
         self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
         self.joint = compiled.source.clearances[self.number]
+        self.rigid = self.joint.name in compiled.source.rigid
         self.p = without_oil(compiled, self.path.p) if self.joint.film else self.path.p
         self.load, self.friction = np.zeros((2, asked.points)), np.zeros((2, asked.points))
         self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
@@ -172,7 +173,7 @@ class Rubs:
         F_n, F_t, e_x, e_y, e, v_t, delta = (
             columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")
         )
-        w, touching = h * WEIGHTS, delta > 0.0
+        w, touching = h * WEIGHTS, self.rigid | (delta > 0.0)  # a rigid contact is closed by its latch, at δ = 0
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
         self.slip += float(slip.sum())

@@ -127,3 +127,34 @@ def test_slopes_of_friction_that_falls(mode: float) -> None:
     subject = make(text.replace(kinetic, kinetic + b", stribeck_velocity: 0.05"), "belt", "ideal")
     for v in (0.03, 0.13, -0.4):
         subject.compare(0.0, np.array([0.01, 0.0, 0.0, v, 0.0, 0.0]), np.array([mode]))
+
+
+DWELLS = """
+format: gudgeon/1
+name: dwells
+bodies: {block: {mass: 2 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, block.origin], axis: [1, 0]}}
+drives:
+  m: {coordinate: block.x, value: "10 mm + 1 m*smooth_step(t, 0.2 s, 0.2 s) - 0.5 m*smooth_step(t, 0.6 s, 0.2 s)"}
+forces: {rub: {dry_friction: [ground.O, block.origin], direction: [1, 0], static: 12 N, kinetic: 8 N}}
+scenes: {ideal: {}}
+"""
+
+
+@needs_compiler
+def test_friction_of_what_a_drive_holds_at_rest_is_noted(tmp_path: Path) -> None:
+    """The drive dwells until .2, from .4 to .6 and from .8 s on: there any force up to 12 N fits; said once."""
+    (tmp_path / "dwells.yaml").write_text(DWELLS, encoding="utf-8")
+    block = gudgeon.load(tmp_path / "dwells.yaml")
+    run = block.simulate(1.0, output=100)
+    (note,) = [note for note in run.diagnostics.notes if "rub" in note]
+    assert "rub is at rest" in note and "from t = 0 s on" in note and "not determined" in note
+    assert (run["rub.mode"][:20] == 2).all() and "2 at rest" in run.meaning("rub.mode")
+    late = block.simulate(output=np.linspace(0.25, 0.5, 26))
+    (note,) = [note for note in late.diagnostics.notes if "rub" in note]
+    assert "from t = 0.4 s on, in 11 of 26 samples" in note
+    moving = block.simulate(output=[0.25, 0.3, 0.35, 0.65, 0.7])
+    assert not [note for note in moving.diagnostics.notes if "rub" in note]
+    batch = block.simulate_many([{}], 1.0, output=100)
+    assert [note for note in batch[0].diagnostics.notes if "from t = 0 s on" in note]

@@ -124,6 +124,45 @@ def test_a_pendulums_bearing(tmp_path: Path) -> None:
     assert found.bearing.volume == pytest.approx(found.journal.volume, rel=1e-12, abs=0.0)
 
 
+RIGID = RIG.replace("contacts: {", "contacts: {hard: {normal: {law: newton_restitution, restitution: 0.4}, friction: "
+                    "{law: coulomb, mu: mu, v0: 1e-3}}, ").replace("K: 1e9", "K: 1e9, mu: 0.1") + f"""
+bodies: {{pin: {{mass: {M} kg, inertia: 1e-3}}}}
+joints: {{J: {{revolute: [ground.O, pin.origin]}}}}
+drives: {{turn: {{angle: pin, value: of_pin * t}}}}
+forces: {{sway: {{force: pin.origin, value: [SWAY*sin(30 rad/s*t), 0]}}}}
+start: {{play: {{J: {{e: [-{C}*sin(atan(mu)), -{C}*cos(atan(mu))]}}}}}}
+scenes: {{loose: {{play: {{J: {{bearing: b, contact: hard}}}}}}}}
+"""  # fmt: skip
+
+
+@needs_compiler
+@pytest.mark.parametrize("mu", [0.0, 0.1])
+def test_a_rigid_contact_wears_where_it_is_closed(tmp_path: Path, mu: float) -> None:
+    """A pin at rest in surfaces that do not give, δ = ±1e-17 m: m g cos(atan μ) s, and μ times that by friction."""
+    (tmp_path / "rig.yaml").write_text(RIGID.replace("SWAY", "0 N"), encoding="utf-8")
+    simulation = gudgeon.load(tmp_path / "rig.yaml", "loose")
+    load = M * G * math.cos(math.atan(mu)) * 4.0 * (R - C)
+    for options in ({"method": "dop853"}, {"method": "rk4", "step": 1e-3}):
+        run = simulation.simulate(1.0, output=2, parameters={"mu": mu}, **options)
+        found = [gudgeon.wear(simulation, run, "J", k=1.0, law=law).bearing.volume for law in ("archard", "reye")]
+        assert found == pytest.approx([load, mu * load], rel=1e-6, abs=1e-12)
+
+
+@needs_compiler
+def test_friction_of_a_rigid_contact_is_told(tmp_path: Path) -> None:
+    """All that a joint that only slides takes is friction's; surfaces that do not give take and return nothing."""
+    (tmp_path / "rig.yaml").write_text(RIGID.replace("SWAY", "8 N"), encoding="utf-8")
+    simulation = gudgeon.load(tmp_path / "rig.yaml", "loose")
+    run = simulation.simulate(1.0, output=100)
+    examined = gudgeon.examine(simulation, run).diagnostics.examined
+    assert examined is not None and len(run.impacts) == 1
+    (told,) = examined.joints
+    assert told.friction == pytest.approx(-run["work.clearances"][-1], rel=1e-6) and told.friction > 0.05
+    assert math.isnan(told.taken) and math.isnan(told.returned)
+    worn = gudgeon.wear(simulation, run, "J", k=1.0, law="reye")
+    assert worn.bearing.volume == pytest.approx(told.friction, rel=1e-6)
+
+
 OILED = RIG.replace("contacts: {", "contacts: {oiled: {normal: {law: hertz, stiffness: K, restitution: 1, dissipation: "
                     "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, mixed: {law: christensen, roughness: 20 um}, "
                     "film: {law: ocvirk, viscosity: 0.02, shear: true}}, ") + f"""
