@@ -103,7 +103,9 @@ class Cache:
         do = "Set GUDGEON_CACHE to a folder that can be written."
         if isinstance(error, Untrusted):
             what = f"the cache folder {self.root} is not used: {error}, and code in it would run as you"
-            do = f"Make it yours alone (chown; chmod -R go-w {self.root}) or set GUDGEON_CACHE to a folder that is."
+            do = "Set GUDGEON_CACHE to a folder that is yours alone."
+            if self.root.is_dir():
+                do = f"Make it yours alone (chown; chmod -R go-w {self.root}) or set GUDGEON_CACHE to a folder that is."
         tell_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
 
     def _make(self, entry: Path, make: Make, renew: bool) -> Path:

@@ -21,7 +21,7 @@ from gudgeon.results.diagnostics import provenance_of
 from gudgeon.results.results import Result
 from gudgeon.results.samples import without_start
 from gudgeon.simulation.audit import audit_samples, failed
-from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
+from gudgeon.simulation.diagnose import INTERRUPTED_NOTE, coarse, diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -67,7 +67,8 @@ def conclude(
         event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled), begun=problem.begun,
     )  # fmt: skip
     if evaluation is not None:
-        if not compiled.source.massless and (told := unbalanced(x.t, evaluation.energy, x.work, balance[0])):
+        told = unbalanced(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
+        if not compiled.source.massless and told:
             notes = (*result.diagnostics.notes, *told)
             result = replace(result, diagnostics=replace(result.diagnostics, notes=notes))
         result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
@@ -153,4 +154,6 @@ def late(ctrl_c: CtrlC, result: Result) -> Result:
 
 
 def _interrupted(result: Result) -> Result:
-    return replace(result, diagnostics=replace(result.diagnostics, interrupted=True))
+    found = result.diagnostics
+    notes = found.notes if found.interrupted else (*found.notes, INTERRUPTED_NOTE)
+    return replace(result, diagnostics=replace(found, interrupted=True, notes=notes))

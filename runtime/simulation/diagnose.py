@@ -27,6 +27,8 @@ from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.peaks import first_force, piled_up
 from gudgeon.results.series import without_masses
 
+INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
+COARSE = 1e-4  # of the energy turned over: a larger residual of rk4 is told
 BLOCK = 1 << 16  # samples balanced between two looks
 APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
 MANY = 10_000  # steps of an explicit method, that a stiff film asks for
@@ -81,6 +83,16 @@ def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tu
         return worst, turned + float(np.ptp(energy[:, 0]))
 
 
+def coarse(problem: Problem, worst: float, turned: float) -> tuple[str, ...]:
+    """Return a note on a fixed step whose energy does not balance: other methods control the error."""
+    if problem.method != "rk4" or not worst > COARSE * turned:
+        return ()
+    return (
+        f"energy balances to {worst:.3g} J of {turned:.3g} J turned over: rk4's step of {problem.step:.3g} s is too"
+        " long for these forces; compare with a shorter one or with method auto",
+    )
+
+
 def unbalanced(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
     """What is told of samples whose balance of energy is no number; nothing where it is one."""
     if math.isfinite(worst) or not len(t):
@@ -106,6 +118,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":
             notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    if trajectory.interrupted:
+        notes.append(INTERRUPTED_NOTE)
     for event, t in trajectory.no_number:
         name = compiled.source.events[event].name
         notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")

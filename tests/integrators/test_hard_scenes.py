@@ -333,3 +333,25 @@ def test_auto_does_not_try_steps_that_are_known_to_be_too_long(
     """
     run = loader(tmp_path)(text, "dry").simulate(end, rtol=rtol, output=3, audit="full")
     assert run.diagnostics.notes == ()
+
+
+RESTING = """
+gravity: [0, -10]
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bodies: {rotor: {mass: 2 kg, inertia: 1e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, rotor.origin]}}
+drives: {motor: {angle: rotor, value: 20 rad/s * t}}
+bearings: {b: {radius: 10 mm, clearance: 0.5 mm, length: 20 mm, bearing_material: steel, journal_material: steel}}
+contacts: {metal: {normal: {law: flores, restitution: 0.4}}}
+scenes: {dry: {play: {pin: {bearing: b, contact: metal}}}}
+start: {play: {pin: {e: [0, -0.5 mm], rate: [0, 0]}}}
+"""
+
+
+def test_a_fixed_step_that_loses_energy_is_told(tmp_path: Path) -> None:
+    """A pin that rests on metal: rk4's own step gives 4 % of the weight as the mean force."""
+    simulation = loader(tmp_path)(RESTING, "dry")
+    coarse = simulation.simulate(0.5, method="rk4", output=200)
+    assert any("turned over: rk4's step" in note for note in coarse.diagnostics.notes)
+    assert simulation.simulate(0.5, output=200).diagnostics.notes == ()

@@ -127,6 +127,7 @@ def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkey
     options["t_end"] = 0.006 if name == "dry" else options["t_end"]
     run, t_end = simulation.simulate(progress=signal_at(200), **options), options.pop("t_end")
     assert run.diagnostics.interrupted and 0.0 < run.t[-1] < t_end
+    assert [note for note in run.diagnostics.notes if note.startswith("interrupted")] != []
     del options["output"]
     there = simulation.simulate(output=[run.t[-1], t_end], **options)
     scale = np.abs(there.v[0]).max()
