@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
-from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.errors import BadValueError, UnitError, UnknownNameError
 from gudgeon.language.names import near
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
@@ -163,7 +163,13 @@ def number(value: float | str, slot: Slot) -> float:
             return found
         from gudgeon.language.quantities import number_of_text
 
-        value = number_of_text(spaced(value), slot.address, slot.dimension)
+        try:
+            value = number_of_text(spaced(value), slot.address, slot.dimension)
+        except UnitError as error:
+            if not any(slot.dimension) and slot.address.startswith("parameters.") and not error.hint:
+                hint = f"the file has no unit for {slot.address}: write one there, or leave it out here, too"
+                raise UnitError(error.message, error.where, hint) from None
+            raise
     return whole_digits(number_of(value, slot.address), slot.address)
 
 

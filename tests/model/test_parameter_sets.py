@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import InputError
+from gudgeon.errors import InputError, UnitError
 from gudgeon.model.compiled import AT_ONCE
 from gudgeon.model.parameter_sets import Columns, each_of, given_each, plain_each, rows_of
 from gudgeon.model.parameters import GAINS, given_slots, without_baumgarte
 from tests.programs import needs_compiler
+from tests.scenes import loader
 
 pytestmark = needs_compiler
 PLAIN: list[dict[str, Any]] = [{"c": 3e-4, "omega": -0.0}, {"omega": np.float64(2.0), "c": 4e-4}]
@@ -93,3 +95,16 @@ def test_runs_prepared_together_are_those_prepared_alone(scene: str) -> None:
         assert together[i].tobytes() == compiled.prepare(given[i], is_given[i]).tobytes()
         assert free[i].tobytes() == without_baumgarte(compiled, given[i], is_given[i]).tobytes()
     assert (given.tobytes(), is_given.tobytes()) == before and together.tobytes() != free.tobytes()
+
+
+@needs_compiler
+def test_a_unit_that_the_file_leaves_out_is_told(tmp_path: Path) -> None:
+    text = """
+parameters: {speed: 62.8}
+bodies: {disc: {mass: 2 kg, inertia: 3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, disc.origin]}}
+drives: {motor: {angle: disc, value: speed*t}}
+"""
+    with pytest.raises(UnitError, match="(?s)got a rate.*the file has no unit for parameters.speed"):
+        loader(tmp_path)(text).simulate(1e-3, parameters={"speed": "600 rev/min"})
