@@ -203,6 +203,11 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
                 f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
+        elif joint.film and not joint.dry and deepest > (1.0 - THIN) * c:
+            yield (
+                f"{joint.name}: the journal is up to {1e3 * deepest:.3g} mm within its bearing (c = {1e3 * c:.3g} mm),"
+                " where a film with extra_clearance still carries it: a dry contact takes its force there"
+            )
         if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
             begun = _depth(compiled, p, t0, q0, k, joint) > most
             into = "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"

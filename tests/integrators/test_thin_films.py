@@ -214,3 +214,27 @@ def test_a_film_with_an_extra_clearance_is_not_squeezed_out(tmp_path: Path) -> N
     text = ROTOR.replace("{law: finite_length, viscosity: 0.02 Pa*s}", law)
     run = loader(tmp_path)(text, "wet").simulate(5e-3, output=100, rtol=1e-6)
     assert run["A.e"].max() > 2.5e-6 and not [note for note in run.diagnostics.notes if "squeezed" in note]
+
+
+OVERLAP = """
+gravity: [0, -10]
+parameters: {viscosity: 1e-3 Pa*s}
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bodies: {rotor: {mass: 2 kg, inertia: 1e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, rotor.origin]}}
+drives: {motor: {angle: rotor, value: 20 rad/s * t}}
+bearings: {b: {radius: 10 mm, clearance: 0.2 mm, length: 20 mm, bearing_material: steel, journal_material: steel}}
+contacts: {oil: {film: {law: ocvirk, viscosity: viscosity, extra_clearance: 10 um}}}
+scenes: {oil: {play: {pin: {bearing: b, contact: oil}}}}
+start: {play: {pin: {e: [0, -0.1 mm], rate: [0, 0]}}}
+"""
+
+
+def test_a_film_that_carries_a_journal_within_metal_is_told(tmp_path: Path) -> None:
+    """With extra_clearance a film is singular beyond c: a heavy journal comes to rest behind the surface."""
+    simulation = loader(tmp_path)(OVERLAP, "oil")
+    thin = simulation.simulate(0.2, output=50)
+    assert thin["pin.e"].max() > 0.2e-3 and any("within its bearing" in note for note in thin.diagnostics.notes)
+    thick = simulation.simulate(0.2, output=50, parameters={"viscosity": 1.0})
+    assert thick["pin.e"].max() < 0.2e-3 and thick.diagnostics.notes == ()
