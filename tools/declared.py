@@ -82,15 +82,18 @@ def boundary_py() -> str:
 
 
 def boundary_js() -> str:
-    """Return the text of runtime/web/boundary.js: what pages use, of columns their number and their names."""
+    """Return the text of runtime/web/boundary.js: what its folder's scripts use, of columns also how many there are."""
     lines = ["/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */"]
     lines += ["const Boundary = {"]
-    known = enumerations()
+    known, web = enumerations(), HOUSE / "runtime" / "web"
+    scripts = "".join(file.read_text(encoding="utf-8") for file in sorted(web.glob("*.js")))
+    used = set(re.findall(r"\bBoundary\.(\w+)", scripts))
+    used.update(*(re.findall(r"\w+", several) for several in re.findall(r"{([^{}]*)} = Boundary\b", scripts)))
     for name in IN_JAVASCRIPT:
         names, told = columns(known[name]), dict[str, object](known[name])
         if names:
             told = {list(known[name])[-1]: len(names), _names_of(name): names}
-        lines += [f"    {member}: {json.dumps(value)}," for member, value in told.items()]
+        lines += [f"    {member}: {json.dumps(value)}," for member, value in told.items() if member in used]
     return "\n".join([*lines, "};", ""])
 
 

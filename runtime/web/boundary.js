@@ -1,12 +1,7 @@
 /* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */
 const Boundary = {
-    AUDITED: -15,
-    NOT_FOUND: -14,
-    JAMMED: -13,
     UNBOUNDED: -12,
     STALLED: -11,
-    STOPPED: -10,
-    NOT_CLOSED: -9,
     OUTSIDE: -8,
     ENDED: -7,
     LOST: -6,
@@ -20,11 +15,9 @@ const Boundary = {
     N_COUNTS: 9,
     COUNT_NAMES: ["steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians", "stiff_steps"],
     N_RESIDUALS: 4,
-    RESIDUAL_NAMES: ["phi_max", "phi_dot_max", "ratio_min", "ratio_max"],
     N_PEAK: 3,
     PEAK_NAMES: ["F", "t", "e_max"],
     N_IMPACT_COLUMNS: 5,
     IMPACT_COLUMN_NAMES: ["t_on", "t_off", "deltadot", "F_peak", "t_peak"],
     N_WORK: 3,
-    WORK_NAMES: ["drives", "forces", "clearances"],
 };

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -48,7 +49,8 @@ def look(role: str, tint: int) -> str:
 
 @cache
 def _sheet() -> str:
-    return Path(__file__).with_name("page.css").read_text(encoding="utf-8")
+    """page.css as a page carries it: without indents."""
+    return re.sub(r"(?m)^ +", "", Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
 
 
 def _light(word: str, tint: int) -> str:
