@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.assembly.rank import contradiction
 from gudgeon.errors import SolverError
-from gudgeon.integrators.audit import audit_failure
+from gudgeon.integrators.failure import audit_failure
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation

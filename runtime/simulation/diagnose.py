@@ -16,7 +16,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.integrators.adaptive import stiff_of
-from gudgeon.integrators.audit import notes_of
+from gudgeon.integrators.failure import notes_of
 from gudgeon.integrators.times import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel

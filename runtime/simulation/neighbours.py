@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.assembly.linkage import angles
+from gudgeon.assembly.linkage import angles, project
 from gudgeon.integrators.adaptive import lengths
-from gudgeon.integrators.projection import project
 from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
