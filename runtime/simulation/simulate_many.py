@@ -35,8 +35,7 @@ from gudgeon.results.samples import without_start
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DRIVES, method_of
 from gudgeon.simulation.audit import audit_level
-from gudgeon.simulation.conclusion import conclude, contradicted
-from gudgeon.simulation.diagnose import indeterminate, may_not_hold, not_held
+from gudgeon.simulation.conclusion import conclude, contradicted, indeterminate, may_not_hold, not_held
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
