@@ -36,6 +36,7 @@ C0, L0, TORQUE = 4530.0, 0.07785, 0.033
 
 Error = float
 Measured = tuple[Error, float, int]  # error, seconds of integration only, right-hand sides (−1: not told)
+ATOL = 1e-2  # of rtol
 
 
 def start() -> np.ndarray:
@@ -186,3 +187,28 @@ def seconds_per_rhs(batch: int = 5000, repeats: int = 7) -> float:
             f(0.0, state)
         best = min(best, (perf_counter() - begin) / batch)
     return best
+
+
+def by_jitcode(rtol: float) -> Measured:
+    """Integrate by jitcode's "dop853", which is SciPy's compiled one and does not tell its right-hand sides."""
+    ode = compiled()
+    ode.set_integrator("dop853", rtol=rtol, atol=ATOL * rtol, nsteps=10**6)
+    ode.set_initial_value(start(), 0.0)
+    begin = perf_counter()
+    y = ode.integrate(T_END)
+    return error(y), perf_counter() - begin, -1
+
+
+def by_scipy(rtol: float, method: str = "DOP853") -> Measured:
+    """Integrate by solve_ivp on jitcode's compiled right-hand side."""
+    from scipy.integrate import solve_ivp
+
+    f = compiled().f
+    begin = perf_counter()
+    s = solve_ivp(f, (0.0, T_END), start(), method=method, rtol=rtol, atol=ATOL * rtol, t_eval=[T_END])
+    return error(s.y[:, -1]), perf_counter() - begin, int(s.nfev)
+
+
+def by_lsoda(rtol: float) -> Measured:
+    """The same with LSODA."""
+    return by_scipy(rtol, "LSODA")

@@ -24,6 +24,7 @@ import tempfile
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,7 @@ int peer_cvode_rhs(double, void *, void *, void *);
 int peer_cvode_jacobian(double, void *, void *, void *, void *, void *, void *, void *);
 int peer_cvode_gaps(double, void *, double *, void *);
 """
+LSODA_ATOL = 1e-3  # of rtol, as for CVODE
 
 
 def compile_library(source: str, declarations: str) -> tuple[FFI, Any]:
@@ -281,3 +283,32 @@ def reference_gap(name: str) -> Errors:
         return errors(task, dop853(name), reference(name))
     run = press_dense.rk4(task.press, task.t_end, 2e-6, every=1000)
     return errors(task, Samples(run.q, (np.empty(0), np.empty(0))), reference(name))
+
+
+def lsoda(work: Work, rtol: float, with_jacobian: bool = False) -> tuple[Samples, float, int]:
+    """Return (samples, seconds of integration only, right-hand sides) of SciPy's LSODA, from event to event.
+
+    LSODA differences the right-hand side, or is given all 48 columns by one call of C.
+    """
+    kernel = Kernel(work)
+    options: dict[str, Any] = {"jac": kernel.jacobian} if with_jacobian else {}
+    kernel.peer.calls = 0
+    begin = perf_counter()
+    samples = with_events(kernel, work, method="LSODA", rtol=rtol, atol=LSODA_ATOL * rtol, **options)
+    return samples, perf_counter() - begin, int(kernel.peer.calls)
+
+
+def lsoda_with_jacobian(work: Work, rtol: float) -> tuple[Samples, float, int]:
+    """Return the same with the columns from C."""
+    return lsoda(work, rtol, with_jacobian=True)
+
+
+def rk4(work: Work, step: float) -> tuple[Samples, float, int]:
+    """Return the same of the classical method with a fixed step (s) inside press_dense.c, which lists no onsets."""
+    every = max(1, round(work.t_end / (OUTPUTS - 1) / step))
+    h = work.t_end / ((OUTPUTS - 1) * every)
+    begin = perf_counter()
+    found = press_dense.rk4(work.press, work.t_end, h, every=every)
+    seconds = perf_counter() - begin
+    nothing = np.full(0, np.nan)
+    return Samples(found.q, (nothing, nothing)), seconds, 4 * every * (OUTPUTS - 1)

@@ -20,15 +20,12 @@ from benchmarks.peers import (
     andrews,
     chains,
     cvode,
-    dop853,
     exudyn_andrews,
     exudyn_press,
     heyoka_runs,
     ideal,
-    lsoda,
     press,
     pydy_andrews,
-    rk4,
 )
 from gudgeon.contract.methods import STAGED
 
@@ -196,9 +193,9 @@ def press_entries() -> list[Entry]:
             found.append(Entry(work, f"gudgeon {method}", own_press(work, method, control), values, (), method))
         found += [
             Entry(work, "CVODE BDF from C", on_press(cvode.in_c, work), TOLERANCES, sundae),
-            Entry(work, "LSODA (SciPy)", on_press(lsoda.plain, work), TOLERANCES),
-            Entry(work, "LSODA, J in C", on_press(lsoda.jacobian, work), TOLERANCES),
-            Entry(work, "RK4 in dense C", on_press(rk4.run, work), RK4_STEPS[work]),
+            Entry(work, "LSODA (SciPy)", on_press(press.lsoda, work), TOLERANCES),
+            Entry(work, "LSODA, J in C", on_press(press.lsoda_with_jacobian, work), TOLERANCES),
+            Entry(work, "RK4 in dense C", on_press(press.rk4, work), RK4_STEPS[work]),
         ]
     for name, run in (("scikit-sundae", cvode.sundae), ("scikit-sundae, J in C", cvode.sundae_jacobian)):
         found.append(Entry("lubricated", name, on_press(run, "lubricated"), TOLERANCES[:9], sundae))
@@ -214,9 +211,9 @@ def andrews_entries() -> list[Entry]:
         *found,
         Entry("andrews", "gudgeon taylor", own_andrews("taylor", "rtol"), TOLERANCES, (), "taylor"),
         Entry("andrews", "heyoka", plain(heyoka_runs.of_andrews, "angle"), HEYOKA[1:9], HEYOKAS),
-        Entry("andrews", "jitcode dop853", plain(dop853.jitcode, "angle"), TOLERANCES, jit),
-        Entry("andrews", "SciPy DOP853", plain(dop853.scipy, "angle"), TOLERANCES, jit),
-        Entry("andrews", "SciPy LSODA", plain(dop853.scipy_lsoda, "angle"), TOLERANCES, jit),
+        Entry("andrews", "jitcode dop853", plain(andrews.by_jitcode, "angle"), TOLERANCES, jit),
+        Entry("andrews", "SciPy DOP853", plain(andrews.by_scipy, "angle"), TOLERANCES, jit),
+        Entry("andrews", "SciPy LSODA", plain(andrews.by_lsoda, "angle"), TOLERANCES, jit),
         Entry("andrews", "PyDy, DOP853", plain(pydy_andrews.run, "angle"), TOLERANCES[1:8], ("pydy", "Cython")),
         Entry("andrews", "Exudyn gen.-alpha", plain(exudyn_andrews.run, "angle"), EXUDYN_STEPS, ("exudyn",)),
     ]

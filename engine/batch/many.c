@@ -117,7 +117,7 @@ static void close_samples(const Batch *b, long i, int status, Run *run)
     const double *times = times_of(b, i), t_end = t_end_of(b, i);
     const double apart = status != ENDED ? 0.0
         : max_of(32.0 * DBL_EPSILON * max_of(fabs(times[0]), fabs(t_end)),
-            min_of(1e-11, 1e-10 * (t_end - times[0]))); /* resolution() of runtime/integrators/events.py */
+            min_of(1e-11, 1e-10 * (t_end - times[0]))); /* resolution() of runtime/integrators/trajectory.py */
     while (b->done[i] > 0 && times[b->done[i] - 1] >= run->t - apart)
         b->done[i]--;
     take_sample(b, i, b->done[i]++, run);

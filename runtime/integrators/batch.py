@@ -34,8 +34,7 @@ from gudgeon.contract.boundary import (
 )
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes
-from gudgeon.integrators.audit import audit_failure
-from gudgeon.integrators.failure import INTERRUPTED, failure
+from gudgeon.integrators.failure import INTERRUPTED, audit_failure, failure
 from gudgeon.integrators.lanes import Flow, Lanes
 from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.stored import StoredRuns

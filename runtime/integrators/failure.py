@@ -1,4 +1,4 @@
-"""What a status of the C time loops stands for (engine/boundary.h), in words."""
+"""What a status of the C time loops (engine/boundary.h) and findings of C's audit (engine/run/audit.c) say."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.rank import nearly_dependent_rows
+from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.boundary import (
     CHATTERING,
     JAMMED,
@@ -25,7 +27,7 @@ from gudgeon.contract.boundary import (
 )
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
-from gudgeon.errors import NonFiniteError, SingularError, SolverError
+from gudgeon.errors import AuditError, NonFiniteError, SingularError, SolverError
 from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
@@ -49,6 +51,10 @@ SLOWER = "a slower drive can be followed: look at its unit"
 OVERFLOWING = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
 FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad/s or m/s that nothing can follow
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
+REMEDY = (
+    "the result cannot be trusted: compare with another method, a smaller rtol or formulation full; audit=False runs"
+    " without this check"
+)
 
 
 def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
@@ -323,3 +329,46 @@ def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> S
             error.outside_model = True
             return error
     return None
+
+
+def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.intc]) -> tuple[Finding, ...]:
+    """Return the findings from values, times and places (n_checks,) as a run reports them.
+
+    What was not checked, and has a negative value, has none.
+    """
+    rows = zip(CHECKS, worst.tolist(), t.tolist(), where.tolist(), strict=True)
+    return tuple(Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows
+                 if value >= 0.0)  # fmt: skip
+
+
+def _place(source: KernelSource, check: Check, k: int) -> str:
+    if k < 0 or not check.place:
+        return ""
+    if check.place == "joint":
+        return source.clearances[k].name
+    if check.place == "row":
+        return source.start_rows[k].name
+    if check.place == "event":
+        return source.events[k].name
+    return source.coordinates[k] if check.place == "coordinate" else f"{check.place} {k}"
+
+
+def audit_failure(findings: tuple[Finding, ...]) -> AuditError:
+    """Return the error for a run that a check of its audit ended."""
+    worst = max(findings, key=lambda one: one.worst)
+    return AuditError(f"{describe(worst)}\n  {REMEDY}", worst.t)
+
+
+def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
+    """Return a note for each check above its limit."""
+    return tuple(describe(one) for one in findings if not one.worst <= 1.0)
+
+
+def describe(finding: Finding) -> str:
+    """Return a finding in words: the check, the value, the time and the place."""
+    check = next(one for one in (*CHECKS, *SAMPLE_CHECKS) if one.name == finding.check)
+    place = f" at {check.place} {finding.place}" if finding.place else ""
+    return (
+        f"audit: check {check.name} of {check.compares} exceeds its limit {finding.worst:.3g} times at"
+        f" t = {finding.t:.9g} s{place}"
+    )

@@ -1,4 +1,4 @@
-"""What a method hands back: samples at the output times, and what it counted on the way."""
+"""What a method hands back: samples at the output times, events, the trace of joints, and what it counted."""
 
 from __future__ import annotations
 
@@ -12,10 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.audit import Finding
-from gudgeon.contract.boundary import COUNT_NAMES, N_WORK, RESIDUAL_NAMES
+from gudgeon.contract.boundary import (
+    COUNT_NAMES,
+    MAX_LISTED,
+    N_TRACE_COLUMNS,
+    N_WORK,
+    RESIDUAL_NAMES,
+    TRACE_COLUMN_NAMES,
+)
 from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import Look
-from gudgeon.integrators.trace import Trace
 from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
@@ -27,9 +33,16 @@ IMPACT_DTYPE = np.dtype(
 
 NO_CHANGE_POINTS = 0, float("nan")
 Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
-
-
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, s
+TRACE_ROWS = 4096  # of a trace; even, a picture has fewer columns
+TRACED = {
+    "F_low": ("N", "least force since the row before"), "t_F_low": ("s", "its time"),
+    "F_high": ("N", "largest force since the row before"), "t_F_high": ("s", "its time"),
+    "ex_out": ("m", "where the journal was furthest out since the row before, x"), "ey_out": ("m", "the same, y"),
+    "t_out": ("s", "time of that"), "ex": ("m", "where the journal is, x"), "ey": ("m", "the same, y"),
+}  # fmt: skip
+TRACE_COLUMNS = tuple(TRACED)
+EPSILON = float(np.finfo(np.float64).eps)
 
 
 @cache
@@ -142,3 +155,64 @@ class Trajectory:
     audit: tuple[Finding, ...] = ()  # largest value of each check
     no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number
     change_points: tuple[int, float] = NO_CHANGE_POINTS  # samples at or near one, and the time of the first (s)
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """R rows, each of as many steps as any other but the last one."""
+
+    t: Array  # (R,) s, the end of the row's last step
+    joints: Array  # (R, n_clearances, 9) as TRACE_COLUMNS has them, SI
+
+    @staticmethod
+    def of_rows(rows: Array, clearances: int) -> Trace:
+        """From the rows that C writes, (R, width)."""
+        joints = rows[:, 1:].reshape(len(rows), clearances, N_TRACE_COLUMNS)
+        return Trace(rows[:, 0].copy(), joints[:, :, [TRACE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
+
+
+def trace_width(clearances: int) -> int:
+    """Return the count of numbers in a row of a trace."""
+    return 1 + N_TRACE_COLUMNS * clearances
+
+
+def resolution(t: Array) -> float:
+    """Return the time (s) up to which an event and a sample coincide in a run with these output times (N,)."""
+    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
+
+
+def no_states(compiled: CompiledModel) -> NDArray[Any]:
+    """Return an empty list of events with states."""
+    return np.zeros(0, dtype=event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
+
+
+def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
+    """Return the list of user events of a struct (event_dtype), which is emptied; those of the start do not count.
+
+    Numbers beyond the events of the scene stand for the same events, which are no number from that time on.
+    """
+    joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
+    t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
+    y, memory = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
+    state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
+    arrays = (compiled.pointer(t), compiled.pointer(event, "int *"), compiled.pointer(y), compiled.pointer(memory),
+              compiled.pointer(state, "signed char *"))  # fmt: skip
+    parts, count = [no_states(compiled)], rows
+    while count == rows:
+        count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
+        part = np.zeros(count, dtype=parts[0].dtype)
+        part["event"], part["t"], part["y"] = event[:count], t[:count], y[:count]
+        part["memory"], part["state"] = memory[:count, : compiled.n_memory], state[:count, :joints]
+        parts.append(part)
+    fetched = np.concatenate(parts)
+    no_number = fetched["event"] >= len(compiled.source.events)
+    return fetched[no_number | (fetched["t"] > times[0] + resolution(times))]
+
+
+def split_undefined(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return the events by time, and those that are no number from a time on; both of the type of `found`."""
+    ordered = found[np.argsort(found["t"], kind="stable")]
+    number = ordered["event"] < len(compiled.source.events)
+    lost = ordered[~number]
+    lost["event"] -= len(compiled.source.events)
+    return ordered[number], lost

@@ -31,8 +31,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from gudgeon.integrators.trace import Trace
-    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.integrators.trajectory import Progress, Trace
     from gudgeon.model.compiled import CompiledModel
     from gudgeon.results.contact_check import ContactCheck
     from gudgeon.results.figures.animation import Animation

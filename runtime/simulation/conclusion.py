@@ -1,34 +1,253 @@
-"""The end of a run: its samples and counts, put together as a Result, and soon where Ctrl-C ended it."""
+"""The end of a run: samples and counts put together as a Result with its diagnostics, soon where Ctrl-C ended it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from time import monotonic
+from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.rank import contradiction
+from gudgeon.assembly.journals import eccentricity
+from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.rank import contradiction, dependent_rows
+from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.errors import SolverError
-from gudgeon.integrators.audit import audit_failure
-from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.integrators.adaptive import stiff_of
+from gudgeon.integrators.failure import audit_failure, notes_of
+from gudgeon.integrators.times import last_step
+from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import corner_gap, widest
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import evaluation_times
-from gudgeon.model.written import with_undefined
-from gudgeon.results.diagnostics import provenance_of
+from gudgeon.model.seams import seams
+from gudgeon.model.written import unbounded_drive, with_undefined
+from gudgeon.results.diagnostics import Diagnostics, Peak, provenance_of
+from gudgeon.results.peaks import first_force, piled_up
 from gudgeon.results.results import Result
 from gudgeon.results.samples import without_start
+from gudgeon.results.series import without_masses
 from gudgeon.simulation.audit import audit_samples, failed
-from gudgeon.simulation.diagnose import INTERRUPTED_NOTE, coarse, diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
 
+INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
+COARSE = 1e-4  # of the energy turned over: a larger residual of rk4 is told
+BLOCK = 1 << 16  # samples balanced between two looks
+APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
+MANY = 10_000  # steps of an explicit method, that a stiff film asks for
+THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
+DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
 AT_REST = 1e-9  # m/s, of a slip (engine/run/friction.c)
 HELD = 2.0  # the mode of a friction that others hold at rest, the same
 AFTER_CTRL_C = 0.1  # s that the energy balance of an interrupted run may take; without it its residual is NaN
+
+
+def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, float]) -> Diagnostics:
+    """What a run says about itself, from its trajectory and the `balance` of its energy."""
+    compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
+    worst, turned = balance
+    duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
+    if method == "rk4" and duration > 0.0:
+        last = last_step(duration, used)
+        used = max(last, min(used, duration))
+    simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
+    if method == ADAPTIVE:
+        both = EXPLICIT, stiff_of(compiled.source, problem.rtol)
+        method = "+".join(both) if 0 < counts.stiff_steps < counts.steps else both[counts.stiff_steps > 0]
+    return Diagnostics(
+        method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        last_step=last if last != used else math.nan,
+        t_end=float(problem.t[-1]) if len(x.t) and x.t[-1] < problem.t[-1] else math.nan,
+        rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
+        rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
+        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
+        phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
+        ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
+        peaks=_peaks(compiled, x), seconds=x.seconds,
+        seconds_per_simulated_second=x.seconds / simulated if simulated > 0 else math.nan,
+        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory), audit=x.audit,
+    )  # fmt: skip
+
+
+def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
+    """The largest residual of kinetic and potential energy (N, 2) and works (N, 3), and how much was turned over; J.
+
+    NaN where there is no sample. A blow at the very start has taken its work before the first one. `look` is called
+    now and then, and what it raises is passed on.
+    """
+    if not len(energy):  # not even the start has accelerations
+        return math.nan, math.nan
+    worst = turned = 0.0
+    for first in range(0, len(energy), BLOCK):
+        rows = slice(first, first + BLOCK)
+        with np.errstate(invalid="ignore", over="ignore"):  # infinities: told by `unbalanced`
+            residual = energy[rows].sum(axis=1) - energy[0].sum() - (work[rows].sum(axis=1) - work[0].sum())
+        worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
+        turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
+        look()
+    with np.errstate(invalid="ignore"):
+        return worst, turned + float(np.ptp(energy[:, 0]))
+
+
+def coarse(problem: Problem, worst: float, turned: float) -> tuple[str, ...]:
+    """Return a note on a fixed step whose energy does not balance: other methods control the error."""
+    if problem.method != "rk4" or not worst > COARSE * turned:
+        return ()
+    return (
+        f"energy balances to {worst:.3g} J of {turned:.3g} J turned over: rk4's step of {problem.step:.3g} s is too"
+        " long for these forces; compare with a shorter one or with method auto",
+    )
+
+
+def unbalanced(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
+    """What is told of samples whose balance of energy is no number; nothing where it is one."""
+    if math.isfinite(worst) or not len(t):
+        return ()
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
+    k = int(known.argmin()) if not known.all() else 0
+    what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
+    return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
+
+
+def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
+    """What a reader of this run should know before trusting it."""
+    p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
+    if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
+        notes.append(
+            f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
+            " start.rates leave open were taken least: give a rate of each body that may move"
+        )
+    if why := without_masses(compiled.source):
+        notes.append(f"{why}: reactions, torques, energies and works are not known")
+    if problem.stop and len(trajectory.events):
+        last = compiled.source.events[trajectory.events["event"][-1]]
+        if last.action == "stop":
+            notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    if trajectory.interrupted:
+        notes.append(INTERRUPTED_NOTE)
+    for event, t in trajectory.no_number:
+        name = compiled.source.events[event].name
+        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
+    if compiled.source.events and ":" in problem.method:
+        notes.append(f"events are not watched by method {problem.method}")
+    passed, first = trajectory.change_points
+    if passed and not without_masses(compiled.source):
+        notes.append(
+            f"{passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
+            " pass on the smooth branch; forces and torques there are not determined by the rows"
+        )
+    notes += unbounded_sample(compiled, problem, trajectory)
+    notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
+    notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
+    if compiled.source.rigid:
+        notes += piled_up([joint.name for joint in compiled.source.clearances], trajectory.impacts)
+        notes += stiff_beside_rigid(compiled.source, problem, counts)
+    notes += notes_of(trajectory.audit)
+    notes += indeterminate(compiled.source)
+    return tuple(notes)
+
+
+def indeterminate(source: KernelSource) -> Iterator[str]:
+    """A remark on redundant constraints, where a scene has any."""
+    if source.indeterminate:
+        owners = ", ".join(source.indeterminate)
+        yield f"constraints are redundant: the reactions of {owners} are not determined by rigid bodies (NaN)"
+
+
+def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
+    """A remark on many steps of films in a scene with rigid contacts, which no implicit method integrates."""
+    films = [joint.name for joint in source.clearances if joint.film]
+    if films and counts.steps > MANY and math.isinf(problem.step):
+        yield (
+            f"{counts.steps} steps: the film in {', '.join(films)} is stiff, and no implicit method fits a scene whose"
+            f" contact in {source.rigid[0]} is a constraint (newton_restitution): a contact law that gives there"
+            " (hertz with a stiffness) lets method auto take long steps"
+        )
+
+
+def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
+    """A remark on the sample at which the second rate of a drive is unbounded, of a run without a degree of freedom."""
+    if compiled.source.methods != ("kinematic",) or not len(trajectory.t) or trajectory.a is None:
+        return
+    largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
+    t = float(trajectory.t[largest.argmax()])
+    if largest.max() > 100.0 * np.median(largest) and (drive := unbounded_drive(compiled, problem.p, t)):
+        yield (
+            f"the second rate of drive {drive} is unbounded at t = {t:.9g} s: accelerations, forces and torques of that"
+            " sample mean nothing: write the drive with powers of 2 and more, or take samples at other times"
+        )
+
+
+def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, grazes: Array, peaks: Array) -> Any:
+    """Of which of n runs `not_held` has something to say, (n,): p (n, ...), peaks (n, n_clearances, 3)."""
+    c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
+    least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
+    return (phi_max > APART * size) | (grazes > 0) | (e_max > least * c).any(axis=1)
+
+
+def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
+    """What steps and peaks (n_clearances, 3) say against a run that began at q0: links apart, laws left."""
+    if counts.phi_max > APART * mechanism_size(compiled, p):
+        yield (
+            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
+            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
+        )
+    yield from _outside(compiled, p, t0, q0, peaks)
+    if counts.grazes:
+        yield f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them"
+
+
+def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
+    """Joints with play that went where their laws do not hold."""
+    for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
+        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
+        deepest = float(e_max) - widest(compiled.source, p, joint)
+        ratio = float(e_max) / float(p[joint.film_clearance])
+        if joint.film and not joint.dry and ratio > THIN:
+            yield (
+                f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
+                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+            )
+        elif joint.film and not joint.dry and deepest > (1.0 - THIN) * c:
+            yield (
+                f"{joint.name}: the journal is up to {1e3 * deepest:.3g} mm within its bearing (c = {1e3 * c:.3g} mm),"
+                " where a film with extra_clearance still carries it: a dry contact takes its force there"
+            )
+        if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
+            begun = _depth(compiled, p, t0, q0, k, joint) > most
+            into = "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"
+            yield (
+                f"{joint.name}: the {into.format(f'{1e3 * deepest:.3g}')} {1e3 * c:.3g} mm,"
+                f" {'half the width' if joint.at_wall else 'radius'} {1e3 * radius:.3g} mm): outside what contact laws"
+                " hold for; "
+                + ("it lies so deep from the start on" if begun else "a step too long does this too")
+            )
+
+
+def _depth(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
+    """How deep joint k lies in its bearing, a corner in its wall, m."""
+    if joint.at_wall:
+        return corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
+    return float(np.hypot(*eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
+
+
+def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
+    peaks = []
+    for i, joint in enumerate(compiled.source.clearances):
+        own = trajectory.impacts[trajectory.impacts["joint"] == i]
+        first = (float(own["t_on"][0]), first_force(own)) if len(own) else (math.nan, math.nan)
+        F, t, e_max = (float(trajectory.peaks[i, k]) for k in (PEAK_F, PEAK_t, PEAK_e_max))
+        peaks.append(Peak(joint.name, F, t, e_max, *first))
+    return tuple(peaks)
 
 
 class _TooLong(Exception):

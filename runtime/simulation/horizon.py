@@ -24,10 +24,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.linkage import mechanism_size, project
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST, lengths
-from gudgeon.integrators.projection import project
 from gudgeon.language.wanted import instance
 from gudgeon.model.compiled import Array
 

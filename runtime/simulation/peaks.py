@@ -21,9 +21,8 @@ from numpy.typing import NDArray
 from gudgeon.integrators.steps import Steps
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.simulation.beside import Beside
 from gudgeon.simulation.between import INSIDE, Path
-from gudgeon.simulation.wanted_peaks import Told
+from gudgeon.simulation.wanted_peaks import Beside, Told
 
 NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # places (of Chebyshev) at which a part of a step is looked at
 COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))  # times values there: of the polynomial

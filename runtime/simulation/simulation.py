@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,14 +26,13 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
 from gudgeon.model.evaluation import check_room
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
+from gudgeon.results.shown import Shown
 from gudgeon.simulation.arguments import MAX_STEPS, derived_for, end_of, integrate, method_of, output_times, step_of
 from gudgeon.simulation.audit import audit_level
-from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
-from gudgeon.simulation.equations import Equations
 from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
-from gudgeon.simulation.wanted_peaks import Looker, search_of, wanted_peaks
+from gudgeon.simulation.wanted_peaks import Looker, check_beside, search_of, wanted_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
 
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import Rubbing
 
 
-class Simulation(Equations):
+class Simulation(Shown):
     """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once.
 
     It may be pickled: another process takes its library from the cache.
@@ -133,6 +133,49 @@ class Simulation(Equations):
     def __getstate__(self) -> dict[str, Any]:
         """What is derived is derived again where it is asked for."""
         return self.__dict__ | {"_model": None, "_variants": {}}
+
+    @property
+    def p(self) -> Array:
+        """Every run-time number with the file's defaults: slots, then derived; a copy."""
+        return self._defaults.copy()
+
+    @cached_property
+    def _defaults(self) -> Array:
+        return prepare(self.compiled, {})[0]
+
+    def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
+        return self.compiled.rhs(t, y, self._defaults, memory)[: 2 * self.compiled.n]
+
+    def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
+
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
+        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
+        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
+        """
+        full = self.full
+        return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
+
+    def phi(self, t: float, q: ArrayLike) -> Array:
+        """Φ(q, t), (m,)."""
+        return self.compiled.phi(t, q, self._defaults)
+
+    def phi_q(self, t: float, q: ArrayLike) -> Array:
+        """Φ_q, (m, n)."""
+        return self.compiled.phi_q(t, q, self._defaults)
+
+    def nu(self, t: float, q: ArrayLike) -> Array:
+        """ν = −Φ_t, (m,)."""
+        return self.compiled.nu(t, q, self._defaults)
+
+    def gamma(self, t: float, q: ArrayLike, v: ArrayLike) -> Array:
+        """γ, (m,)."""
+        return self.compiled.gamma(t, q, v, self._defaults)
+
+    def mass(self) -> Array:
+        """Diagonal of M, (n,)."""
+        return self.compiled.mass(self._defaults)
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""

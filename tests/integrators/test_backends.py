@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.assembly.linkage import project, residuals
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.peers import driver as python_driver
-from gudgeon.integrators.projection import project, residuals
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.slow import slow_but

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators.trace import ROWS
+from gudgeon.integrators.trajectory import TRACE_ROWS
 from gudgeon.results.figures import joint_curves
 from gudgeon.results.figures.plots import figure
 from gudgeon.results.results import Result
@@ -28,7 +28,7 @@ def by_steps(steps: int) -> Result:
 def test_rows_tell_the_extremes_of_their_steps(steps: int, stride: int) -> None:
     """Of 1, 2 or 4 steps each, as many as it takes to stay below the bound; none is forgotten."""
     run = by_steps(steps)
-    assert run.trace is not None and len(run.trace.t) == -(-(steps + 1) // stride) <= ROWS
+    assert run.trace is not None and len(run.trace.t) == -(-(steps + 1) // stride) <= TRACE_ROWS
     first = np.arange(0, steps + 1, stride)
     last = np.minimum(first + stride, steps + 1) - 1
     assert (run.trace.t == run.t[last]).all()

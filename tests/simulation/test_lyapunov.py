@@ -12,12 +12,11 @@ from scipy.integrate import solve_ivp
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
-from gudgeon.simulation.flow import Flow
 from gudgeon.simulation.horizon import begin_of
 from gudgeon.simulation.lyapunov import no_tangent
 from gudgeon.simulation.neighbours import Neighbours
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.simulation.tangent import Tangent
+from gudgeon.simulation.tangent import Flow, Tangent
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler

@@ -16,7 +16,7 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.start import assemble, search
 from gudgeon.contract.boundary import IMPACT_COLUMN_NAMES, N_IMPACT_COLUMNS
 from gudgeon.errors import BadValueError, GudgeonError, SolverError, UnknownNameError
-from gudgeon.integrators import contacts
+from gudgeon.integrators import stored
 from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import CompiledModel
@@ -112,9 +112,9 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
             numbers[first : first + N_IMPACT_COLUMNS] = [float(contact[name]) for name in IMPACT_COLUMN_NAMES]
         return len(own)
 
-    monkeypatch.setattr(contacts, "BLOCK", 21)
+    monkeypatch.setattr(stored, "BLOCK", 21)
     lib, pointer = SimpleNamespace(gudgeon_run_impacts=listed), gudgeon.load("bouncing_ball", "damped").compiled.pointer
-    fetched = contacts.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))
+    fetched = stored.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))
     rng, runs, each = np.random.default_rng(5), Runs.__new__(Runs), [list[np.ndarray]() for _ in range(9)]
     threads = [ThreadPoolExecutor(1), ThreadPoolExecutor(1)]
     for i in rng.integers(0, 8, 60).tolist():

@@ -16,7 +16,7 @@ from ruamel.yaml import YAML
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import schema
-from gudgeon.studies.ensemble import selected
+from gudgeon.studies.ensemble import claims
 from gudgeon.studies.ensemble.claimed import Claimed
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
@@ -208,11 +208,11 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 
 @needs_compiler
 @pytest.mark.parametrize(("some", "most"), [
-    (50, 1000), pytest.param(500, selected.MOST_COMPARED, marks=pytest.mark.slow),
+    (50, 1000), pytest.param(500, claims.MOST_COMPARED, marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Any two of 50 values are 1225 pairs, of 500 124 750; the same values one by one are few, a million too many."""
-    monkeypatch.setattr(selected, "MOST_COMPARED", most)
+    monkeypatch.setattr(claims, "MOST_COMPARED", most)
     study: dict[str, Any] = {"mechanism": "pendulum", "measures": {"x": {"final": "bob.x"}}}
     for count, kind, words in ((some, "alike_along", f"more than {most} pairs"), (some, "grows_along", ""),
                                (10**6, "grows_along", "1000000 values")):  # fmt: skip

@@ -15,8 +15,7 @@ import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.loading.find import is_known
 from gudgeon.studies.ensemble import libraries
-from gudgeon.studies.ensemble.libraries import made_beside
-from gudgeon.studies.ensemble.structures import Structure
+from gudgeon.studies.ensemble.libraries import Structure, made_beside
 from gudgeon.waiting.programs import Programs
 from tests.programs import needs_compiler
 from tests.slow import slow_but

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.linkage import residuals
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
@@ -26,7 +27,6 @@ from gudgeon.integrators.adaptive import tolerances
 from gudgeon.integrators.batch import integrate
 from gudgeon.integrators.peers.contacts import Contacts, Piece
 from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
-from gudgeon.integrators.projection import residuals
 from gudgeon.integrators.steps import Shown
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array

@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from gudgeon.assembly.linkage import project
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import SolverError
 from gudgeon.integrators.peers.contacts import Contacts
-from gudgeon.integrators.projection import project
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.model.compiled import Array
 

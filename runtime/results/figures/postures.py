@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.assembly.linkage import project
 from gudgeon.drawing.posture import Posture
 from gudgeon.errors import BadValueError
-from gudgeon.integrators.projection import project
 from gudgeon.language.wanted import number_of, refuse
 
 if TYPE_CHECKING:

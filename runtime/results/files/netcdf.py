@@ -1,7 +1,7 @@
 """Results as NetCDF 4 files, written and read back, and as xarray's Datasets.
 
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
-other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` (trace.py) and `peaks` over all steps
+other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` and `peaks` over all steps
 (peaks.py), for people; `compiled`, the kernel source and what was derived from the parameters, so that gudgeon reads
 all of it back bit for bit without a compiled library; `provenance` (diagnostics.py). What has no row is not there. The
 only date is that of the run, in `provenance`: a result that is saved twice gives the same bytes.
@@ -20,8 +20,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.integrators.trace import COLUMNS, JOINT, Trace
-from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
+from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE, TRACE_COLUMNS, TRACED, Trace
 from gudgeon.language.wanted import mapping, text, told
 from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import PROVENANCE, Diagnostics, Extremes
@@ -131,7 +130,7 @@ def _trace(run: Result) -> Iterator[Variable]:
         return
     yield Variable("t", run.trace.t, *TRACE_TIME)
     for k, joint in enumerate(run.source.clearances):
-        for column, (name, (unit, meaning)) in enumerate(JOINT.items()):
+        for column, (name, (unit, meaning)) in enumerate(TRACED.items()):
             yield Variable(f"{joint.name}.{name}", run.trace.joints[:, k, column], unit, meaning)
 
 
@@ -340,8 +339,9 @@ def _read_trace(file: File, source: KernelSource) -> Trace | None:
     if not file.has(TRACE):
         return None
     t = file.numbers(f"{TRACE}/t")
-    joints = [[file.numbers(f"{TRACE}/{joint.name}.{name}", len(t)) for name in COLUMNS] for joint in source.clearances]
-    return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
+    names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
+    joints = [[file.numbers(name, len(t)) for name in row] for row in names]
+    return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(TRACE_COLUMNS), len(t)), 2, 0).copy())
 
 
 def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.errors import BadValueError, GudgeonError, InputError
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import BadValueError, GudgeonError, InputError, UnknownNameError
 from gudgeon.integrators.lanes import followed_by
 from gudgeon.language.tree import Expr
 from gudgeon.model.default_step import scene_end, scene_number
@@ -17,19 +18,19 @@ from gudgeon.model.parameter_sets import given_each, prepare_sets
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.simulation.wear import rate_of
+from gudgeon.simulation.wear_loop import Loop, Wearing, share
 from gudgeon.studies.ensemble.exponents import follow
 from gudgeon.studies.ensemble.libraries import loaded, method_in
 from gudgeon.studies.ensemble.measures import Spans, measured, rubs_of, sampled, series_of, steps_of, within
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
-from gudgeon.studies.ensemble.numbers import ROUNDING, impossible, key_of, of_runs, slot_of
+from gudgeon.studies.ensemble.numbers import ROUNDING, impossible, key_of, of_runs, real, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
-from gudgeon.studies.ensemble.wearing import worn
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Measure
+    from gudgeon.generator.study.spec import Measure, WearRounds
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.batch import Batch
-    from gudgeon.simulation.wear_loop import Wearing
 
 
 @dataclass(frozen=True)
@@ -290,3 +291,37 @@ class _Found:
             t = common
         notes = merged(self.notes)
         return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)
+
+
+def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
+    """An InputError at its place for numbers, and for a joint that has a contour in no scene."""
+    able = {one.joint for source in sources for one in source.contours}
+    for joint in wear.joints:
+        if joint not in able:
+            hint = f"joints with one: {', '.join(sorted(able))}" if able else "contour: 128 in the play of a scene"
+            raise UnknownNameError(f"wear.joints: no scene has a contour at {joint}", joint.where, hint)
+    try:
+        rate = rate_of(wear.k, wear.hardness, "wear.k", "wear.hardness")
+    except InputError as error:
+        raise type(error)(error.message, wear.k.where, error.hint) from None
+    scale = 1.0 if wear.scale is None else real(wear.scale, Slot("wear.scale", "", 1.0, False, (0, 0, 0)))
+    if wear.scale is not None and not scale > 0.0:
+        raise BadValueError(f"wear.scale is {scale:g}", wear.scale.where, "expected a positive number of runs")
+    return Wearing(tuple(map(str, wear.joints)), rate, wear.law, scale)
+
+
+def worn(
+    simulation: Simulation, wearing: Wearing | None, rounds: int, parameters: Any, ends: Array, common: dict[str, Any],
+    progress: Progress | None,
+) -> tuple[dict[str, Array], Progress | None]:  # fmt: skip
+    """The contours that the rounds of wear leave of the runs, by joint; none where the scene has none that wears.
+
+    And what is left of the progress for the runs themselves: each round has as much of it.
+    """
+    able = {one.joint for one in simulation.source.contours}
+    if wearing is None or not able.intersection(wearing.joints):
+        return {}, progress
+    loop = Loop(simulation, replace(wearing, joints=tuple(joint for joint in wearing.joints if joint in able)), {})
+    for k in range(rounds):
+        loop.round(parameters, ends, progress=share(progress, k, rounds + 1), **common)
+    return loop.given, share(progress, rounds, rounds + 1)

@@ -1,21 +1,71 @@
-"""What a study will take: runs, blocks, bytes on disk, and seconds by a few of its runs made on trial."""
+"""What a study will take: whether disk and memory have room, runs, blocks, bytes, and seconds by runs on trial."""
 
 from __future__ import annotations
 
 import math
+import os
 import time
+from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from gudgeon.files.room import check_disk, check_memory
 from gudgeon.integrators.threads import available_threads
+from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
+from gudgeon.results.batch import parts_of
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
 from gudgeon.studies.ensemble.folder import image
-from gudgeon.studies.ensemble.plan import Plan
+from gudgeon.studies.ensemble.loop import SIDE_BY_SIDE
+from gudgeon.studies.ensemble.measures import series_of
+from gudgeon.studies.ensemble.plan import Part, Plan, Plans
 
+READ = 3  # times a series is there while it is measured: kept, read, and what is between
+OF_A_BLOCK = 250  # bytes, about, of what is noted of a block while a study goes on
 TRIALS = 4  # runs a thread of each part, evenly over the part
 FIRST = 1.0  # s; what takes less is made again, for most of a first time is not its runs'
+
+
+def check_needs(plans: Plans, folder: Path, threads: int | None, here: bool) -> None:
+    """OutputError where blocks and datasets are larger than the disk has room for, beside what is there already.
+
+    MemoryError where notes of all blocks or, of runs that go on `here`, the samples of those at work do not fit.
+    """
+    cores = threads or available_threads()
+    for plan in plans.each.values():
+        check_memory(OF_A_BLOCK * plan.count_of_blocks, f"a study of {plan.runs} runs in {plan.count_of_blocks} blocks")
+        for part in plan.parts if here else ():
+            _check_blocks(plan, part, cores)
+    size = sum(disk_bytes(plan) for plan in plans.each.values())
+    check_disk(folder, size - _there(folder), f"the study, {plans.runs} runs,")
+
+
+def disk_bytes(plan: Plan) -> float:
+    """Of all blocks and the dataset, at least: measures, ends of runs and the series that are kept."""
+    numbers, kept = len(plan.wanted.measures) + 2, len(plan.wanted.keep)
+    return sum(8.0 * plan.each * (2 * numbers + kept * (part.samples + part.most)) for part in plan.parts)
+
+
+def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
+    """Of blocks that are under way at once: states of the runs that go on, series and times of all."""
+    compiled, most = part.simulation.compiled, min(cores, SIDE_BY_SIDE, plan.count_of_blocks)
+    names = series_of(plan.wanted.measures, plan.wanted.keep, compiled.source)
+    state = sample_bytes(compiled) + evaluated_bytes(compiled, parts_of(compiled.source, names))
+    size = state * min(max(cores, most), most * part.block) + most * part.block * 8 * READ * (len(names) + 1)
+    runs = f"{most * part.block} runs" if most * part.block > 1 else "a run"
+    check_memory(size * part.samples, f"{runs} of {part.samples:.0f} samples, under way at once,")
+
+
+def _there(folder: Path) -> int:
+    """Bytes of blocks and datasets that are there: of this study, which need not be made again, or to be removed."""
+    found = 0
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with suppress(OSError):
+                found += os.stat(os.path.join(place, name)).st_size
+    return found
 
 
 @dataclass(frozen=True)

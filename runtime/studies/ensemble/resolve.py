@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -18,9 +19,9 @@ from gudgeon.results.series import catalogue, check_series
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.block import Job, Table, Wanted
+from gudgeon.studies.ensemble.block import Job, Table, Wanted, wearing_of
 from gudgeon.studies.ensemble.exponents import check_followed
-from gudgeon.studies.ensemble.libraries import method_in
+from gudgeon.studies.ensemble.libraries import mechanism_of, method_in, origins, structures
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
 from gudgeon.studies.ensemble.numbers import (
     check_constants,
@@ -33,17 +34,17 @@ from gudgeon.studies.ensemble.numbers import (
     within_doubles,
 )
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
-from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
-from gudgeon.studies.ensemble.structures import mechanism_of, origins, structures
-from gudgeon.studies.ensemble.wearing import wearing_of
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
+    from gudgeon.generator.study.spec import Deviation, Draw, Spread, Starts, StudyFile
     from gudgeon.generator.yaml import Text
+
 
 BLOCK = 128  # runs of a block at most
 BYTES = 1 << 26  # of states and series of a block, about
 LOOKED_AT = 64  # runs of a part whose samples are counted for that
+RANDOM, LATIN, HALTON = "random", "latin_hypercube", "halton"
+NORMAL, GEOMETRIC = "normal", "geometric"
 
 
 def resolve(study: StudyFile) -> Plan:
@@ -278,3 +279,38 @@ def _in_blocks(plan: Plan, k: int) -> Part:
     width = 2 + len(series_of(plan.wanted.measures, plan.wanted.keep, plan.parts[k].simulation.source))
     block = int(max(1, min(BLOCK, BYTES // (8 * width * max(most, 2.0)))))
     return replace(plan.parts[k], block=block, samples=mean, most=most)
+
+
+def shares(method: str, count: int, width: int, seed: int) -> Array:
+    """Points of the unit cube, (count, width): independent ones, or scipy.stats.qmc's, scrambled where they can be."""
+    if method == RANDOM:
+        return np.random.default_rng(seed).random((count, width))
+    from scipy.stats import qmc
+
+    if method == LATIN:
+        return np.asarray(qmc.LatinHypercube(width, seed=seed).random(count))
+    if method == HALTON:
+        return np.asarray(qmc.Halton(width, seed=seed).random(count))
+    return np.asarray(qmc.Sobol(width, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
+
+
+def spread_over(spread: Spread, first: float, second: float, share: Array) -> Array:
+    """Values at shares (n,) of a distribution: mean and standard deviation, or two ends (SI)."""
+    if spread.kind == NORMAL:
+        from scipy.special import ndtri
+
+        return np.asarray(first + second * ndtri(share))
+    if spread.kind == GEOMETRIC:
+        return np.asarray(first * (second / first) ** share)
+    return np.asarray(first + (second - first) * share)
+
+
+def deviations(starts: Starts, names: list[str]) -> Array:
+    """Of each ensemble, start and number, (n_ensembles, count, n_names): within −1 and 1, or normal with σ = 1.
+
+    They are the same at every other coordinate of the study, so that runs can be compared start by start.
+    """
+    each = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
+    shape = (starts.count, len(names))
+    return np.stack([rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape)
+                     for rng in each])  # fmt: skip

@@ -15,6 +15,7 @@ from gudgeon.files.reading import MAX_BYTES, read_named
 from gudgeon.language.wanted import flag, function, mapping, path, whole
 from gudgeon.loading.shipped import shipped_study
 from gudgeon.studies.ensemble.claimed import write_claims
+from gudgeon.studies.ensemble.estimate import check_needs
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import (
     DATASET,
@@ -28,7 +29,6 @@ from gudgeon.studies.ensemble.folder import (
 )
 from gudgeon.studies.ensemble.loop import finish
 from gudgeon.studies.ensemble.names import write_names
-from gudgeon.studies.ensemble.needs import check_needs
 from gudgeon.studies.ensemble.workers import executor_of
 
 if TYPE_CHECKING:
@@ -65,10 +65,9 @@ def plans_of(
 def _resolved(studies: StudySet) -> Plans:
     """Mistakes of all parts at once, each once where parts share what the file says."""
     from gudgeon.studies.ensemble.claims import known_claims
-    from gudgeon.studies.ensemble.libraries import made_beside
+    from gudgeon.studies.ensemble.libraries import made_beside, structures_of
     from gudgeon.studies.ensemble.plan import Plans
     from gudgeon.studies.ensemble.resolve import resolve
-    from gudgeon.studies.ensemble.structures import structures_of
 
     plans: dict[str, Plan] = {}
     errors: list[InputError] = []
