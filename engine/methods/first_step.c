@@ -74,7 +74,7 @@ static double better_by(const Run *run, double h, double change, double size, do
 static int fit_first(Run *run, double left, const Parameters *p)
 {
     const int stiff = !!run->choice.method->stiff, begins = run->control.rough > 0.0;
-    const int corner = run->control.first >= &run->control.after_corner[0][0];
+    const int corner = begins_at_corner(run);
     const double onset = run->control.onset[stiff] > 0.0 ? run->control.onset[stiff] : stiff ? ONSET_STIFF : ONSET;
     const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
     if (!run->control.first || run->control.fixed > 0.0 || run->choice.method->own_length

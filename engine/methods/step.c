@@ -120,6 +120,12 @@ static void begin_with(Run *run, double *known, double rough)
     run->control.rough = rough;
 }
 
+/* Whether the next step is the first one at a side of a corner. */
+static inline int begins_at_corner(const Run *run)
+{
+    return run->control.first && run->control.first >= &run->control.after_corner[0][0];
+}
+
 /* The next step's length; that of the step that is tried now; that of the last one up to where it ended. */
 static void set_length(Run *run, double h) { run->control.h = h; }
 static inline void set_attempt(Run *run, double h) { run->control.attempt.h = h; }

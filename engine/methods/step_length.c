@@ -248,8 +248,8 @@ static double within_flight(const Run *run, double h, const Parameters *p)
  */
 static double below_refused(const Run *run, double h)
 {
-    const int corner = run->control.first >= &run->control.after_corner[0][0];
-    return corner && run->t < run->control.too_long_until ? min_of(h, run->control.too_long) : h;
+    const int again = begins_at_corner(run) && run->t < run->control.too_long_until;
+    return again ? min_of(h, run->control.too_long) : h;
 }
 
 /* How long a step towards t_end is tried at first. */

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from time import monotonic
 from typing import Any
@@ -287,9 +287,7 @@ def conclude(
     )  # fmt: skip
     if evaluation is not None:
         told = unbalanced(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
-        if not compiled.source.massless and told:
-            notes = (*result.diagnostics.notes, *told)
-            result = replace(result, diagnostics=replace(result.diagnostics, notes=notes))
+        result = result if compiled.source.massless else _with_notes(result, told)
         result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
     result = result if problem.start_is_sample else without_start(result)
     if evaluation is not None:
@@ -315,8 +313,13 @@ def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
                 " force within its static limit fits there, so its force, what drives give and reactions are not"
                 " determined; the run has the last force of sliding, or 0"
             )
-    notes = (*run.diagnostics.notes, *found)
-    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if found else run
+    return _with_notes(run, found)
+
+
+def _with_notes(run: Result, told: Sequence[str]) -> Result:
+    """Return the run with more notes; the run itself where nothing is told."""
+    notes = (*run.diagnostics.notes, *told)
+    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if told else run
 
 
 def _accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
@@ -373,6 +376,5 @@ def late(ctrl_c: CtrlC, result: Result) -> Result:
 
 
 def _interrupted(result: Result) -> Result:
-    found = result.diagnostics
-    notes = found.notes if found.interrupted else (*found.notes, INTERRUPTED_NOTE)
-    return replace(result, diagnostics=replace(found, interrupted=True, notes=notes))
+    told = _with_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
+    return replace(told, diagnostics=replace(told.diagnostics, interrupted=True))
