@@ -1,6 +1,6 @@
 /*
  * The time loops of a scene, as one translation unit; the other one is scene.c, which holds what was derived. Read
- * run/run.h first, then methods/adaptive.c or methods/rk4.c; what a scene does not have is left out.
+ * run/run.h first, then methods/adaptive.c; what a scene does not have is left out.
  */
 #include "model.h"
 #include "scene/kernels.h"
@@ -15,8 +15,6 @@
 #include "methods/step.c"
 #include "run/audit.c"
 #include "run/audit_state.c"
-#include "watch/jumps.c"
-#include "methods/rk4.c"
 #include "methods/methods.c"
 #include "watch/reach.c"
 #include "watch/roots.c"

@@ -93,7 +93,7 @@ static void gather(Flow *flow, int k)
     for (int i = 0; i < N_LOOPS; i++)
         x->aside.lambda[i][k] = run->aside.lambda[i];
 #if IMPLICIT_STAGES
-    if (run->control.attempt.stiff > BY_RODAS5P)
+    if (run->control.attempt.lane >= BY_RADAU5)
         gather_past(x, k, run);
 #endif
 #endif
@@ -167,9 +167,9 @@ static void scatter_step(const Flow *flow, int k, Step *step)
 
 /* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. */
 #if TAYLOR
-static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+static void scatter_trial(const Flow *flow, int k, int method, Run *run)
 {
-    (void)stiff;
+    (void)method;
     run->counts.evaluations += !run->series.ready;
     run->series.ready = ELSEWHERE;
     run->series.lane = (const double *)flow->x.series.terms + k;
@@ -178,18 +178,20 @@ static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
     run->control.attempt.h = flow->step.h[k];
 }
 #else
-static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+static void scatter_trial(const Flow *flow, int k, int method, Run *run)
 {
-    const int stages = stiff == BY_RADAU9 ? 5 : stiff == BY_RADAU5 ? 3 : stiff ? RODAS5P_STAGES : DOP853_STAGES;
+    static const int of[KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_RODAS5P] = RODAS5P_STAGES,
+        [BY_RADAU5] = 3, [BY_RADAU9] = 5};
+    const int stages = of[method];
     (void)flow, (void)k;
     run->counts.evaluations += stages - 1;
 #if IMPLICIT_STAGES
-    if (stiff > BY_RODAS5P) {
+    if (method >= BY_RADAU5) {
         run->counts.evaluations += (long)flow->x.newton.asked[k] - stages + 1;
         run->newton.falls = flow->x.newton.falls[k];
     }
 #endif
-    if (stiff && !run->newton.ready) {
+    if (method >= BY_RODAS5P && !run->newton.ready) {
         run->counts.jacobians++;
         run->newton.ready = ELSEWHERE;
     }
@@ -197,7 +199,7 @@ static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 #endif
 
 /* What lane k has found goes to its run. */
-static void scatter(const Flow *flow, int k, int stiff)
+static void scatter(const Flow *flow, int k, int method)
 {
     Run *run = flow->run[flow->seated[k]];
     Step *step = &run->step;
@@ -205,7 +207,7 @@ static void scatter(const Flow *flow, int k, int stiff)
     step->h = flow->step.h[k];
     step->error = flow->step.error[k];
     step->dense_ready = 0;
-    scatter_trial(flow, k, stiff, run);
+    scatter_trial(flow, k, method, run);
 #if TAYLOR
     const int counts = 1;
 #else

@@ -13,7 +13,7 @@ static int leaves(Flow *flow, int i, int happened)
 {
     if (happened == RUN_OVER)
         flow->number[i] = -1;
-    flow->kind[i] = happened == RUN_OVER ? -1 : flow->run[i]->control.attempt.stiff;
+    flow->kind[i] = happened == RUN_OVER ? -1 : flow->run[i]->control.attempt.lane;
     return happened != GOES_ON;
 }
 
@@ -37,40 +37,40 @@ static int go_on(Flow *flow, int i, int tried, int *lists)
 }
 
 /* Whether run i wants a step by this method. */
-static int wants(const Flow *flow, int i, int stiff) { return flow->kind[i] == stiff; }
+static int wants(const Flow *flow, int i, int method) { return flow->kind[i] == method; }
 
 /* In how many lanes one does. */
-static int lanes_that_want(const Flow *flow, int stiff)
+static int lanes_that_want(const Flow *flow, int method)
 {
     int some[LANES] = {0}, count = 0;
     for (int i = 0; i < ABREAST; i++)
-        some[i % LANES] |= wants(flow, i, stiff);
+        some[i % LANES] |= wants(flow, i, method);
     for (int k = 0; k < LANES; k++)
         count += some[k];
     return count;
 }
 
 /* Seats a run in lane k that wants this method, that which sat there if it does; whether there is one. */
-static int seat_one(Flow *flow, int k, int stiff)
+static int seat_one(Flow *flow, int k, int method)
 {
     const int last = flow->seated[k], own = last >= 0 && last % LANES == k && is_taken(flow, last);
     int best = own ? last : k;
-    for (int i = k; i < ABREAST && !wants(flow, best, stiff); i += LANES)
-        best = wants(flow, i, stiff) || !is_taken(flow, best) ? i : best;
+    for (int i = k; i < ABREAST && !wants(flow, best, method); i += LANES)
+        best = wants(flow, i, method) || !is_taken(flow, best) ? i : best;
     seat(flow, k, best);
-    return flow->seated[k] % LANES == k && wants(flow, flow->seated[k], stiff);
+    return flow->seated[k] % LANES == k && wants(flow, flow->seated[k], method);
 }
 
 /* One step of one run in each lane is tried. Returns of how many runs Python is to be told. */
-static int try_together(Flow *flow, int stiff, int *lists)
+static int try_together(Flow *flow, int method, int *lists)
 {
     int some = 0, wanted[LANES];
     LaneBits quiet = {0};
     for (int k = 0; k < LANES; k++) {
-        wanted[k] = seat_one(flow, k, stiff);
+        wanted[k] = seat_one(flow, k, method);
         gather(flow, k);
     }
-    try_lanes(&flow->x, stiff, flow->h, &flow->p, &flow->step);
+    try_lanes(&flow->x, method, flow->h, &flow->p, &flow->step);
 #if QUIET
     quiet = take_quietly(&flow->quiet, &flow->x, &flow->step, &flow->h);
 #endif
@@ -80,7 +80,7 @@ static int try_together(Flow *flow, int stiff, int *lists)
         const int lost = flow->step.lost[k] != 0;
         put_down(flow, k);
         if (!lost)
-            scatter(flow, k, stiff);
+            scatter(flow, k, method);
         some += go_on(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
@@ -93,9 +93,9 @@ static int try_together(Flow *flow, int stiff, int *lists)
 static int advance(Flow *flow, int *lists)
 {
     int some = 0, most = 0, count[KINDS];
-    for (int stiff = 0; stiff < KINDS; stiff++) {
-        count[stiff] = lanes_that_want(flow, stiff);
-        most = count[stiff] > count[most] ? stiff : most;
+    for (int method = 0; method < KINDS; method++) {
+        count[method] = lanes_that_want(flow, method);
+        most = count[method] > count[most] ? method : most;
     }
     if (count[most] > 1)
         return try_together(flow, most, lists);

@@ -35,9 +35,6 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 
 static int rates(LaneRun *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneAside *aside)
 {
-#if !HELD
-    run->counts.evaluations += 1.0;
-#endif
     show_states(&run->memory, y);
     motion(t, y, &run->memory, p, dy, aside);
     rates_of_states(aside, dy);

@@ -3,7 +3,7 @@
  * They are taken in the lanes, as take_step of methods/adaptive.c does it; its run is told of them together, before it
  * is asked again.
  */
-#define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !N_CORNERS)
+#define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
 #if QUIET
 #include "../both/weigh.h"

@@ -14,12 +14,12 @@ static void forget_end(const LaneRun *run) { (void)run; }
 #include "../both/taylor.h"
 
 /* As taylor_try: links in one line are left to the single runs. */
-static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
+static int method_try(LaneRun *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
     TaylorValues at;
     Lanes(*const c)[TAYLOR_Y] = run->series.terms;
-    (void)stiff;
+    (void)method;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = run->y[i];
     taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->memory.rare);

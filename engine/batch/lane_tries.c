@@ -108,6 +108,7 @@ static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 }
 
 #include "../both/dop853.h"
+#include "../both/runge_kutta.h"
 #include "../both/rodas5p.h"
 
 #if IMPLICIT_STAGES
@@ -177,17 +178,19 @@ static int stages_lost(LaneRun *run, LaneBits lost)
 #include "../both/radau.h"
 #endif
 
-static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
+static int method_try(LaneRun *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
     run->newton.asked = all_of(0.0);
     run->newton.missed = (LaneBits){0};
-    if (stiff == BY_RADAU5)
+    if (method == BY_RADAU5)
         return radau5_try(run, h, p, step);
-    if (stiff == BY_RADAU9)
+    if (method == BY_RADAU9)
         return radau9_try(run, h, p, step);
 #endif
-    return stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+    if (method == BY_RK4)
+        return runge_kutta_try(run, &classical, h, p, step);
+    return method == BY_RODAS5P ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
 }
 #endif
 
@@ -224,14 +227,14 @@ static void make_dense(LaneRun *run, const LaneParameters *p, LaneStep *step)
 #endif
 
 /* A step of length h of all lanes; where it is neither accepted nor lost its error alone tells. */
-static void try_lanes(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
+static void try_lanes(LaneRun *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->memory.rare = (LaneBits){0};
-    method_try(run, stiff, h, p, step);
+    method_try(run, method, h, p, step);
     step->lost |= run->memory.rare & step->taken;
     step->taken &= ~step->lost;
 #if !TAYLOR
-    if (!stiff)
+    if (method == BY_DOP853)
         make_dense(run, p, step);
 #endif
 }

@@ -45,10 +45,9 @@ static inline int any_of(LaneBits mask)
 #include "lane_functions.h"
 
 /*
- * Corners. Methods that choose their step (HELD) hold contacts and sides of corners over it and are told where the
- * switching functions are; with rk4 both are as the state says. side: NULL where a function holds none.
+ * Corners: runs hold contacts and sides of corners over a step, and are told where the switching functions are. side:
+ * NULL where a function holds none.
  */
-#if HELD
 #define held_sides(memory) (memory)->side
 #define told_sides(aside) (aside)->g
 static inline Lanes lanes_side_of(const Lanes *side, Lanes *g, int k, Lanes value)
@@ -56,25 +55,16 @@ static inline Lanes lanes_side_of(const Lanes *side, Lanes *g, int k, Lanes valu
     g[k] = value;
     return side ? side[k] : lanes_sign_of(value);
 }
-#else
-#define held_sides(memory) ((void)(memory), (const Lanes *)NULL)
-#define told_sides(aside) ((void)(aside), (Lanes *)NULL)
-static inline Lanes lanes_side_of(const Lanes *side, Lanes *g, int k, Lanes value)
-{
-    (void)side, (void)g, (void)k;
-    return lanes_sign_of(value);
-}
-#endif
 
 /* Corners first to last - 1 of a joint do not switch; the same, those of its film put aside. */
 static inline void silence(Lanes *g, int first, int last)
 {
-    for (int k = first; HELD && k < last; k++)
+    for (int k = first; k < last; k++)
         g[k] = all_of(NAN);
 }
 static inline void set_aside(Lanes *g, Lanes *film, int first, int last)
 {
-    for (int k = first; HELD && k < last; k++)
+    for (int k = first; k < last; k++)
         film[k] = g[k];
     silence(g, first, last);
 }
@@ -82,7 +72,7 @@ static inline void set_aside(Lanes *g, Lanes *film, int first, int last)
 /* What switches in a joint: of its film where it is free, of the contact elsewhere, where both are mixed of both. */
 static inline void put_together(Lanes *g, const Lanes *film, int first, int last, LaneBits touching, LaneBits mixed)
 {
-    for (int k = first; HELD && k < last; k++)
+    for (int k = first; k < last; k++)
         g[k] = pick(touching, pick(mixed & (g[k] != g[k]), film[k], g[k]), film[k]);
 }
 
@@ -116,9 +106,7 @@ typedef struct {
 typedef struct {
     LaneLatch latch[AT_LEAST_ONE(N_CLEARANCES)];
     Lanes event_side[AT_LEAST_ONE(N_USER_EVENTS)];
-#if HELD
     Lanes side[AT_LEAST_ONE(N_SWITCHES)];
-#endif
     LaneBits rare; /* lanes whose step the single runs are to make */
     Lanes least, least_size;
 } LaneMemory;
@@ -132,9 +120,7 @@ typedef struct {
 
 typedef struct {
     Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
-#if HELD
     Lanes ex, ey, v_t;
-#endif
 #if LAW_STATES
     Lanes state_rate[LAW_STATES];
 #endif
@@ -143,9 +129,7 @@ typedef struct {
 typedef struct {
     Lanes lambda[N_LOOPS + 1], power[N_WORK], event[AT_LEAST_ONE(N_USER_EVENTS)];
     LaneClearance clearance[AT_LEAST_ONE(N_CLEARANCES)];
-#if HELD
     Lanes g[AT_LEAST_ONE(N_SWITCHES)];
-#endif
 } LaneAside;
 
 static inline LaneBits is_closed(const LaneLatch *latch) { return latch->closed > 0.0; }
@@ -153,7 +137,8 @@ static inline LaneBits is_closed(const LaneLatch *latch) { return latch->closed 
 /* Whether a joint has its dry contact. */
 static inline LaneBits is_touching(const LaneLatch *latch, Lanes delta)
 {
-    return HELD ? is_closed(latch) : (LaneBits)(delta > 0.0);
+    (void)delta;
+    return is_closed(latch);
 }
 
 static double lane_seconds(void)
@@ -163,7 +148,6 @@ static double lane_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-#if HELD
 typedef struct {
     const struct LaneParameters *p;
     Lanes value[AT_LEAST_ONE(N_VALUES)], lu[AT_LEAST_ONE(N_FACTORS)];
@@ -229,16 +213,5 @@ typedef struct {
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
     LaneBits taken, lost, missed, no_dense;
 } LaneStep;
-#else
-#define Number Lanes
-#define Flag LaneBits
-typedef struct {
-#include "moving.h"
-    LaneMemory memory; /* Moving ends before what is rare */
-    LaneAside aside;
-} LaneRun;
-#undef Number
-#undef Flag
-#endif
 
 #endif

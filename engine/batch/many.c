@@ -61,9 +61,8 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
     if (b->trace)
         start_trace(run, (TraceRow *)b->trace + i * b->trace_rows, b->trace_rows);
     set_cancellation(b, &run->cancellation);
-    if (b->choice >= 0)
-        gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
-            b->fixed ? b->step[i] : 0.0);
+    gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
+        b->fixed ? b->step[i] : 0.0);
     return 0;
 }
 
@@ -77,11 +76,11 @@ static void take_sample(const Batch *b, long i, long k, Run *run)
 
 /*
  * The first sample of run i that is no number, because a force was none between the stages of a step; 0: there is none.
- * A method of fixed step finds that at the end of the step. No sample is checked twice.
+ * No sample is checked twice.
  */
 static long first_odd(const Batch *b, long i)
 {
-    for (long k = b->checked[i]; k < b->done[i] && b->choice >= 0; k++) {
+    for (long k = b->checked[i]; k < b->done[i]; k++) {
         if (k > 0 && !all_finite(b->y + (rows_of(b, i) + k) * N_S, 2 * N_Q))
             return k;
         b->checked[i] = k + 1;
@@ -96,9 +95,7 @@ static int advance(const Batch *b, long i, long limit, Run *run)
     const long row = rows_of(b, i), n = b->wanted[i];
     double *y = b->y + row * N_S, *latched = b->latched + row * AT_LEAST_ONE(N_MEMORY);
     signed char *state = b->state + row * AT_LEAST_ONE(N_CLEARANCES);
-    const int status = b->choice < 0
-        ? gudgeon_rk4_run(run, p, b->step[i], n, t, limit, y, latched, state, b->done + i)
-        : gudgeon_adaptive_run(run, p, n, t, limit, y, latched, state, b->done + i);
+    const int status = gudgeon_adaptive_run(run, p, n, t, limit, y, latched, state, b->done + i);
     b->t_last[i] = run->t;
     return status;
 }
@@ -189,74 +186,6 @@ static int begin_single(const Batch *b, long i, const long *others, int n, void 
     return start_run(b, i, others, n, run);
 }
 
-static int steps_single(const Batch *b, long i, long limit, void *run) { return advance(b, i, limit, run); }
-
-static void end_single(const Batch *b, long i, int status, void *run) { end_run(b, i, status, run); }
-
-static void give_state(const void *memory, Moving *state)
-{
-    const Run *run = memory;
-    *state = (Moving){.t = run->t,
-        .counts = {.steps = (double)run->counts.steps, .evaluations = (double)run->counts.evaluations},
-        .residuals = {.phi_max = run->residuals.phi_max, .phi_dot_max = run->residuals.phi_dot_max},
-        .contacts = {.ratio_min = run->contacts.ratio_min, .ratio_max = run->contacts.ratio_max,
-            .ratio_outside = run->contacts.ratio_outside}};
-    for (int k = 0; k < N_Y; k++) {
-        state->y[k] = run->y[k];
-        state->dy[k] = run->dy[k];
-    }
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *joint = &run->aside.clearance[i];
-        state->memory.latch[i].closed = run->memory.latch[i].closed;
-        state->memory.latch[i].deltadot_minus = run->memory.latch[i].deltadot_minus;
-        state->contacts.compressing[i] = -run->contacts.compressing[i];
-        state->journal[i].e = joint->e;
-        state->journal[i].delta = joint->delta;
-        state->journal[i].deltadot = joint->deltadot;
-        state->contacts.F_peak[i] = run->contacts.F_peak[i];
-        state->contacts.t_peak[i] = run->contacts.t_peak[i];
-        state->contacts.e_max[i] = run->contacts.e_max[i];
-        state->contacts.open[i].F_peak = run->contacts.open[i].F_peak;
-        state->contacts.open[i].t_peak = run->contacts.open[i].t_peak;
-    }
-#if N_USER_EVENTS
-    memcpy(state->norm.speed, run->norm.speed, sizeof state->norm.speed);
-#endif
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        state->memory.event_side[i] = run->memory.event_side[i];
-}
-
-static void take_state(void *memory, const Moving *state)
-{
-    Run *run = memory;
-    run->t = state->t;
-    run->counts.steps = (long)state->counts.steps;
-    run->counts.evaluations = (long)state->counts.evaluations;
-    run->residuals.phi_max = state->residuals.phi_max;
-    run->residuals.phi_dot_max = state->residuals.phi_dot_max;
-    run->contacts.ratio_min = state->contacts.ratio_min;
-    run->contacts.ratio_max = state->contacts.ratio_max;
-    run->contacts.ratio_outside = state->contacts.ratio_outside;
-    for (int k = 0; k < N_Y; k++) {
-        run->y[k] = state->y[k];
-        run->dy[k] = state->dy[k];
-    }
-#if N_USER_EVENTS
-    memcpy(run->norm.speed, state->norm.speed, sizeof state->norm.speed);
-#endif
-    for (int i = 0; i < N_CLEARANCES; i++) { /* neither an onset nor a separation was among these steps */
-        run->contacts.compressing[i] = state->contacts.compressing[i] != 0;
-        run->aside.clearance[i].e = state->journal[i].e;
-        run->aside.clearance[i].delta = state->journal[i].delta;
-        run->aside.clearance[i].deltadot = state->journal[i].deltadot;
-        run->contacts.F_peak[i] = state->contacts.F_peak[i];
-        run->contacts.t_peak[i] = state->contacts.t_peak[i];
-        run->contacts.e_max[i] = state->contacts.e_max[i];
-        run->contacts.open[i].F_peak = state->contacts.open[i].F_peak;
-        run->contacts.open[i].t_peak = state->contacts.open[i].t_peak;
-    }
-}
-
 static Samples samples_of(const Batch *b, long i)
 {
     const long row = rows_of(b, i);
@@ -264,31 +193,6 @@ static Samples samples_of(const Batch *b, long i)
         .n = b->wanted[i], .done = b->done + i, .t = times_of(b, i), .y = b->y + row * N_S,
         .latched = b->latched + row * AT_LEAST_ONE(N_MEMORY), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
-}
-
-/* Samples of the step that led from `before` to the present state; neither a contact nor an event was on the way. */
-static void samples_single(const Batch *b, long i, const Moving *before, void *memory)
-{
-    Run *run = memory;
-    const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
-    const Samples out = samples_of(b, i);
-    Beginning from = {.t = before->t};
-    for (int k = 0; k < N_Y; k++) {
-        from.y[k] = before->y[k];
-        from.dy[k] = before->dy[k];
-    }
-    for (int k = 0; k < N_CLEARANCES; k++) {
-        from.closed[k] = before->memory.latch[k].closed > 0.0;
-        from.compressing[k] = before->contacts.compressing[k] != 0;
-    }
-    sample_inside(run, &from, p, &out);
-    sample_here(run, run->t - before->t, p, &out);
-}
-
-static int jumps_single(const Batch *b, long i, double t0, double t1)
-{
-    double before, after;
-    return next_jump(t0, ahead_of(t1), (const Parameters *)(b->p_motion + i * b->numbers), &before, &after);
 }
 
 /*
@@ -332,8 +236,7 @@ static long unseen_single(const void *memory)
 
 const void *gudgeon_single(void)
 {
-    static const Single single = {begin_single, steps_single, samples_single, end_single, give_state, take_state,
-        jumps_single, next_single, unseen_single};
+    static const Single single = {begin_single, next_single, unseen_single};
     return &single;
 }
 #endif

@@ -6,15 +6,6 @@ static inline Real total_force(const ClearanceOf *joint)
     return real_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);
 }
 
-/* Place in (0, 1) and height of the top of the cubic through (d0, r0) and (d1, r1), slopes r0 > 0 > r1. */
-static inline Real cubic_top(Real d0, Real r0, Real d1, Real r1, Real *height)
-{
-    const Real b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
-    const Real s = r0 / (real_sqrt(b * b - 3.0 * c * r0) - b);
-    *height = d0 + s * (r0 + s * (b + s * c));
-    return s;
-}
-
 /* What deltadot is the rate of: the eccentricity, or of a bearing with a contour the penetration. */
 static inline Real outward(const ClearanceOf *joint)
 {
@@ -23,22 +14,6 @@ static inline Real outward(const ClearanceOf *joint)
 #else
     return joint->e;
 #endif
-}
-
-/* The largest eccentricity of joint i within a step of length h, where it turned back in it. */
-static inline void watch_turn(RunOf *run, int i, double h, const ClearanceOf *before, const ClearanceOf *after)
-{
-    const Truth turned = (before->deltadot > 0.0) & (after->deltadot < 0.0);
-    Real top;
-    if (!any_of(turned))
-        return;
-    const Real s = cubic_top(outward(before), h * before->deltadot, outward(after), h * after->deltadot, &top);
-#ifdef CONTOURS
-    top += (1.0 - s) * (before->e - before->delta) + s * (after->e - after->delta);
-#else
-    (void)s;
-#endif
-    run->contacts.e_max[i] = real_max(pick(turned, top, run->contacts.e_max[i]), run->contacts.e_max[i]);
 }
 
 /* From an onset until the penetration first stops growing a contact is compressed. */

@@ -54,7 +54,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         note_turn(run, i, run->aside.clearance[i].deltadot);
     const double drift = run->residuals.phi_dot_max; /* at the corner of a drive rates are those before the impulse */
     status = watch(run, p);
-    if (N_CORNERS > 0 && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
+    if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the corner, on whichever side */
         watch_all(run);
@@ -229,12 +229,13 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     int status = event_of_step(run, out, p, step, &share, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* what was found meanwhile means nothing */
-    const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;
+    const double t_whole = run->control.fixed > 0.0 ? run->control.attempt.end
+        : step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
     /* what is so near is at the event */
     const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.tick);
     status = sample_step(run, step, t_new - close, p, out);
-    const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (N_CORNERS > 0 && t_new == t_end);
+    const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (DRIVE_IMPULSES && t_new == t_end);
     if (!status)
         status = tape_step(run, step, share, jumps, p);
     defer_stop(&run->cancellation);
@@ -246,8 +247,10 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
         status = commit(run, step, share, t_new, event, p);
     if (!status && event >= 0)
         status = fit_first(run, t_end - run->t, p);
+    if (share >= 1.0)
+        come_to_end(run);
     run->memory.held = 1;
-    if (N_CORNERS > 0 && !status && run->t == t_end) {
+    if (DRIVE_IMPULSES && !status && run->t == t_end) {
         set_phi_dot_max(run, drift); /* which branch a rate has at a jump's own time says nothing */
         status = pass_jumps_here(run, p);
     }

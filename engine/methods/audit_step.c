@@ -204,7 +204,7 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
  */
 static double mean_interval(const Method *method)
 {
-    const double evaluations = method->stages * (method->stiff > BY_RODAS5P ? AUDIT_ITERATIONS : 1.0);
+    const double evaluations = method->stages * (method->lane >= BY_RADAU5 ? AUDIT_ITERATIONS : 1.0);
     return AUDIT_COST / (AUDIT_SHARE * max_of(evaluations, AUDIT_LEAST_STAGES));
 }
 

@@ -64,6 +64,17 @@ static int rests_on_law(const Run *run)
     return found;
 }
 
+/* A run; one that starts at a drive's jump, or right before it, beyond: on the rows that hold there, without work. */
+static int begin_run(Run *run, const Parameters *p)
+{
+    if (DRIVE_IMPULSES)
+        project_state(run, ahead_of(run->t), run->y, p);
+    const int status = begin(run, p);
+    if (DRIVE_IMPULSES)
+        set_phi_dot_max(run, 0.0); /* rates are those beyond the jump */
+    return status;
+}
+
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {

@@ -98,7 +98,7 @@ static double film_error(Run *run, Step *step, const Parameters *p)
         return 0.0;
     run->films.h = step->h, run->films.steps = run->counts.steps;
     run->films.error = share / film_limit(run);
-    if (step->method->stiff == BY_RODAS5P)
+    if (step->method->lane == BY_RODAS5P)
         run->films.error *= RODAS5P_FILM;
     return run->films.error;
 }

@@ -1,6 +1,7 @@
 /*
- * The methods that choose their step. A file of each says how a step is tried and what lies between its ends; its last
- * lines are all that adaptive.c, and what looks inside steps, ask of it. A new one is included and listed here.
+ * The methods. A file of each says how a step is tried and what lies between its ends; its last lines are all that
+ * adaptive.c, and what looks inside steps, ask of it. A new one is included and listed here; of an explicit
+ * Runge-Kutta method nothing is needed but its coefficients (runge_kutta.c).
  */
 #include <string.h>
 
@@ -9,8 +10,11 @@ struct Method {
     int (*try)(Run *, double h, const Parameters *, Step *);    /* a step of length h into Step, with its error */
     int (*dense)(Run *, const Parameters *, Step *);            /* makes the interpolant of an accepted one */
     void (*interpolate)(const Run *, const Step *, double share, double *y);
+    const struct Tableau *tableau; /* of runge_kutta.c */
+    int drifts;               /* whether Baumgarte's terms keep the rows, and no step is projected onto them */
+    int lane;                 /* which of those that lanes know (run.h) */
     double power;             /* of the error, that a step's length goes by: 1 / (order of the estimate + 1) */
-    int stiff;                /* whether it takes the Jacobian: 0, or its kind (run.h) */
+    int stiff;                /* whether it takes the Jacobian */
     double unstable, bounded; /* h rho beyond which no step is taken; at which stability bounds its steps */
     int stages, more;         /* that a try makes, that its interpolant makes besides (batch/) */
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
@@ -30,9 +34,10 @@ struct Method {
 #include "radau.c"
 #endif
 #include "taylor.c"
+#include "runge_kutta.c"
 
 static const Method *const METHODS[] = {
-    &dop853, &rodas5p,
+    &dop853, &rodas5p, &rk4,
 #if IMPLICIT_STAGES
     &radau5, &radau9,
 #endif
@@ -41,6 +46,8 @@ static const Method *const METHODS[] = {
 #endif
 };
 #define EXPLICIT (&dop853)  /* what the automatic choice is between, and the run's `implicit` */
+
+static int drifts(const Run *run) { return run->choice.method->drifts; }
 
 /* A method's number, as gudgeon_adaptive_setup takes it; -1: none has that name. */
 int gudgeon_method(const char *name)

@@ -17,13 +17,6 @@ static void take_way(Run *run, int way)
 /* Before a step is tried. */
 static void first_way(Run *run) { take_way(run, run->near.unlooked ? AS_EVER : TELLS); }
 
-/* The same for rk4, whose lanes do not count. */
-static void first_way_of_fixed(Run *run)
-{
-    run->near.unlooked = TREE ? 0 : run->near.unlooked;
-    first_way(run);
-}
-
 /* Once it was, with this status: whether it is to be tried again, another way. */
 static int other_way(Run *run, int status)
 {
@@ -53,7 +46,6 @@ static inline void way_as_usual(Run *run)
 }
 #else
 static inline void way_as_usual(Run *run) { (void)run; }
-static void first_way_of_fixed(Run *run) { (void)run; }
 static void first_way(Run *run) { (void)run; }
 static int other_way(Run *run, int status) { return (void)run, (void)status, 0; }
 #endif

@@ -90,13 +90,13 @@ static const double radau9_heard[] = {0.0, 0.057104196114517682, 0.2768430136381
     0.86024013565621945, 1.0};
 
 static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
-    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = BY_RADAU5, .unstable = INFINITY,
+    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .heard = radau5_heard,
     .n_heard = COUNT_OF(radau5_heard), .between = 0.85,
     .begins = {10.048809399827416, -1.3821427331607489}, .n_begins = 2, .begins_end = 1.0 / 3.0,
     .ends = {5.5319726474218083, -7.5319726474218083}, .n_ends = 2, .ends_end = 5.0};
 static const Method radau9 = {.name = "radau9", .try = radau9_try, .dense = radau9_dense,
-    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = BY_RADAU9, .unstable = INFINITY,
+    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .heard = radau9_heard,
     .n_heard = COUNT_OF(radau9_heard), .between = 0.74,
     .begins = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begins = 4,

@@ -134,20 +134,20 @@ static void set_last_step(Run *run, double h) { run->control.last_step = h; }
 /* The stiff method's length from before an event says nothing about what follows. */
 static void forget_stiff_length(Run *run) { run->control.h_stiff = 0.0; }
 
+static int drifts(const Run *run); /* whether terms of the equations keep the rows instead (methods.c) */
+
+/* Back onto the rows, if that is how they are kept. */
+static void keep_rows(Run *run, double t, double *y, const Parameters *p)
+{
+    if (!drifts(run))
+        project_rows(run, t, y, p);
+}
+
 /* Back onto everything that is held. */
 static void project_state(Run *run, double t, double *y, const Parameters *p)
 {
-    project_rows(run, t, y, p);
+    keep_rows(run, t, y, p);
     hold_contacts(run, t, y, p);
-}
-
-/* The same after a step of rk4: in absolute coordinates Baumgarte's terms keep the rows instead. */
-static void close_state(Run *run, double t, double *y, const Parameters *p)
-{
-    if (TREE)
-        project_rows(run, t, y, p);
-    hold_contacts(run, t, y, p);
-    hold_slips(run, t, y, p);
 }
 
 /* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
@@ -173,7 +173,7 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
     if (!all_finite(step->y, N_Y))
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
-    project_rows(run, step->t + step->h, step->y, p);
+    keep_rows(run, step->t + step->h, step->y, p);
     const double missed = distance_from_rows(run, before, step->y);
     if (missed > max_of(FAR_FROM_ROWS, ROWS_ROUNDED / tolerance_of(run)) && run->counts.steps > 0
         && run->control.attempt.strayed++ < MAX_STRAYED)

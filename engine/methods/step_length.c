@@ -69,7 +69,8 @@ static void start_choice(Run *run, int method, int automatic)
 /* fixed: the length of all steps, s; 0: errors choose it. */
 static void start_control(Run *run, double fixed)
 {
-    run->control.fixed = fixed;
+    run->control.fixed = run->control.h = fixed;
+    run->control.grid = run->t;
     run->control.error_before = MIN_LAST_ERROR;
     run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
 }
@@ -252,25 +253,38 @@ static double below_refused(const Run *run, double h)
     return again ? min_of(h, run->control.too_long) : h;
 }
 
+/*
+ * What a fixed step has left to the next end of the grid that begins with the run, *end: an event in between does not
+ * move it.
+ */
+static double up_to_grid(Run *run, double t_end, double *end)
+{
+    double h;
+    *end = step_end(run->control.grid, t_end, run->control.fixed, run->control.on_grid + 1.0, &h);
+    return *end - run->t < h * SAME_LENGTH ? *end - run->t : h;
+}
+
 /* How long a step towards t_end is tried at first. */
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
-    double h = run->control.fixed > 0.0 ? run->control.fixed : run->control.h;
-    if (run->roots.skip >= 0 && run->control.fixed <= 0.0)
-        h = min_of(h, run->roots.pace);
-    if (run->control.fixed <= 0.0)
+    double h, end = t_end;
+    if (run->control.fixed > 0.0) {
+        h = up_to_grid(run, t_end, &end);
+    } else {
+        h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.pace) : run->control.h;
         h = within_flight(run, up_to_parting(run, min_of(below_refused(run, h), stride(run, NULL, p))), p);
+    }
     if (h > left * SAME_LENGTH)
         h = left;
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
-        .stiff = run->choice.method->stiff, .of_films = INFINITY};
+    run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
+        .lane = run->choice.method->lane, .of_films = INFINITY};
 }
 
 /* Another one, as long as attempt->h. */
 static int again(Run *run)
 {
-    run->control.attempt.stiff = run->choice.method->stiff;
+    run->control.attempt.lane = run->choice.method->lane;
     return 0;
 }
 
@@ -283,8 +297,10 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 {
     const Method *method = step->method;
     Attempt *now = &run->control.attempt;
-    const int free = run->control.fixed <= 0.0;
-    const int fits = !tried && step->error <= run->control.accept && free;
+    *status = tried;
+    if (tried == STOPPED || run->control.fixed > 0.0)
+        return 1;
+    const int fits = !tried && step->error <= run->control.accept;
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
     if (fits && !is_film_known(run, step, at_ends)) {
         const double error = film_error(run, step, p);
@@ -294,10 +310,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     }
     const int good = !tried && step->error <= run->control.accept;
     const double least = LEAST_LENGTH * now->far;
-    *status = tried;
-    if (tried == STOPPED || (tried && !free))
-        return 1;
-    if (good && !method->stiff && free && run->choice.stability > method->unstable) {
+    if (good && !method->stiff && run->choice.stability > method->unstable) {
         count_rejected(run);
         if (run->choice.automatic && !now->given_up)
             change_method(run);
@@ -305,20 +318,20 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
             now->h *= method->bounded / run->choice.stability;
         return again(run);
     }
-    if (good && free && STRIDE_SLACK * stride(run, step, p) < now->h) {
+    if (good && STRIDE_SLACK * stride(run, step, p) < now->h) {
         now->again = 1;
         count_rejected(run);
         now->h *= SHRINK_STRIDE;
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
-    if (good && free && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < SHORTENED) {
+    if (good && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < SHORTENED) {
         now->again = 1;
         count_rejected(run);
         now->h *= SHRINK_UNRESOLVED;
         return again(run);
     }
-    const double pulse = good && free && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
+    const double pulse = good && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
     if (pulse > 0.0 && now->shortened++ < SHORTENED) {
         now->again = 1;
         count_rejected(run);
@@ -358,6 +371,9 @@ static int try_step(Run *run, const Parameters *p, Step *step)
         ;
     return status;
 }
+
+/* A step came to where it was to end. */
+static void come_to_end(Run *run) { run->control.on_grid += 1.0; }
 
 static void close_attempt(Run *run) { run->control.attempt.open = 0; }
 

@@ -91,7 +91,7 @@ static double energy_scale(const Run *run, const Parameters *p)
     return sum;
 }
 
-#if N_CORNERS
+#if DRIVE_IMPULSES
 /*
  * Sides of all corners as they are at `ahead`, right behind this time; the one that was just crossed keeps its own,
  * unless it hangs on others that change.

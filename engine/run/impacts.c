@@ -43,15 +43,6 @@ static double stride(const Run *run, const Step *step, const Parameters *p)
     return least;
 }
 
-/* The closed contact whose force is used up, or pulls; -1: none. */
-static int used_up(const Run *run)
-{
-    for (int i = 0; i < N_CLEARANCES; i++)
-        if (!gives(i) && run->memory.latch[i].closed && contact_margin(&run->memory, &run->aside, i) <= 0.0)
-            return i;
-    return -1;
-}
-
 static int answer_here(Run *run, const Parameters *p, Answer *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
@@ -265,7 +256,6 @@ static inline int what_ends(const Run *run, int otherwise, const Parameters *p)
     return (void)run, (void)p, otherwise;
 }
 
-static inline int used_up(const Run *run) { return (void)run, -1; }
 
 static inline int meet(Run *run, int event, const Parameters *p)
 {

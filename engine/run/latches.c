@@ -1,6 +1,5 @@
 /*
- * Contacts of joints with play: onsets and separations from gap and approach at both ends of a step, their list, their
- * peaks. Together with both/watch.h this file owns Contacts (run.h).
+ * Contacts of joints with play: their onsets and separations, their list, their peaks. Together with both/watch.h this file owns Contacts (run.h).
  */
 
 #define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* of the clearance: each blow of surfaces that do not give has an impulse */
@@ -11,33 +10,11 @@ static double shallow(const Parameters *p, int k)
     return gives(k) ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : -SHALLOW_RIGID * radial_clearance(p, k);
 }
 
-/* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */
-static double crossing(double d0, double r0, double d1, double r1, double h, double *rate)
+/* Inner states of the laws of a joint, whose contact begins or ends: none is left. */
+static void relax(Run *run, int i)
 {
-    double low = 0.0, high = 1.0, s = 0.5;
-    for (int i = 0; i < 60; i++) {
-        s = 0.5 * (low + high);
-        const double u = 1.0 - s;
-        const double d = u * u * (1.0 + 2.0 * s) * d0 + s * u * u * h * r0 + s * s * (3.0 - 2.0 * s) * d1
-            - s * s * u * h * r1;
-        if ((d >= 0.0) == (d1 >= 0.0))
-            high = s;
-        else
-            low = s;
-    }
-    *rate = 6.0 * s * (1.0 - s) * (d1 - d0) / h + (1.0 - s) * (1.0 - 3.0 * s) * r0 + s * (3.0 * s - 2.0) * r1;
-    return s;
-}
-
-/* Inner states of the laws of a joint: what they gathered at these rates within h. */
-static void bend(Run *run, int i, double h, const Clearance *now)
-{
-#if LAW_STATES
     for (int k = 0; k < LAW_STATES; k++)
-        run->y[FIRST_STATE + i * LAW_STATES + k] = h > 0.0 ? h * now->state_rate[k] : 0.0;
-#else
-    (void)run, (void)i, (void)h, (void)now;
-#endif
+        run->y[FIRST_STATE + i * LAW_STATES + k] = 0.0;
 }
 
 /* Begin the contact of joint i that lasts from time t on. */
@@ -110,27 +87,6 @@ static inline void raise_eccentricity(Run *run, int i, double e)
 
 static inline void set_rising(Run *run, int i, int rises) { run->contacts.rising[i] = rises; }
 
-/* List a contact that begins and ends inside a step, with the eccentricity e. */
-static void list_graze(Run *run, const Impact *graze, double e)
-{
-    run->contacts.onsets++;
-    raise_eccentricity(run, graze->joint, e);
-    raise_force(run, graze->joint, graze->t_peak, graze->F_peak);
-    list_contact(run, graze);
-}
-
-/* Move the begin of the contact that lasts in joint i, or the end of the last one of a joint that is free. */
-static void move_contact(Run *run, int i, double t)
-{
-    const int closed = run->memory.latch[i].closed;
-    *(closed ? &run->contacts.open[i].t_on : &run->contacts.open[i].t_off) = t;
-    for (int k = run->contacts.n_impacts - 1; !closed && k >= 0; k--)
-        if (run->contacts.impacts[k].joint == i) {
-            run->contacts.impacts[k].t_off = t;
-            break;
-        }
-}
-
 /* Onset: remember the impact velocity, not below its floor. */
 static void close_joint(Run *run, int i, double t, double deltadot, double floor)
 {
@@ -138,7 +94,7 @@ static void close_joint(Run *run, int i, double t, double deltadot, double floor
     run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
     run->contacts.compressing[i] = 1;
     run->contacts.rising[i] = 1;
-    bend(run, i, 0.0, &run->aside.clearance[i]);
+    relax(run, i);
     run->contacts.onsets++;
     begin_contact(run, i, t, run->memory.latch[i].deltadot_minus);
 }
@@ -147,9 +103,9 @@ static void close_joint(Run *run, int i, double t, double deltadot, double floor
 static void open_joint(Run *run, int i, double t)
 {
     run->memory.latch[i].closed = 0;
-    bend(run, i, 0.0, &run->aside.clearance[i]);
+    relax(run, i);
     run->contacts.open[i].t_off = t;
-    list_contact(run, &run->contacts.open[i]); /* it is full only where friction cuts a step in parts */
+    list_contact(run, &run->contacts.open[i]);
 }
 
 /* Close, or open, rigid joint i. */
@@ -173,34 +129,25 @@ static inline int turn_contact(Run *run, int i, int closes)
     return list_contact(run, &run->contacts.open[i]);
 }
 
-/* Free, impact, contact from gap and approach at both ends of a step; 1 if any joint changed. */
-static int update_latches(Run *run, double t, double h, const Clearance *before, const Clearance *after,
-    const unsigned char *touched, const Parameters *p)
+/*
+ * Contacts of a run that begins, from gaps and rates: at least as fast as surfaces move (begin_in_contact). A journal
+ * that leaves zero is free, whatever its penetration is rounded to. Whether any joint changed.
+ */
+static int begin_latches(Run *run, const Parameters *p)
 {
     int changed = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double d0 = before[i].delta, d1 = after[i].delta;
-        double rate;
-        if (!gives(i)) { /* these begin and end where they are located (impacts.c) */
-            run->contacts.grazes += !run->memory.latch[i].closed && touched[i] && d1 < 0.0;
+        const Clearance *now = &run->aside.clearance[i];
+        const int closed = run->memory.latch[i].closed;
+        const int touches = now->delta >= 0.0 && (now->delta > -shallow(p, i) || now->deltadot > 0.0);
+        if (!gives(i)) /* these begin and end where they are located (impacts.c) */
             continue;
-        }
-        /* a journal that leaves zero is free, whatever its penetration is rounded to */
-        const int touches = d1 >= 0.0 && (d1 > -shallow(p, i) || after[i].deltadot > 0.0);
-        if (!run->memory.latch[i].closed && touches) {
-            const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
-            /* a run that begins in contact: at least as fast as its surfaces move (begin_in_contact) */
-            close_joint(run, i, t + s * h, d0 < 0.0 ? rate : fabs(before[i].deltadot), slowest_impact(p, i));
-            bend(run, i, (1.0 - s) * h, &after[i]);
-            changed = 1;
-        } else if (run->memory.latch[i].closed && d1 < 0.0) {
-            open_joint(run, i, t + h * crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate));
-            changed = 1;
-        } else if (!run->memory.latch[i].closed && touched[i]) {
-            run->contacts.grazes++; /* in and out again within one step */
-            bend(run, i, 0.0, &after[i]);
-        }
-        note_turn(run, i, after[i].deltadot);
+        if (!closed && touches)
+            close_joint(run, i, run->t, fabs(now->deltadot), slowest_impact(p, i));
+        else if (closed && now->delta < 0.0)
+            open_joint(run, i, run->t);
+        changed |= closed != run->memory.latch[i].closed;
+        note_turn(run, i, now->deltadot);
     }
     return changed;
 }

@@ -142,6 +142,15 @@ static void rigid_peak(Run *run, Step *step, double share, int i, double before,
 }
 #endif
 
+/* Place in (0, 1) and height of the top of the cubic through (d0, r0) and (d1, r1), slopes r0 > 0 > r1. */
+static double cubic_top(double d0, double r0, double d1, double r1, double *height)
+{
+    const double b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
+    const double s = r0 / (sqrt(b * b - 3.0 * c * r0) - b);
+    *height = d0 + s * (r0 + s * (b + s * c));
+    return s;
+}
+
 /* The largest eccentricity of joint i inside a step up to `share`, where it turns round in it. */
 static void outermost(Run *run, Step *step, double share, int i, const Parameters *p)
 {

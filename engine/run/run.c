@@ -203,12 +203,11 @@ static void begin_in_contact(Run *run, int i, const Parameters *p)
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
 static int begin(Run *run, const Parameters *p)
 {
-    const unsigned char touched[AT_LEAST_ONE(N_CLEARANCES)] = {0};
     int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     if (!status)
         status = begin_friction(run, p);
     const Memory known = run->memory;
-    if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p)) {
+    if (!status && begin_latches(run, p)) {
         for (int i = 0; i < N_CLEARANCES; i++)
             if (run->memory.latch[i].closed && !known.latch[i].closed && run->aside.clearance[i].delta > 0.0)
                 begin_in_contact(run, i, p);

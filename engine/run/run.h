@@ -8,15 +8,9 @@
 #include "audit.h"
 #include "../scene/events.h"
 
-/* Parts of a step of rk4, in which a rigid contact may bounce again and again; contacts that a step may list. */
-#if N_RIGID
-enum { MAX_PARTS = 200, LISTED_BY_STEP = MAX_PARTS + N_CLEARANCES };
-#else
-enum { MAX_PARTS = 50, LISTED_BY_STEP = N_CLEARANCES };
-#endif
 enum {
     /* what the lists of a run hold: they are full from MAX_LISTED on, and one more step finds its place */
-    LISTED_IMPACTS = N_CLEARANCES ? MAX_LISTED + LISTED_BY_STEP : 1,
+    LISTED_IMPACTS = N_CLEARANCES ? MAX_LISTED + 2 * N_CLEARANCES : 1,
     LISTED_EVENTS = N_USER_EVENTS ? MAX_LISTED + 3 * N_USER_EVENTS : 1
 };
 
@@ -46,7 +40,7 @@ enum {
     N_DENSE = 7,
 #endif
     N_STAGES = 16, N_LOOKS = 16,
-    BY_RODAS5P = 1, BY_RADAU5, BY_RADAU9, KINDS, /* which stiff method a step is made by; 0: none */
+    BY_DOP853, BY_RK4, BY_RODAS5P, BY_RADAU5, BY_RADAU9, KINDS, /* the methods that lanes know, those of stages last */
     FAILED = -1, /* an interpolant that could not be made */
     HERE = 1, ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
 };
@@ -101,13 +95,13 @@ typedef struct {
 
 /*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
- * run, how far from zero its times are, the last one that was refused, its error and that of its films' forces; whether
- * by the stiff method, whether one was refused, how often it did not resolve something, or ended far from its rows,
+ * run, how far from zero its times are, the last one that was refused, its error and that of its films' forces, where a
+ * fixed one ends; by which method, whether one was refused, how often it did not resolve something, or ended far from its rows,
  * whether both methods were given up.
  */
 typedef struct {
-    double h, longest, left, far, refused, error, of_films;
-    int open, stiff, again, shortened, strayed, given_up;
+    double h, longest, left, far, refused, error, of_films, end;
+    int open, lane, again, shortened, strayed, given_up;
 } Attempt;
 
 /* Where samples go: their times, their rows, and how many are stored. */
@@ -215,6 +209,7 @@ typedef struct {
 typedef struct {
     Attempt attempt;
     double fixed, accept; /* the length of all steps, s, 0: they are chosen; the largest error of an accepted one */
+    double grid, on_grid; /* where fixed steps began, s; how many came to their ends */
     double last_step; /* s, up to an event where one ended it */
     double h, h_stiff, error_before, steep;
     double too_long, too_long_until; /* the last length refused for its error, s; the time to which it would have led */
@@ -284,7 +279,7 @@ typedef struct {
 /*
  * The integrator: parts, of which each is written by the files alone that its struct's head comment names
  * (tests/engine/test_owners.py), and what all files may change.
- * State: t, y, dy, aside, memory, ready, began, from, step.
+ * State: t, y, dy, aside, memory, ready, began, step.
  */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
@@ -310,7 +305,6 @@ typedef struct {
     int ready;
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
-    Beginning from; /* of rk4's step, where samples lie within it */
     Step step;
     Audit audit;
 } Run;

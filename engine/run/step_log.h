@@ -19,7 +19,6 @@ static inline void count_step(Run *run, int stiff)
     run->counts.steps++;
     run->counts.stiff_steps += stiff;
 }
-static inline void take_back_step(Run *run) { run->counts.steps--; }
 static inline void count_rejected(Run *run) { run->counts.rejected++; }
 static inline void count_jacobian(Run *run) { run->counts.jacobians++; }
 static inline void count_switch(Run *run) { run->counts.switches++; }

@@ -5,7 +5,7 @@
 enum {
     TAPE_ROW = N_TAPE_HEAD + N_S + AT_LEAST_ONE(N_MEMORY) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
     TAPE_PARTS = 4,             /* of a step of a method that chooses it */
-    TAPE_SPARE = 4 * MAX_PARTS  /* rows that a step needs at most */
+    TAPE_SPARE = 4 * TAPE_PARTS /* rows that a step needs at most */
 };
 #define BESIDE 1e-9 /* of a step, that a place right beside a jump is away from it */
 

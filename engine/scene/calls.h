@@ -54,8 +54,6 @@ size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
 void gudgeon_run_tape(void *memory, double *rows, long capacity);
 long gudgeon_run_taped(void *memory);
-int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
-    double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
 void gudgeon_run_stop(void *memory, int stop);
 int gudgeon_run_full(const void *memory);
@@ -76,13 +74,13 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
  */
 typedef struct {
     long samples, numbers, limit;         /* rows of a place; steps after which a call returns */
-    int choice, automatic, stop;          /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
+    int choice, automatic, stop;          /* of gudgeon_adaptive_setup; whether events end a run */
     int audit;                            /* level: AuditLevel */
-    int fixed;                            /* whether methods that choose their step take a given one */
+    int fixed;                            /* whether steps are given */
     double *t;
     long apart, *wanted, *place;          /* times of run i: wanted[i] of them from t + i * apart; 0: those of all */
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *least;         /* rk4's and given steps; tolerances as gudgeon_adaptive_setup takes them */
+    double *step, *scale, *least;         /* given steps; tolerances as gudgeon_adaptive_setup takes them */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
     double *remembered;                   /* latches, modes, inner states at the start, as in a sample */

@@ -134,15 +134,13 @@ int drives_jump(double t, const double *q, const double *v, const Parameters *p)
 void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
     double *nu);
 
-#if N_TERMS || N_CORNERS || KNOWN_BOUNDS
+#if N_TERMS || KNOWN_BOUNDS
 #include "../watch/ranges.h"
 
-/* What is watched along a step; bounds over ranges of time and state: of it, of drives' corners, of terms of time. */
+/* What is watched along a step; bounds over ranges of time and state: of it, of terms of time. */
 void watched_functions(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     Aside *aside);
 void watched_ranges(Range t, const Range *q, const Range *v, const Memory *memory, const Parameters *p, Range *out);
-void drive_corners(double t, const Parameters *p, double *out);
-void drive_corner_ranges(Range t, const Parameters *p, Range *out);
 void time_terms(Range t, const Parameters *p, Range *out);
 #endif
 

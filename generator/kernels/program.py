@@ -23,11 +23,11 @@ from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import WATCHED, Jumps, TimeTerms, jumps_of, time_terms, watched_kernel
+from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, time_terms, watched_kernel
 from gudgeon.generator.kernels.kinematic import kinematic_kernels
 from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
 from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
-from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
+from gudgeon.generator.kernels.reduced import is_rescued, motion_kernels, reduced_kernels
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
 from gudgeon.generator.kernels.taylor import taylor_series
@@ -48,7 +48,6 @@ class Integrated:
     angles: tuple[int, ...]
     reduced: bool
     watched: Kernel | None  # of what is watched, if it hangs on no forces (event_functions.py)
-    jumps: Jumps | None  # where a drive's rate may jump
     pivots: tuple[str, ...]  # rows that a status of motion() counts through
     chain: Chain | None = None
 
@@ -197,7 +196,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     tree, in_tree = _tree(model, kkt.pivots) if not full else (None, None)
     watched = watched_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
-    plain = Integrated(system, kkt, angles, False, watched, jumps_of(dynamics, model), kkt.pivots)
+    plain = Integrated(system, kkt, angles, False, watched, kkt.pivots)
     integrated = in_tree or plain
     program = Program(
         model, "full" if full else "reduced", kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree,
@@ -224,8 +223,7 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
         pivots = (*pivots, *(row.name for row in system.chain.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)
     watched = next((kernel for kernel in plain if kernel.name == WATCHED), None)
-    jumps = next((jumps_of(kernel, model) for kernel in plain if kernel.name == DYNAMICS), None)
-    return tree, Integrated(system, kkt, angles, True, watched, jumps, pivots, system.chain)
+    return tree, Integrated(system, kkt, angles, True, watched, pivots, system.chain)
 
 
 def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:

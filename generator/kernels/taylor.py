@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from gudgeon.errors import BadValueError
+from gudgeon.generator.equations.notes import jumping_drives
 from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
 from gudgeon.generator.ir.series import Linear, Series, series_of
 from gudgeon.generator.ir.series_rules import NoSeries
@@ -46,7 +47,7 @@ def _series(program: Program) -> Series:
         raise NoSeries("drives lead a chain of bodies through a loop of its own")
     if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
         raise NoSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
-    if program.integrated.jumps:
+    if jumping_drives(model):
         raise NoSeries("the rate of a drive may jump")
     return _of_motion(tree.system)
 

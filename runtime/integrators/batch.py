@@ -35,7 +35,7 @@ from gudgeon.contract.boundary import (
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes
 from gudgeon.integrators.failure import INTERRUPTED, audit_failure, failure
-from gudgeon.integrators.lanes import Flow, Lanes
+from gudgeon.integrators.lanes import Flow
 from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.stored import StoredRuns
 from gudgeon.integrators.threads import in_threads
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 Drive: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
-CHUNK, CHUNK_RK4 = 4_000, 20_000  # steps of one call of C, which asks Python on its way (asking.py)
+CHUNK = 4_000  # steps of one call of C, which asks Python on its way (asking.py)
 TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
 
 
@@ -69,12 +69,11 @@ class Runs(StoredRuns):
         self.stop, self.audit = stop, audit
         self.over: Callable[[Sequence[int]], None] | None = None  # takes what is wanted of runs that are over
         n, N = len(p), times.most
-        beside = side_by_side and not drive and lanes.wanted(compiled, method, step)
+        beside = side_by_side and not drive and lanes.wanted(compiled, method, n)
         if beside:
             compiled.lib.best()  # whose functions are called from within lanes, for all runs
-        self.lanes = Lanes(compiled) if beside and method == "rk4" else None
-        self.flow = Flow(compiled) if beside and method != "rk4" else None
-        self.abreast = max((each.count for each in (self.lanes, self.flow) if each), default=1)
+        self.flow = Flow(compiled) if beside else None
+        self.abreast = self.flow.count if self.flow else 1
         if self.flow and shared:
             self.abreast = min(self.abreast, max(lanes.ALWAYS, TOGETHER // N))
         spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
@@ -87,8 +86,8 @@ class Runs(StoredRuns):
 
     def _struct(self) -> Any:
         """The arrays as C has them, with those that C alone fills."""
-        compiled, n, explicit, x = self.compiled, self.n, self.method == "rk4", self.arrays
-        scale, least = np.zeros((2, 1)) if explicit else adaptive.tolerances(compiled, x["p"], self.rtol)
+        compiled, n, x = self.compiled, self.n, self.arrays
+        scale, least = adaptive.tolerances(compiled, x["p"], self.rtol)
         x |= {
             "t": self.times.t, "wanted": self.times.count, "scale": scale, "least": least,
             "size": mechanism_sizes(compiled.source, x["p"]), "checked": np.zeros(n, np.int_),
@@ -99,8 +98,8 @@ class Runs(StoredRuns):
         self.arrays = {name: np.ascontiguousarray(array) for name, array in x.items()}
         struct = compiled.ffi.new("Batch *")
         struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, x["p"].shape[1]
-        struct.limit = CHUNK_RK4 if explicit else CHUNK
-        struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(compiled, self.method, self.rtol)
+        struct.limit = CHUNK
+        struct.choice, struct.automatic = adaptive.choice_of(compiled, self.method, self.rtol)
         struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"][0]), self.stop, self.audit
         kinds = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
         for name, array in self.arrays.items():
@@ -109,7 +108,7 @@ class Runs(StoredRuns):
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        none = dict.fromkeys(("struct", "lanes", "flow", "over", "drive", "fetched"))
+        none = dict.fromkeys(("struct", "flow", "over", "drive", "fetched"))
         return self.__dict__ | none | {"looks": ()}
 
     def let_go(self) -> None:

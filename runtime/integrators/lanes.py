@@ -1,8 +1,7 @@
 """Runs of a batch side by side in vector registers (engine/batch/lanes.h): a lane each.
 
-With rk4 runs of the same step and times go together from start to end, as far as they do; what is then not over goes on
-alone, from where it is. With a method that chooses its step each run has its own, and a lane whose run is over takes
-the next one. Each kind has a library of its own, compiled when a batch first asks for it.
+Each run has steps of its own, and a lane whose run is over takes the next one. The library is compiled when a batch
+first asks for it.
 """
 
 from __future__ import annotations
@@ -24,61 +23,36 @@ from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
 from gudgeon.contract.methods import SMOOTH
 from gudgeon.loading.compiler import is_there
 from gudgeon.model.arrays import address
-from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.compiled import CompiledModel
 from gudgeon.waiting.programs import until
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
     from gudgeon.integrators.steps import Tape
-    from gudgeon.integrators.times import Times
 
 NONE = -1  # in place of the number of a run
-LEAST, FEW = 2, 16  # runs that are worth a vector: of rk4, of methods that choose their step
+FEW = 16  # runs that are worth a vector
 MOST, ALWAYS = 32, 8  # runs that may be under way side by side, several a lane; those that are, however many samples
 WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled
-HELD = "held_lanes.c"  # for methods that choose their step
 _later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
 
 
-_held: WeakKeyDictionary[CompiledModel, Lanes] = WeakKeyDictionary()  # for methods that choose their step
+_made: WeakKeyDictionary[CompiledModel, Lanes] = WeakKeyDictionary()
 _making = Lock()
 
 
 class Lanes:
     """The library of a scene's runs side by side; `count` of them."""
 
-    def __init__(self, compiled: CompiledModel, held: bool = False) -> None:
+    def __init__(self, compiled: CompiledModel) -> None:
         from gudgeon.loading.build import compile_kernels
 
-        library = compile_kernels(_source(compiled, held), portable=compiled.portable)
+        library = compile_kernels(_source(compiled), portable=compiled.portable)
         self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
         self.single = self.ffi.cast("void *", int(single))
-
-    def groups(self, numbers: list[int], steps: Array, times: Times) -> list[list[int]]:
-        """Runs that go side by side: neighbours with the same step and times."""
-        groups: list[list[int]] = []
-        for i in numbers:
-            first = groups[-1][0] if groups and len(groups[-1]) < self.count else i
-            if first != i and steps[first] == steps[i] and times.same(first, i):
-                groups[-1].append(i)
-            else:
-                groups.append([i])
-        return groups
-
-    def together(self, runs: Runs, group: list[int], memories: NDArray[np.uint8]) -> None:
-        """Moves these runs on, each in a row of `memories`, until none goes on with others."""
-        arguments, rows, number = self._arguments(runs, memories)
-        number[0 : len(group)] = group
-        goes_on = True
-        while goes_on and not runs.stopping:
-            before = list(number)
-            goes_on = bool(self.lib.gudgeon_lanes(*arguments, number))
-            for k, i in enumerate(group):
-                if before[k] != NONE:
-                    _fetch(runs, i, rows[k])
 
     def flow(
         self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
@@ -125,22 +99,22 @@ class Lanes:
 
 
 class Flow:
-    """The lanes of a batch by a method that chooses its step, from when on they are worth it."""
+    """The lanes of a batch, from when on they are worth it."""
 
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.count, self.later = compiled, MOST, _later.get()
-        self.lanes = _held.get(compiled)
+        self.lanes = _made.get(compiled)
         if self.lanes is None and (not WORTH or _is_compiled(compiled)):
-            self.lanes = _held_lanes(compiled)
+            self.lanes = _lanes_of(compiled)
         self.began = time.perf_counter()
 
     def begins(self, runs: Runs) -> Lanes | None:
         """The lanes, if what is left is worth them; one thread compiles, the others go on meanwhile."""
-        self.lanes = self.lanes or _held.get(self.compiled)  # another batch may have made them
+        self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
         if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
             try:
                 with until(lambda: runs.stopping):
-                    self.lanes = self.lanes or _held_lanes(self.compiled)
+                    self.lanes = self.lanes or _lanes_of(self.compiled)
             except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
                 return None
             finally:
@@ -162,9 +136,9 @@ def followed_by(runs: int) -> Iterator[None]:
         _later.reset(token)
 
 
-def _held_lanes(compiled: CompiledModel) -> Lanes:
+def _lanes_of(compiled: CompiledModel) -> Lanes:
     """Once a library, for all its batches."""
-    return _held.setdefault(compiled, _held.get(compiled) or Lanes(compiled, held=True))
+    return _made.setdefault(compiled, _made.get(compiled) or Lanes(compiled))
 
 
 def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
@@ -177,21 +151,17 @@ def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
         yield from (i for i in portion if runs.arrays["phase"][i] == NEW)
 
 
-def _source(compiled: CompiledModel, held: bool) -> KernelSource:
+def _source(compiled: CompiledModel) -> KernelSource:
     """What the library is compiled from."""
     from gudgeon.loading.engine import lane_declarations
 
-    source = replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
-    if not held:
-        return source
-    text = f'#define HELD 1\n#include "{source.lanes}"\n'
-    return replace(source, main=HELD, files={**source.files, HELD: text})
+    return replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
 
 
 def _is_compiled(compiled: CompiledModel) -> bool:
     from gudgeon.loading.build import is_compiled
 
-    return is_compiled(_source(compiled, True), portable=compiled.portable)
+    return is_compiled(_source(compiled), portable=compiled.portable)
 
 
 def _fetch(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
@@ -205,8 +175,7 @@ def _fetch(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
     runs.fetch(i, run, over)
 
 
-def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:
-    """Whether a batch has runs that may go side by side: what has Taylor's method has lanes for no other."""
-    together = bool((steps[1:] == steps[:-1]).any()) if method == "rk4" else len(steps) >= FEW
+def wanted(compiled: CompiledModel, method: str, runs: int) -> bool:
+    """Whether runs may go side by side: what has Taylor's method has lanes for no other."""
     fits = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
-    return together and fits and is_there()
+    return runs >= FEW and fits and is_there()

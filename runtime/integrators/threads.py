@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections import deque
 from collections.abc import Callable
@@ -10,9 +9,8 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gudgeon.integrators.lanes import LEAST, NEW, OVER, numbers_of
+from gudgeon.integrators.lanes import NEW, OVER, numbers_of
 from gudgeon.integrators.steps import Tape
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -45,7 +43,6 @@ def wait_for(
 def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
     """All wanted runs, to their ends. Ctrl-C ends them where they are."""
     portion = max(1, min(PORTION, len(wanted) // (8 * runs.threads)))
-    portion = math.ceil(portion / runs.abreast) * runs.abreast if runs.lanes else portion
     portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
@@ -80,20 +77,11 @@ def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
             portion = portions.popleft()
         except IndexError:  # another thread was quicker
             return
-        if runs.lanes is None and runs.over is None and isinstance(portion, range):
+        if runs.over is None and isinstance(portion, range):
             runs.alone(portion.start, portion.stop, memories[0], tape)
             continue
-        new = [i for i in portion if runs.arrays["phase"][i] == NEW]
-        steps = runs.arrays["step"]
-        for group in runs.lanes.groups(new, steps, runs.times) if runs.lanes else [[i] for i in new]:
-            _group(runs, group, memories, place, tape)
-
-
-def _group(runs: Runs, group: list[int], memories: NDArray[np.uint8], place: int, tape: Tape | None) -> None:
-    """Runs that go side by side as far as they do, and then each to its end."""
-    if runs.shared:
-        runs.arrays["place"][group] = place + np.arange(len(group))
-    if runs.lanes and len(group) >= LEAST and not runs.stopping:
-        runs.lanes.together(runs, group, memories)
-    for k, i in enumerate(group):
-        runs.to_its_end(i, memories[k], tape)
+        for i in portion:
+            if runs.arrays["phase"][i] == NEW:
+                if runs.shared:
+                    runs.arrays["place"][i] = place
+                runs.to_its_end(i, memories[0], tape)

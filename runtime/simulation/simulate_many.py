@@ -71,8 +71,7 @@ def simulate_many(
     series = _kept(source, keep)
     chosen = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    beside = chosen != "rk4" or not names  # its lanes show nobody their steps
-    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side and beside, series, names, against, level)
+    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
     p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
     bad |= starts.bad | starts.unfit(p, bad)
     times = each.times(p, starts.t, bad)

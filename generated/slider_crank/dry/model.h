@@ -34,7 +34,7 @@
 #define N_FACTORS 4         /* of their factors L and U */
 #define IMPLICIT_STAGES 0   /* 1: there are methods that find their stages together */
 #define HAS_LANES 1         /* runs go side by side */
-#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define DRIVE_IMPULSES 0    /* drives' rates may jump, and something is free to move */
 #define RATE_JUMPS 0        /* the rate of some drive may jump */
 #define N_WATCHED 0         /* corners of expressions, and events */
 #define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */

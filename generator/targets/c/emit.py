@@ -163,15 +163,12 @@ def _linearized(program: Program) -> str:
 
 def _bounded(program: Program, watched: Kernel | None) -> bool:
     """Whether any bounds are known."""
-    return bool(program.terms.kernel or watched or (program.integrates and program.integrated.jumps))
+    return bool(program.terms.kernel or watched)
 
 
 def _watched(program: Program, watched: Kernel | None) -> str:
-    """Bounds over ranges of time and state: of terms of time, corners of drives, what is watched."""
-    jumps = program.integrated.jumps if program.integrates else None
-    kernels = [program.terms.kernel, watched, jumps.ranges if jumps else None]
-    values = functions.kernel(jumps.values) + "\n" if jumps else ""
-    return values + "\n".join(ranges_printer.kernel(kernel) for kernel in kernels if kernel)
+    """Bounds over ranges of time and state: of terms of time, of what is watched."""
+    return "\n".join(ranges_printer.kernel(kernel) for kernel in (program.terms.kernel, watched) if kernel)
 
 
 def render(name: str, /, **values: Any) -> str:

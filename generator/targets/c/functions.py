@@ -46,7 +46,7 @@ CALLED_BY_ENGINE = frozenset({
     "closure_rates", "reduced_project", "closing_step", "linearize", "newton_factor", "newton_substitute",
     "newton_solve", "newton_factor_complex", "newton_solve_complex", "chain_directions", "chain_step",
     "chain_rates", "chain_third", "chain_corners", "close_step", "arrive", "project", "watched_functions",
-    "watched_ranges", "time_terms", "drive_corners", "drive_corner_ranges",
+    "watched_ranges", "time_terms",
 })  # fmt: skip
 
 _NUMBERS = {Number.REAL: "double", Number.INTEGER: "int", Number.BYTE: "unsigned char"}

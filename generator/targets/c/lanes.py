@@ -12,7 +12,6 @@ from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import curves_code
-from gudgeon.generator.targets.c.model_header import deepest
 from gudgeon.generator.targets.c.newton import STATE, own_axes
 from gudgeon.generator.targets.c.play import braced, call_of_film, calls_of_dry
 
@@ -51,14 +50,8 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
         methods = _newton(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
     return {MAIN: render(
-        "lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, methods=methods,
-        curves=curves,
+        "lanes.c.jinja", parameters=parameters, kernels=text, methods=methods, curves=curves,
     )}  # fmt: skip
-
-
-def _deepest(model: Model) -> list[str]:
-    """As model.h has it."""
-    return [lanes_printer.expression(in_place(model, deepest(clearance))) for clearance in model.clearances]
 
 
 def _pin(pin: Pin, render: Render, states: int) -> str:

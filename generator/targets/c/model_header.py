@@ -11,7 +11,7 @@ import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
 from gudgeon.generator.equations.model import SIGNS, Model, apart_rows
-from gudgeon.generator.equations.notes import has_jumps
+from gudgeon.generator.equations.notes import has_jumps, jumping_drives
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.field import Field
 from gudgeon.generator.format.sections import FILE
@@ -189,9 +189,9 @@ def _of_motion(program: Program) -> Sizes:
 
 
 def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
-    model, jumps = program.model, program.integrated.jumps
+    model = program.model
     sizes: Sizes = {
-        "N_CORNERS": (jumps.count if jumps else 0, "corners of drives, whose rate jumps there"),
+        "DRIVE_IMPULSES": (int(bool(jumping_drives(model))), "drives' rates may jump, and something is free to move"),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
         "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),

@@ -1,0 +1,79 @@
+/*
+ * A step of an explicit Runge-Kutta method with the coefficients of a tableau (methods/runge_kutta.c), its error, and
+ * its interpolant: y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))), of which d0 to d2 make the cubic through both ends
+ * with their rates (C. Hermite, J. reine angew. Math. 84, 1878).
+ */
+enum { MOST_STAGES = 6, RK4_STAGES = 4 };
+
+typedef struct Tableau {
+    int stages, estimates; /* estimates: whether there is an error */
+    double node[MOST_STAGES], a[MOST_STAGES][MOST_STAGES], weight[MOST_STAGES];
+    double error[MOST_STAGES + 1]; /* what the method of lower order has less, of all stages and of the step's end */
+    double between[MOST_STAGES + 1]; /* the interpolant's last term; 0: it is the cubic */
+} Tableau;
+
+/* The classical method of order 4: W. Kutta, Z. Math. Phys. 46 (1901), 435. */
+static const Tableau classical = {.stages = RK4_STAGES, .node = {0.0, 0.5, 0.5, 1.0},
+    .a = {{0.0}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}}, .weight = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}};
+
+static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
+{
+    Real y[N_Y], change = real_of(0.0), way = real_of(0.0), worst = real_of(0.0);
+    AsideOf aside;
+    step->t = run->t, step->h = h, step->dense_ready = 0, step->error = worst;
+    forget_stages(step);
+    for (int i = 0; i < N_Y; i++)
+        step->k[0][i] = run->dy[i];
+    for (int s = 1; s <= of->stages; s++) {
+        const double *const a = s < of->stages ? of->a[s] : of->weight;
+        Real *const to = s < of->stages ? y : step->y;
+        for (int i = 0; i < N_Y; i++) {
+            Real slope = a[0] * step->k[0][i];
+            for (int j = 1; j < s; j++)
+                slope += a[j] * step->k[j][i];
+            to[i] = run->y[i] + h * slope;
+        }
+        if (s == of->stages)
+            break;
+        const int status = rates(run, run->t + of->node[s] * h, y, p, step->k[s], &aside);
+        if (status)
+            return status;
+        note_stage(run, step, &aside, of->node[s]);
+        note_state(step, y);
+    }
+    const int status = finish_step(run, step, p);
+    if (status)
+        return status;
+    for (int i = 0; i < N_Y && of->estimates; i++) {
+        Real slope = of->error[of->stages] * step->dy[i];
+        for (int j = 0; j < of->stages; j++)
+            slope += of->error[j] * step->k[j][i];
+        worst = real_max(real_abs(h * slope) * run->norm.weight[i], worst);
+    }
+    step->error = real_max(step->error, worst);
+    if (is_odd(run, step->error))
+        return NOT_FINITE;
+    if (is_refused(run, step))
+        return 0;
+    for (int i = 0; i < 2 * N_X; i++) { /* rho h, of two states at the step's end: the last stage's and the step's */
+        const Real by = run->norm.weight[i];
+        change = real_max(real_abs(step->dy[i] - step->k[of->stages - 1][i]) * by, change);
+        way = real_max(real_abs(step->y[i] - y[i]) * by, way);
+    }
+    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    return 0;
+}
+
+static void runge_kutta_dense(const RunOf *run, const Tableau *of, StepOf *step)
+{
+    for (int i = 0; i < N_Y; i++) {
+        const Real change = step->y[i] - run->y[i];
+        Real bend = of->between[of->stages] * step->dy[i];
+        for (int j = 0; j < of->stages; j++)
+            bend += of->between[j] * step->k[j][i];
+        step->dense[0][i] = change;
+        step->dense[1][i] = step->h * run->dy[i] - change;
+        step->dense[2][i] = 2.0 * change - step->h * (step->dy[i] + run->dy[i]);
+        step->dense[3][i] = step->h * bend;
+    }
+}

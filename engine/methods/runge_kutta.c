@@ -1,0 +1,31 @@
+/*
+ * Explicit Runge-Kutta methods of which nothing but their coefficients is here: a new one is a Tableau, its source, and
+ * a line of METHODS. The last stage lies at the step's end, at which rates are known once more behind all stages.
+ */
+#include "../both/runge_kutta.h"
+
+static int tableau_try(Run *run, double h, const Parameters *p, Step *step)
+{
+    return runge_kutta_try(run, step->method->tableau, h, p, step);
+}
+
+static int tableau_dense(Run *run, const Parameters *p, Step *step)
+{
+    (void)p;
+    runge_kutta_dense(run, step->method->tableau, step);
+    return 0;
+}
+
+static void tableau_interpolate(const Run *run, const Step *step, double s, double *y)
+{
+    const double u = 1.0 - s;
+    for (int i = 0; i < N_Y; i++)
+        y[i] = run->y[i] + s * (step->dense[0][i] + u * (step->dense[1][i] + s * (step->dense[2][i]
+            + u * step->dense[3][i])));
+}
+
+static const double rk4_heard[] = {0.0, 0.5, 1.0};
+static const Method rk4 = {.name = "rk4", .try = tableau_try, .dense = tableau_dense,
+    .interpolate = tableau_interpolate, .tableau = &classical, .drifts = !TREE, .lane = BY_RK4, .power = 0.25,
+    .unstable = 2.78, .bounded = 2.0, .stages = RK4_STAGES, .degree = 4, .turned = 0xa,
+    .heard = rk4_heard, .n_heard = COUNT_OF(rk4_heard)};
