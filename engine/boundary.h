@@ -55,7 +55,7 @@ enum Capacity { MAX_LISTED = 256 };
 
 /* Report of a run: counts, residuals and ratios, three numbers of each joint with play. */
 enum Count {
-    COUNT_steps, COUNT_right_hand_sides, COUNT_onsets, COUNT_grazes, COUNT_ratio_outside, COUNT_switches,
+    COUNT_steps, COUNT_right_hand_sides, COUNT_onsets, COUNT_ratio_outside, COUNT_switches,
     COUNT_rejected, COUNT_jacobians, COUNT_stiff_steps, N_COUNTS
 };
 enum Residual { RESIDUAL_phi_max, RESIDUAL_phi_dot_max, RESIDUAL_ratio_min, RESIDUAL_ratio_max, N_RESIDUALS };

@@ -180,8 +180,8 @@ static void scatter_trial(const Flow *flow, int k, int method, Run *run)
 #else
 static void scatter_trial(const Flow *flow, int k, int method, Run *run)
 {
-    static const int of[KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_RODAS5P] = RODAS5P_STAGES,
-        [BY_RADAU5] = 3, [BY_RADAU9] = 5};
+    static const int of[KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
+        [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
     const int stages = of[method];
     (void)flow, (void)k;
     run->counts.evaluations += stages - 1;

@@ -188,8 +188,8 @@ static int method_try(LaneRun *run, int method, Lanes h, const LaneParameters *p
     if (method == BY_RADAU9)
         return radau9_try(run, h, p, step);
 #endif
-    if (method == BY_RK4)
-        return runge_kutta_try(run, &classical, h, p, step);
+    if (method == BY_RK4 || method == BY_DOPRI5)
+        return runge_kutta_try(run, method == BY_RK4 ? &classical : &dormand_prince, h, p, step);
     return method == BY_RODAS5P ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
 }
 #endif

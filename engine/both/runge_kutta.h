@@ -3,18 +3,32 @@
  * its interpolant: y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))), of which d0 to d2 make the cubic through both ends
  * with their rates (C. Hermite, J. reine angew. Math. 84, 1878).
  */
-enum { MOST_STAGES = 6, RK4_STAGES = 4 };
+enum { RK4_STAGES = 4, DOPRI5_STAGES = 6, MOST_STAGES = 6 };
 
 typedef struct Tableau {
     int stages, estimates; /* estimates: whether there is an error */
     double node[MOST_STAGES], a[MOST_STAGES][MOST_STAGES], weight[MOST_STAGES];
-    double error[MOST_STAGES + 1]; /* what the method of lower order has less, of all stages and of the step's end */
-    double between[MOST_STAGES + 1]; /* the interpolant's last term; 0: it is the cubic */
+    double error[MOST_STAGES + 1];   /* of all stages and of the step's end: less those of the lower order */
+    double between[MOST_STAGES + 1]; /* d3 / h; 0: the interpolant is the cubic */
 } Tableau;
 
 /* The classical method of order 4: W. Kutta, Z. Math. Phys. 46 (1901), 435. */
 static const Tableau classical = {.stages = RK4_STAGES, .node = {0.0, 0.5, 0.5, 1.0},
     .a = {{0.0}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}}, .weight = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}};
+
+/*
+ * Order 5 with an estimate of order 4: J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980), 19-26. Its
+ * interpolant is of order 4: E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.6, code DOPRI5.
+ */
+static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
+    .node = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0},
+    .a = {{0.0}, {1.0 / 5.0}, {3.0 / 40.0, 9.0 / 40.0}, {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+        {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+        {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0}},
+    .weight = {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+    .error = {71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0},
+    .between = {-12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,
+        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0}};
 
 static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
 {

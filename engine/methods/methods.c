@@ -37,7 +37,7 @@ struct Method {
 #include "runge_kutta.c"
 
 static const Method *const METHODS[] = {
-    &dop853, &rodas5p, &rk4,
+    &dop853, &rodas5p, &rk4, &dopri5,
 #if IMPLICIT_STAGES
     &radau5, &radau9,
 #endif

@@ -58,6 +58,7 @@ static void rodas5p_interpolate(const Run *run, const Step *step, double s, doub
 }
 
 static const Method rodas5p = {.name = "rodas5p", .try = rodas5p_try, .dense = rodas5p_dense,
-    .interpolate = rodas5p_interpolate, .power = 0.2, .stiff = 1, .lane = BY_RODAS5P, .unstable = INFINITY, .bounded = INFINITY,
+    .interpolate = rodas5p_interpolate, .power = 0.2, .stiff = 1, .lane = BY_RODAS5P,
+    .unstable = INFINITY, .bounded = INFINITY,
     .stages = RODAS5P_STAGES, .degree = 4, .turned = 0x2, .heard = rodas5p_heard, .n_heard = COUNT_OF(rodas5p_heard),
     .between = 0.5, .begins = {RODAS5P_BEGINS}, .n_begins = RODAS5P_STAGES, .begins_end = 1.0};

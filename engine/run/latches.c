@@ -1,5 +1,6 @@
 /*
- * Contacts of joints with play: their onsets and separations, their list, their peaks. Together with both/watch.h this file owns Contacts (run.h).
+ * Contacts of joints with play: their onsets and separations, their list, their peaks. Together with both/watch.h this
+ * file owns Contacts (run.h).
  */
 
 #define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* of the clearance: each blow of surfaces that do not give has an impulse */

@@ -48,7 +48,6 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
     counts[COUNT_steps] = run->counts.steps;
     counts[COUNT_right_hand_sides] = run->counts.evaluations;
     counts[COUNT_onsets] = run->contacts.onsets;
-    counts[COUNT_grazes] = run->contacts.grazes;
     counts[COUNT_ratio_outside] = (long)run->contacts.ratio_outside;
     counts[COUNT_switches] = run->counts.switches;
     counts[COUNT_rejected] = run->counts.rejected;

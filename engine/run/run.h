@@ -40,7 +40,8 @@ enum {
     N_DENSE = 7,
 #endif
     N_STAGES = 16, N_LOOKS = 16,
-    BY_DOP853, BY_RK4, BY_RODAS5P, BY_RADAU5, BY_RADAU9, KINDS, /* the methods that lanes know, those of stages last */
+    /* the methods that lanes know; from BY_RODAS5P on they take the Jacobian, from BY_RADAU5 on they find stages */
+    BY_DOP853 = 0, BY_RK4, BY_DOPRI5, BY_RODAS5P, BY_RADAU5, BY_RADAU9, KINDS,
     FAILED = -1, /* an interpolant that could not be made */
     HERE = 1, ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
 };
@@ -96,8 +97,8 @@ typedef struct {
 /*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
  * run, how far from zero its times are, the last one that was refused, its error and that of its films' forces, where a
- * fixed one ends; by which method, whether one was refused, how often it did not resolve something, or ended far from its rows,
- * whether both methods were given up.
+ * fixed one ends; by which method, whether one was refused, how often it did not resolve something, or ended far from
+ * its rows, whether both methods were given up.
  */
 typedef struct {
     double h, longest, left, far, refused, error, of_films, end;
@@ -136,7 +137,7 @@ typedef struct {
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
     Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* after them those that last at the end of the run */
     int n_impacts, open_listed;
-    long onsets, grazes;
+    long onsets;
     double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
 } Contacts;
 

@@ -68,16 +68,14 @@ MAX_LISTED: Final = 256
 COUNT_steps: Final = 0
 COUNT_right_hand_sides: Final = 1
 COUNT_onsets: Final = 2
-COUNT_grazes: Final = 3
-COUNT_ratio_outside: Final = 4
-COUNT_switches: Final = 5
-COUNT_rejected: Final = 6
-COUNT_jacobians: Final = 7
-COUNT_stiff_steps: Final = 8
-N_COUNTS: Final = 9
+COUNT_ratio_outside: Final = 3
+COUNT_switches: Final = 4
+COUNT_rejected: Final = 5
+COUNT_jacobians: Final = 6
+COUNT_stiff_steps: Final = 7
+N_COUNTS: Final = 8
 COUNT_NAMES = (
-    "steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
-    "stiff_steps",
+    "steps", "right_hand_sides", "onsets", "ratio_outside", "switches", "rejected", "jacobians", "stiff_steps",
 )
 
 # enum Residual

@@ -23,6 +23,7 @@ class Method:
 METHODS = (
     Method("rk4", "s", fixed=True),
     Method("dop853", "o"),
+    Method("dopri5", "d"),
     Method("rodas5p", "^", slopes=True),
     Method("radau5", "v", slopes=True, staged=True),
     Method("radau9", ">", slopes=True, staged=True),

@@ -101,7 +101,6 @@ class Counts:
     steps: int
     right_hand_sides: int
     onsets: int = 0
-    grazes: int = 0
     phi_max: float = 0.0
     phi_dot_max: float = 0.0
     ratio_min: float = float("nan")

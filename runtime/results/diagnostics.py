@@ -120,7 +120,6 @@ class Diagnostics:
     steps: int
     right_hand_sides: int
     onsets: int
-    grazes: int
     phi_max: float  # max |Φ| over all accepted steps, m or rad
     phi_dot_max: float  # max |Φ̇|, m/s or rad/s
     energy_residual: float  # max |T + V − T0 − V0 − (W − W0)| over the stored samples, J

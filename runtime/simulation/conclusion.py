@@ -68,7 +68,7 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
         t_end=float(problem.t[-1]) if len(x.t) and x.t[-1] < problem.t[-1] else math.nan,
         rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
         rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
-        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
+        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets,
         phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
         peaks=_peaks(compiled, x), seconds=x.seconds,
@@ -187,11 +187,11 @@ def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Traj
         )
 
 
-def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, grazes: Array, peaks: Array) -> Any:
+def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
     """Of which of n runs `not_held` has something to say, (n,): p (n, ...), peaks (n, n_clearances, 3)."""
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
     least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
-    return (phi_max > APART * size) | (grazes > 0) | (e_max > least * c).any(axis=1)
+    return (phi_max > APART * size) | (e_max > least * c).any(axis=1)
 
 
 def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
@@ -202,8 +202,6 @@ def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Co
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
         )
     yield from _outside(compiled, p, t0, q0, peaks)
-    if counts.grazes:
-        yield f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them"
 
 
 def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:

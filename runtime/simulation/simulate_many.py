@@ -262,7 +262,7 @@ class _Results:
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
         size = mechanism_sizes(source, x["p"])
-        some = may_not_hold(source, x["p"], size, counted["phi_max"], counted["grazes"], peaks) & (x["done"] > 0)
+        some = may_not_hold(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
         found = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
         for i in np.flatnonzero(some).tolist():
             begin, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])

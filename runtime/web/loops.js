@@ -56,7 +56,7 @@ class Session {
         const unknown = memory.numbers(this.width.memory, new Float64Array(this.width.memory).fill(NaN));
         lib.gudgeon_run_start(this.struct, this.p, t[0], first, unknown);
         lib.gudgeon_run_stop(this.struct, 1);
-        if (method !== "rk4") this.setUp(rtol);
+        this.setUp(rtol);
     }
 
     /* Tolerances as runtime/integrators/adaptive.py has them: of coordinates, then of velocities. */
@@ -82,7 +82,6 @@ class Session {
     /* Some steps; the status of C. */
     advance(slice) {
         const samples = [this.t.length, this.times, slice, this.y, this.latched, this.state, this.filled];
-        if (this.method === "rk4") return this.lib.gudgeon_rk4_run(this.struct, this.p, this.step, ...samples);
         return this.lib.gudgeon_adaptive_run(this.struct, this.p, ...samples);
     }
 
@@ -164,13 +163,13 @@ function columns(rows, width, from, count) {
     return found;
 }
 
-/* Adaptive methods and rk4. */
+/* Whatever is integrated in C. */
 function* integrate(sim, asked, memory, run) {
     const session = new Session(sim, asked, memory, run), t_end = asked.t[asked.t.length - 1];
     run.soFar = () => session.take();
     for (let seen = 0; session.done < asked.t.length; seen = session.done) {
         let status = session.advance(asked.slice);
-        const odd = asked.method === "rk4" ? undefined : session.odd(seen), {t} = session.report();
+        const odd = session.odd(seen), {t} = session.report();
         if (odd !== undefined) [status, session.done] = [Boundary.NOT_FINITE, odd];
         if (status === EVENTS_FULL) session.takeLists(0);
         else if (status === ENDED) session.close();

@@ -26,7 +26,7 @@ MODULE = "simulator.wasm"
 CALLED = (
     "prepare", "mass", "phi", "phi_q", "nu", "start_values", "start", "follow", "evaluate", "run_size", "run_start",
     "run_stop", "run_events", "run_impacts", "run_report", "run_sample", "method", "adaptive_setup", "adaptive_run",
-    "rk4_run", "course_size", "course_begin", "course_again", "course_pace", "course_tape", "course_taped",
+    "course_size", "course_begin", "course_again", "course_pace", "course_tape", "course_taped",
     "kinematic", "kinematic_works", "kinematic_events",
 )
 DRIVEN = ("rhs",)  # and where its drives leave no freedom  # fmt: skip

@@ -1,4 +1,4 @@
-"""rk4 where the rate of a drive jumps: a part of the step ends there, with the impulse, its work and its events."""
+"""rk4 where the rate of a drive jumps: a step ends there, with the impulse, its work and its events."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_the_order_is_four_past_a_jump(name: str, formulation: str, tmp_path: Pa
     errors = []
     for step in (5e-3, 2.5e-3, 1.25e-3):
         run = simulation.simulate(1.7, output=2, method="rk4", step=step)
-        assert run.diagnostics.steps == round(1.7 / step)
+        assert 0 < run.diagnostics.steps - round(1.7 / step) < 8  # one more at each corner
         errors.append(np.hypot(*(run[name][-1] - reference[name][-1] for name in ("arm.theta", "arm.omega"))))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert orders.min() > 3.4, (errors, orders)
@@ -76,7 +76,7 @@ def test_many_jumps_in_a_step_with_an_event_at_each(tmp_path: Path) -> None:
     simulation = scene(text, tmp_path)
     run = simulation.simulate(2.0, output=2, method="rk4", step=1.0)
     np.testing.assert_allclose(run.events_of("turn"), np.arange(1, 892) * np.pi / 1400, rtol=0, atol=1e-11)
-    assert run.diagnostics.steps == 2
+    assert run.diagnostics.steps >= 2 + 891
 
 
 @pytest.mark.parametrize("step", [1e-3, 0.1])
@@ -116,7 +116,7 @@ forces: {rub: {dry_friction: [cart.origin, plate.origin], direction: [1, 0], sta
 def test_only_scenes_whose_drives_jump_look_for_it(tmp_path: Path) -> None:
     for value, has in (("2 m/s * t", False), ("smooth_step(t, 0.1 s, 0.3 s) * 1 m", False), ("abs(t)*1 m/s", True)):
         source = scene(SLIDER + ON_SLIDER.format(value), tmp_path).source
-        assert (sizes(source)["N_CORNERS"] > 0) == has == ("drive_corners" in source.files.get("watched.c", ""))
+        assert sizes(source)["DRIVE_IMPULSES"] == has
 
 
 BRANCHES = [(f"{pick}(late, t) * 1 m/s", formulation) for pick in ("min", "max") for formulation in ("reduced", "full")]

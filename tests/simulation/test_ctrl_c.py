@@ -276,9 +276,9 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
             raise KeyboardInterrupt
 
     monkeypatch.setattr(lanes, "WORTH", 1e-9)
-    monkeypatch.setattr(lanes, "_held", WeakKeyDictionary())
+    monkeypatch.setattr(lanes, "_made", WeakKeyDictionary())
     monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
-    monkeypatch.setattr(lanes, "_held_lanes", compiled)
+    monkeypatch.setattr(lanes, "_lanes_of", compiled)
     batch = press.simulate_many({"c": np.full(40, 3e-4)}, 0.01, output=2, rtol=1e-4, threads=1, progress=progress)
     assert batch.interrupted and begun[0].returncode == -signal.SIGKILL
     assert 0 < (batch.samples == 3).sum() < 40

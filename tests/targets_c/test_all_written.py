@@ -48,8 +48,7 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "linearize": {"lin->value": "N_VALUES"}, "newton_factor": {"lin->lu": "N_FACTORS"},
     "newton_factor_complex": {"lin->lu": "2 * N_FACTORS"}, "closing_step": {"dq": "N_X", "dv": "N_X"},
     "close_step": {"step": "N_X", "rates": "N_X"}, "arrive": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
-    "project": {"x": "N_Q"}, "time_terms": {"out": "N_TERMS"}, "drive_corners": {"out": "N_CORNERS"},
-    "drive_corner_ranges": {"out": "N_CORNERS"}, "watched_functions": {"aside->event": "N_USER_EVENTS"},
+    "project": {"x": "N_Q"}, "time_terms": {"out": "N_TERMS"}, "watched_functions": {"aside->event": "N_USER_EVENTS"},
     "watched_ranges": {"out": "N_WATCHED"},
 }  # fmt: skip
 

@@ -92,7 +92,7 @@ def _first(program: Program, names: Collection[str]) -> list[str]:
 
 def _calls(program: Program, names: Collection[str]) -> list[str]:
     """How it is compiled and called."""
-    runs = "`gudgeon_run_start`, then `gudgeon_rk4_run` or `gudgeon_adaptive_run`" if program.integrates else (
+    runs = "`gudgeon_run_start`, `gudgeon_adaptive_setup`, then `gudgeon_adaptive_run`" if program.integrates else (
         "`gudgeon_course_begin`, then `gudgeon_kinematic`"
     )  # fmt: skip
     lanes = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * ("lanes.c" in names)

@@ -27,7 +27,7 @@ COLUMNS = 4  # scenes beside each other in one table
 # of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
 AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
-NEED_A_LEGEND = ("grazes", "δ̇/δ̇⁻ while latched", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
+NEED_A_LEGEND = ("δ̇/δ̇⁻ while latched", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
 @dataclass(frozen=True)
@@ -280,7 +280,6 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("energy turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
         ("trusted until", [_until(d.horizon) for d in every]),
         ("contacts that began", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
-        ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
         ("δ̇/δ̇⁻ while latched", ratio),
         ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
         *_audit_rows(reports),

@@ -31,7 +31,7 @@
 #define N_FACTORS 0
 #define IMPLICIT_STAGES 0
 #define HAS_LANES 0
-#define N_CORNERS 0
+#define DRIVE_IMPULSES 0
 #define RATE_JUMPS 0
 #define N_WATCHED 0
 #define KNOWN_BOUNDS 0

@@ -54,7 +54,9 @@ static void lists(void)
 {
     double numbers[N_IMPACT_COLUMNS * (LISTED_IMPACTS + 1)];
     int joints[LISTED_IMPACTS + 1];
-    list_graze(&run, &(Impact){3.0, 3.5, 1.0, 9.0, 3.25, 0}, 0.75);
+    raise_force(&run, 0, 3.25, 9.0);
+    raise_eccentricity(&run, 0, 0.75);
+    CHECK(!list_contact(&run, &(Impact){3.0, 3.5, 1.0, 9.0, 3.25, 0}));
     CHECK(run.contacts.n_impacts == 2 && run.contacts.F_peak[0] == 9.0 && run.contacts.e_max[0] == 0.75);
     CHECK(gudgeon_run_impacts(&run, 0, 1, numbers, joints) == 1); /* the oldest first */
     CHECK(CLOSE(numbers[IMPACT_t_off], 7.5, 1e-14) && run.contacts.n_impacts == 1);
