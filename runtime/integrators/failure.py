@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +23,6 @@ from gudgeon.contract.boundary import (
     STALLED,
     STOPPED,
     TOO_SMALL,
-    UNBOUNDED,
     PEAK_e_max,
 )
 from gudgeon.contract.kernel_source import KernelSource
@@ -63,7 +63,7 @@ def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end:
     e_max, last = run["peaks"][: len(compiled.source.clearances), PEAK_e_max], run["last"]
     if status == STALLED:
         return _stalled(compiled, run, t_end, e_max)
-    if method == "rk4":  # which looks a step beyond the last state
+    if math.isfinite(step):  # which looks as far beyond the last state
         return _failure(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
     return _failure(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
 
@@ -79,11 +79,10 @@ def _failure(
     if status != STOPPED and (too_large := overflowing(compiled, p, t)):
         return too_large
     q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
-    if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
+    if status in (TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
-    if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
+    if status == TOO_SMALL and (drive := unbounded_drive(compiled, p, t)):
         return _unbounded(drive, t)
-    status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         why = reason(compiled.source, p, t, q, v, ahead)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):

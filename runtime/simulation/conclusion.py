@@ -55,7 +55,7 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
     compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
     worst, turned = balance
     duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
-    if method == "rk4" and duration > 0.0:
+    if math.isfinite(used) and duration > 0.0:
         last = last_step(duration, used)
         used = max(last, min(used, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
@@ -99,10 +99,10 @@ def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tu
 
 def coarse(problem: Problem, worst: float, turned: float) -> tuple[str, ...]:
     """Return a note on a fixed step whose energy does not balance: other methods control the error."""
-    if problem.method != "rk4" or not worst > COARSE * turned:
+    if math.isinf(problem.step) or not worst > COARSE * turned:
         return ()
     return (
-        f"energy balances to {worst:.3g} J of {turned:.3g} J turned over: rk4's step of {problem.step:.3g} s is too"
+        f"energy balances to {worst:.3g} J of {turned:.3g} J turned over: a step of {problem.step:.3g} s is too"
         " long for these forces; compare with a shorter one or with method auto",
     )
 

@@ -11,7 +11,6 @@ const TOLD = {
     [Boundary.LOST]: "a contact was lost: a free journal or corner lies outside its walls",
     [Boundary.OUTSIDE]: "a journal or corner is deeper in its wall than contact laws hold",
     [Boundary.STALLED]: "the run no longer advances",
-    [Boundary.UNBOUNDED]: "the second rate of a drive grows beyond all bounds",
 };
 const KINEMATIC_TOLD = {
     [Boundary.NEWTON_FAILED]: "the linkage cannot follow its drives: Newton's method finds no position there",
