@@ -2,6 +2,7 @@
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
+- `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980; engine/both/runge_kutta.h).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
 - `taylor`: the motion's own series, of an order by the tolerance, for smooth motion (engine/methods/taylor.c).
 - `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4

@@ -197,8 +197,9 @@ class Simulation(Shown):
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else "adaptive",
           "dop853" while steps are bounded by accuracy and a stiff one while stability would (integrators/adaptive.py);
         - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
-        - "dop853", "rodas5p", "radau5", "radau9": explicit of order 8, stiff of 5, 5, 9; `rtol` (1e-8) is the error of
-          a step as a share of the size or, with play, the clearance; with `step` they take it without error control;
+        - "dop853", "dopri5": explicit, of order 8 and 5; "rodas5p", "radau5", "radau9": stiff, of order 5, 5 and 9;
+          `rtol` (1e-8) is the error of a step as a share of the size or, with play, the clearance; with `step` they
+          take it without error control;
         - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
         `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
@@ -279,9 +280,9 @@ class Simulation(Shown):
         `keep`: names of series, ["S9.y", "A.F"], which are then evaluated as soon as a run is over: its states are let
         go, and memory is that of the series alone; of an empty list none is kept, but impacts, events and
         peaks are. A run of which one cannot be evaluated has failed.
-        `side_by_side`: whether runs may share vector registers, several in each thread, with rk4 those of the same
-        step and times; the numbers are the same without, and what that takes is compiled where it is worth it.
-        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. With rk4 such runs do not go side by side.
+        `side_by_side`: whether runs may share vector registers, several in each thread; the numbers are the same
+        without, and what that takes is compiled where it is worth it.
+        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`.
         `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
         Raises InputError for arguments, MemoryError as `simulate`.
         """
