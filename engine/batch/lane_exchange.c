@@ -211,7 +211,7 @@ static void scatter(const Flow *flow, int k, int method)
 #if TAYLOR
     const int counts = 1;
 #else
-    const int counts = flow->step.taken[k] != 0;
+    const int counts = flow->step.taken[k] || method == BY_DOPRI5; /* its error is told at the end */
 #endif
     run->counts.evaluations += counts; /* of a series the end alone may be what refuses it */
     if (!flow->step.taken[k])

@@ -61,6 +61,23 @@ static int seat_one(Flow *flow, int k, int method)
     return flow->seated[k] % LANES == k && wants(flow, flow->seated[k], method);
 }
 
+/* Whether lane k leads a fixed step over an event: its own run does not hold branches there (open_attempt). */
+static int leads_over(const Flow *flow, int k)
+{
+    int some = 0;
+#if !TAYLOR
+    Lanes margins[AT_LEAST_ONE(N_MARGINS)];
+    if (!(flow->run[flow->seated[k]]->control.fixed > 0.0))
+        return 0;
+    note_margins(&flow->x, &flow->step.aside, margins);
+    for (int j = 0; j < N_MARGINS; j++)
+        some |= margins[j][k] < 0.0 || flow->step.lowest[j][k] < 0.0;
+#else
+    (void)flow, (void)k;
+#endif
+    return some;
+}
+
 /* One step of one run in each lane is tried. Returns of how many runs Python is to be told. */
 static int try_together(Flow *flow, int method, int *lists)
 {
@@ -77,7 +94,7 @@ static int try_together(Flow *flow, int method, int *lists)
     for (int k = 0; k < LANES; k++) {
         if (!wanted[k] || quiet[k])
             continue;
-        const int lost = flow->step.lost[k] != 0;
+        const int lost = flow->step.lost[k] || leads_over(flow, k);
         put_down(flow, k);
         if (!lost)
             scatter(flow, k, method);

@@ -78,7 +78,7 @@ static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const Paramete
     return 0;
 }
 
-static void runge_kutta_dense(const RunOf *run, const Tableau *of, StepOf *step)
+static inline void runge_kutta_dense(const RunOf *run, const Tableau *of, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {
         const Real change = step->y[i] - run->y[i];

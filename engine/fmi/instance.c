@@ -54,7 +54,7 @@ static fmi3Status fails(const Model *m, const char *what, int status)
         : status == LOST ? ": a free journal or corner lies outside its walls"
         : status == CHATTERING ? ": contacts, frictions or corners change without end"
         : status == STALLED || status == TOO_SMALL ? ": no step is small enough"
-        : status == NOT_FINITE ? ": it is no longer finite"
+        : status == NOT_FINITE || status == UNBOUNDED ? ": it is no longer finite"
         : status == JAMMED ? ": friction jams a contact" : "";
     if (status)
         snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);

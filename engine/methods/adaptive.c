@@ -134,6 +134,7 @@ static int step_again(Run *run, double h, double t_end, const Parameters *p, Ste
 {
     set_length(run, h);
     open_attempt(run, t_end, p);
+    run->memory.held = 1;
     const int status = accepted_step(run, p, step);
     if (!status)
         *share = first_event(run, step, p, event);
@@ -172,12 +173,12 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
     *share = first_event(run, step, p, event);
     for (int k = 0; k < SHORTENED && !status && free && lacks_dense(run, step, p, out); k++)
         status = step_again(run, 0.25 * step->h, t_end, p, step, share, event);
-    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && free; k++) {
+    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0; k++) {
         const double next = run->control.h, h = longer * *share * step->h;
         if (h <= run->roots.tick)
             break; /* it lies at the step's beginning, where no row is another one */
-        if (!PERIODS && !reaches_far(run, step, *share) && !misses_film_at(run, step, *share, p))
-            break;
+        if (free && !PERIODS && !reaches_far(run, step, *share) && !misses_film_at(run, step, *share, p))
+            break; /* a fixed step ends by the method itself there: its interpolant may be of low order */
         status = step_again(run, h, t_end, p, step, share, event);
         set_length(run, next);
     }
@@ -235,7 +236,9 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     /* what is so near is at the event */
     const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.tick);
     status = sample_step(run, step, t_new - close, p, out);
-    const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (DRIVE_IMPULSES && t_new == t_end);
+    /* the end of a fixed step may lie at the jump of a drive, as that of a run may */
+    const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && share >= 1.0));
+    const int jumps = may_jump || (event >= 0 && event < N_MARGINS - N_USER_EVENTS);
     if (!status)
         status = tape_step(run, step, share, jumps, p);
     defer_stop(&run->cancellation);
@@ -247,10 +250,8 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
         status = commit(run, step, share, t_new, event, p);
     if (!status && event >= 0)
         status = fit_first(run, t_end - run->t, p);
-    if (share >= 1.0)
-        come_to_end(run);
     run->memory.held = 1;
-    if (DRIVE_IMPULSES && !status && run->t == t_end) {
+    if (may_jump && !status) {
         set_phi_dot_max(run, drift); /* which branch a rate has at a jump's own time says nothing */
         status = pass_jumps_here(run, p);
     }

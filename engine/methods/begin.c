@@ -35,7 +35,7 @@ static double fastest_rate(const Run *run, const double *dy)
 }
 
 #define AT_ALL 1e-5   /* 1/s: what is slower does not move */
-#define UNBOUNDED 1e6 /* rates in the time of a run: more may be a drive whose second rate is unbounded at the start */
+#define TOO_FAST 1e6 /* rates in the time of a run: more may be a drive whose second rate is unbounded at the start */
 
 /*
  * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
@@ -47,7 +47,7 @@ static void floor_speeds(Run *run, double left, const Parameters *p)
 {
     double rate = fastest_rate(run, run->dy), dy[N_Y];
     Aside aside;
-    if (rate * left > UNBOUNDED && !rates(run, run->t + left / UNBOUNDED, run->y, p, dy, &aside))
+    if (rate * left > TOO_FAST && !rates(run, run->t + left / TOO_FAST, run->y, p, dy, &aside))
         rate = min_of(rate, fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);

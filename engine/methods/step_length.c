@@ -255,22 +255,35 @@ static double below_refused(const Run *run, double h)
 
 /*
  * What a fixed step has left to the next end of the grid that begins with the run, *end: an event in between does not
- * move it.
+ * move it. One that is taken again, to end close behind an event, is as long as control.h has it.
  */
 static double up_to_grid(Run *run, double t_end, double *end)
 {
+    StepControl *control = &run->control;
     double h;
-    *end = step_end(run->control.grid, t_end, run->control.fixed, run->control.on_grid + 1.0, &h);
-    return *end - run->t < h * SAME_LENGTH ? *end - run->t : h;
+    for (;; control->on_grid += 1.0) {
+        *end = step_end(control->grid, t_end, control->fixed, control->on_grid + 1.0, &h);
+        if (*end > run->t || *end == t_end)
+            break;
+    }
+    h = *end - run->t < h * SAME_LENGTH ? *end - run->t : h;
+    if (control->h >= h)
+        return h;
+    *end = run->t + control->h;
+    return control->h;
 }
 
-/* How long a step towards t_end is tried at first. */
+/*
+ * How long a step towards t_end is tried at first. What a fixed one leads over is at each stage as the state there says:
+ * no error tells that branches which are held beyond their ends grow without bounds, as the force of a film does.
+ */
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
         h = up_to_grid(run, t_end, &end);
+        run->memory.held = 0;
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.pace) : run->control.h;
         h = within_flight(run, up_to_parting(run, min_of(below_refused(run, h), stride(run, NULL, p))), p);
@@ -297,8 +310,13 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 {
     const Method *method = step->method;
     Attempt *now = &run->control.attempt;
+    const int fixed = run->control.fixed > 0.0;
     *status = tried;
-    if (tried == STOPPED || run->control.fixed > 0.0)
+    if (N_SWITCHES > 0 && fixed && tried == NOT_FINITE && run->memory.held) {
+        run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+        return again(run);
+    }
+    if (tried == STOPPED || fixed)
         return 1;
     const int fits = !tried && step->error <= run->control.accept;
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
@@ -371,9 +389,6 @@ static int try_step(Run *run, const Parameters *p, Step *step)
         ;
     return status;
 }
-
-/* A step came to where it was to end. */
-static void come_to_end(Run *run) { run->control.on_grid += 1.0; }
 
 static void close_attempt(Run *run) { run->control.attempt.open = 0; }
 

@@ -74,6 +74,8 @@ static void check_closed(Run *run)
 static void check_rows(Run *run, double t, const double *all, int rates_too, const Parameters *p)
 {
     Audit *audit = &run->audit;
+    if (drifts(run))
+        return;
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
     double far[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
     const double rtol = audit_tolerance(run), size = size_of(run);

@@ -116,10 +116,37 @@ static int settle_beyond(Run *run, double ahead, int crossed, const Parameters *
     return 0;
 }
 
+/*
+ * Whether what a drive prescribes has no bounded second rate on a side of the present time, as (t - t0)^1.5 has none at
+ * t0: from there to `apart` s beside it accelerations change far more than from there to twice as far, while the state
+ * is the same.
+ */
+static int is_unbounded(Run *run, double apart, const Parameters *p)
+{
+    const double way[3] = {1e-5 * apart, apart, 2.0 * apart};
+    Memory free = run->memory;
+    double dy[3][N_Y], most = 0.0;
+    Aside aside;
+    int some = 0;
+    free.held = 0;
+    for (int i = 0; i < 3; i++)
+        if (motion(run->t + way[i], run->y, &free, p, dy[i], &aside))
+            return 0;
+    for (int k = N_X; k < 2 * N_X; k++)
+        most = max_of(most, fabs(dy[1][k]));
+    for (int k = N_X; k < 2 * N_X; k++)
+        some |= !(fabs(dy[0][k] - dy[1][k]) <= 20.0 * fabs(dy[1][k] - dy[2][k]) + 1e-9 * most);
+    return some;
+}
+
 /* What the corner of a drive changes, and all others that lie at the same time: first sides, then velocities. */
 static int change_drives(Run *run, int corner, const Parameters *p)
 {
     const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.tick);
+    /* other methods come near in short steps; a corner is located to a few ticks */
+    const double apart = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.tick);
+    if (run->control.fixed > 0.0 && (is_unbounded(run, -apart, p) || is_unbounded(run, apart, p)))
+        return UNBOUNDED;
     int status = settle_beyond(run, ahead, corner, p);
     if (status)
         return status;

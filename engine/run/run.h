@@ -210,7 +210,7 @@ typedef struct {
 typedef struct {
     Attempt attempt;
     double fixed, accept; /* the length of all steps, s, 0: they are chosen; the largest error of an accepted one */
-    double grid, on_grid; /* where fixed steps began, s; how many came to their ends */
+    double grid, on_grid; /* where fixed steps began, s; how many ends of their grid are passed */
     double last_step; /* s, up to an event where one ended it */
     double h, h_stiff, error_before, steep;
     double too_long, too_long_until; /* the last length refused for its error, s; the time to which it would have led */

@@ -33,7 +33,8 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     step->harm = INFINITY;
     for (int k = 0; k < N_SWITCHES; k++) {
         const int margin_of = N_CLEARANCES + k;
-        const int may_pass = k == run->roots.skip || (meets[k] && watched_as[margin_of] < 0);
+        const int law = meets[k] && watched_as[margin_of] < 0 && run->control.fixed <= 0.0;
+        const int may_pass = law || k == run->roots.skip; /* a fixed step knows no tolerance of what does harm */
         step->passed[k] = may_pass && margin(&run->memory, &step->aside, margin_of) < 0.0;
         crossed |= step->passed[k];
     }

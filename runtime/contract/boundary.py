@@ -9,6 +9,7 @@ SHALLOW: Final = 1e-13
 AUDITED: Final = -15
 NOT_FOUND: Final = -14
 JAMMED: Final = -13
+UNBOUNDED: Final = -12
 STALLED: Final = -11
 STOPPED: Final = -10
 NOT_CLOSED: Final = -9

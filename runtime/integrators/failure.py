@@ -23,6 +23,7 @@ from gudgeon.contract.boundary import (
     STALLED,
     STOPPED,
     TOO_SMALL,
+    UNBOUNDED,
     PEAK_e_max,
 )
 from gudgeon.contract.kernel_source import KernelSource
@@ -79,10 +80,11 @@ def _failure(
     if status != STOPPED and (too_large := overflowing(compiled, p, t)):
         return too_large
     q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
-    if status in (TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
+    if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
-    if status == TOO_SMALL and (drive := unbounded_drive(compiled, p, t)):
+    if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
         return _unbounded(drive, t)
+    status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         why = reason(compiled.source, p, t, q, v, ahead)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):

@@ -60,8 +60,8 @@ def audit_samples(
         left_out.add("body")
     if source.massless or source.indeterminate:
         left_out |= {"power", "torque"}
-    if problem.method == "rk4":  # in absolute coordinates rows drift; between steps lies a cubic
-        left_out |= {"rows", "rates"} | ({"power", "body"} if source.formulation == "full" else set())
+    if problem.method == "rk4" and source.formulation == "full":  # its rows drift
+        left_out |= {"rows", "rates", "power", "body"}
     return (*found, *(one for one in _balances(compiled, problem, x, size, evaluation) if one.check not in left_out))
 
 

@@ -1,5 +1,6 @@
 /* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */
 const Boundary = {
+    UNBOUNDED: -12,
     STALLED: -11,
     OUTSIDE: -8,
     ENDED: -7,

@@ -8,6 +8,7 @@ const TOLD = {
     [Boundary.NOT_FINITE]: "the motion is no longer finite",
     [Boundary.CHATTERING]: "a friction or a corner of the forces changes its side without end",
     [Boundary.TOO_SMALL]: "no step is small enough",
+    [Boundary.UNBOUNDED]: "the second rate of a drive grows beyond all bounds",
     [Boundary.LOST]: "a contact was lost: a free journal or corner lies outside its walls",
     [Boundary.OUTSIDE]: "a journal or corner is deeper in its wall than contact laws hold",
     [Boundary.STALLED]: "the run no longer advances",

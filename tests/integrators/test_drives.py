@@ -267,7 +267,7 @@ UNBOUNDED = [(value, step) for step in (1e-3, 1.1e-3) for value in (
 @pytest.mark.parametrize(("value", "step"), slow_rows_but([UNBOUNDED[1], UNBOUNDED[7]], UNBOUNDED))
 def test_rk4_steps_over_no_unbounded_second_rate(value: str, step: float, tmp_path: Path) -> None:
     """It was told to take smaller steps."""
-    with pytest.raises(SolverError, match=r"beyond t = 0\.5 s: the second rate of drive d grows beyond all bounds"):
+    with pytest.raises(SolverError, match=r"second rate of drive d (grows beyond all bounds|is -inf at t = 0\.5 s)"):
         driven(PAIR, value, tmp_path).simulate(1.0, output=10, method="rk4", step=step)
 
 

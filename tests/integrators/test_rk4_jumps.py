@@ -63,7 +63,7 @@ def test_the_order_is_four_past_a_jump(name: str, formulation: str, tmp_path: Pa
     errors = []
     for step in (5e-3, 2.5e-3, 1.25e-3):
         run = simulation.simulate(1.7, output=2, method="rk4", step=step)
-        assert 0 < run.diagnostics.steps - round(1.7 / step) < 8  # one more at each corner
+        assert 0 <= run.diagnostics.steps - round(1.7 / step) < 8  # one more at each corner
         errors.append(np.hypot(*(run[name][-1] - reference[name][-1] for name in ("arm.theta", "arm.omega"))))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert orders.min() > 3.4, (errors, orders)

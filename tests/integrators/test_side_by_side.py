@@ -1,4 +1,4 @@
-"""Runs of rk4 side by side in vector registers: bit for bit what each is alone, whatever happens in other lanes."""
+"""Runs side by side in vector registers: each bit for bit as alone, whatever others do meanwhile."""
 
 from __future__ import annotations
 
@@ -10,9 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import GudgeonError
-from gudgeon.integrators import lanes
-from gudgeon.integrators.batch import Runs
-from gudgeon.integrators.times import Times
+from gudgeon.integrators import lanes, steps
 from gudgeon.results.batch import Batch
 from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
@@ -20,7 +18,7 @@ from tests.slow import slow_but
 
 pytestmark = needs_compiler
 HERE = Path(__file__).parent.parent / "mechanisms"
-COUNT = 11  # divisible by no number of lanes
+COUNT = lanes.MOST + 3  # more than are under way at once, divisible by no number of lanes
 # mechanism, scene, column (address, from, to), end and step in s
 Case = tuple[str | Path, str, tuple[str, float, float], float, float]
 EVERY_KIND = HERE / "valid" / "every_kind.yaml"
@@ -42,24 +40,30 @@ APART = [case for case in CASES if case[0] in ("nine_bar_press", "pendulum", EVE
 
 
 class Seen:
-    """What went side by side: groups, and of them the runs that came to the last sample there."""
+    """Runs that lanes have taken."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.groups: list[list[int]] = []
-        self.arrived: list[int] = []
-        plain = lanes.Lanes.together
+        self.taken: list[int] = []
+        plain = lanes.numbers_of
 
-        def together(own: lanes.Lanes, runs: Runs, group: list[int], memories: np.ndarray) -> None:
-            plain(own, runs, group, memories)
-            self.groups.append(group)
-            self.arrived += [i for i in group if runs.arrays["done"][i] == runs.times.count[i]]
+        def numbers_of(*arguments: Any) -> Any:
+            for i in plain(*arguments):
+                self.taken.append(i)
+                yield i
 
-        monkeypatch.setattr(lanes.Lanes, "together", together)
+        monkeypatch.setattr("gudgeon.integrators.threads.numbers_of", numbers_of)
+
+
+@pytest.fixture(autouse=True)
+def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However short a batch is."""
+    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    monkeypatch.setattr(lanes, "FEW", 2)
 
 
 def both(simulation: gudgeon.Simulation, sets: Any, t_end: float, **options: Any) -> tuple[Batch, Batch]:
     """The batch as it is, and with its runs one after the other."""
-    options = {"method": "rk4", "output": 7, **options}
+    options = {"output": 7, "threads": 1, **options}
     return tuple(simulation.simulate_many(sets, t_end, side_by_side=side, **options) for side in (True, False))  # type: ignore[return-value]
 
 
@@ -94,45 +98,179 @@ def without_chain(folder: Path) -> Path:
     return file
 
 
-@pytest.mark.parametrize("case", slow_but(APART[:-2], CASES), ids=[f"{Path(case[0]).stem}-{case[1]}" for case in CASES])
+NAMES = [f"{Path(case[0]).stem}-{case[1]}" for case in CASES]
+ALIKE = [case for case in APART if case[1] == "fast"]  # to a press with play
+
+
+CHOSEN = (("dop853", 1e-6), ("dopri5", 1e-4), ("rodas5p", 1e-5), ("auto", 1e-9))
+STAGED = (("radau5", 1e-5), ("radau9", 1e-7))
+
+
+FALL = """\
+format: gudgeon/1
+name: fall
+gravity: [0, -g]
+parameters: {g: 10 m/s^2}
+bodies: {ball: {mass: 1 kg, inertia: 1 kg*m^2}}
+start: {set: {ball.x: 0, ball.y: 5 m, ball.theta: 0}, rates: {ball.vx: 1 m/s}}
+events: {floor: {zero: ball.y, action: stop}, way: {zero: ball.x - 0.4 m}}
+"""
+
+
+@pytest.mark.parametrize("case", slow_but([case for case in APART if case not in ALIKE], CASES), ids=NAMES)
 def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     mechanism, scene, (address, low, high), t_end, step = case
     if mechanism == EVERY_KIND:
         mechanism = without_chain(tmp_path)
-    seen, simulation = Seen(monkeypatch), gudgeon.load(mechanism, scene=scene)
-    values = np.linspace(low, high, COUNT)
-    batch, singly = both(simulation, {address: values}, t_end, step=step)
-    assert not batch.failures and len({q.tobytes() for q in batch.q}) > 1
-    assert_same_batches(batch, singly)
-    for i in (0, COUNT - 1):
-        alone = simulation.simulate(t_end, output=7, method="rk4", step=step, parameters={address: values[i]})
-        assert_same(batch[i], alone)
-    assert sum(map(len, seen.groups)) >= COUNT - 1
-    if not (simulation.source.events or simulation.source.clearances):  # nothing that could be rare
-        assert set(seen.arrived) >= set(range(COUNT - 1))
+    simulation, values = gudgeon.load(mechanism, scene=scene), np.linspace(low, high, COUNT)
+    asked: list[dict[str, Any]] = [{"method": "rk4", "step": step}]
+    chosen = (*CHOSEN, *(STAGED if simulation.source.stages else ()))
+    asked += [{"method": method, "rtol": rtol} for method, rtol in chosen]
+    for options in asked:
+        seen = Seen(monkeypatch)
+        batch, singly = both(simulation, {address: values}, t_end, **options)
+        assert not batch.failures and len({q.tobytes() for q in batch.q}) > 1
+        assert_same_batches(batch, singly)
+        for name in ("steps", "right_hand_sides", "rejected", "jacobians", "stiff_steps"):
+            assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
+        alone = simulation.simulate(t_end, output=7, **options, parameters={address: values[3]})
+        assert_same(batch[3], alone)
+        assert set(seen.taken) == set(range(COUNT))  # twice where a start is left to Python
 
 
-def test_samples_between_steps_are_those_made_alone() -> None:
-    """Some in every step, in steps with contacts and without: the cubic of each run, whoever made the step."""
+@pytest.mark.parametrize(("threads", "keep"), [(1, ["S9.y", "S9.ay", "B.Fx"]), (3, ["S9.y", "S9.ay"]), (3, ["A.F"])])
+def test_runs_of_all_lengths_with_series_of_their_own(threads: int, keep: list[str]) -> None:
+    """Lanes take the next run where one is over; samples are kept as series alone, so that places are taken again.
+
+    Columns are evaluated for several runs at once, a magnitude (A.F) run by run.
+    """
     press = gudgeon.load("nine_bar_press", "dry")
     sets = {"omega": np.linspace(6.0, 30.0, COUNT)}
-    together, _ = both(press, sets, 0.02, step=2e-5, output=2347)
-    for i in (0, 4, COUNT - 1):
-        alone = press.simulate(0.02, output=2347, method="rk4", step=2e-5, parameters={"omega": sets["omega"][i]})
-        assert (together.q[i] == alone.q).all() and (together.v[i] == alone.v).all()
-        assert (together.work[i] == alone.work).all() and (together.state[i] == alone.state).all()
-    assert sum(map(len, together.impacts)) > COUNT
+    ends = np.linspace(0.002, 0.03, COUNT)[::-1]
+    batches = both(press, sets, ends, threads=threads, rtol=1e-6, output=23, keep=keep)  # type: ignore[arg-type]
+    for name in ("t", *keep):
+        assert batches[0][name].tobytes() == batches[1][name].tobytes(), name
+    assert sum(map(len, batches[0].impacts)) > COUNT
+    assert [x.tobytes() for x in batches[0].impacts] == [x.tobytes() for x in batches[1].impacts]
 
 
-def test_any_number_of_runs_and_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    simulation = gudgeon.load("andrews_squeezer")
-    masses = np.linspace(0.02, 0.06, 17)
-    options: dict[str, Any] = {"step": 1e-5, "output": 3, "method": "rk4"}
-    whole = simulation.simulate_many({"bodies.OF.mass": masses}, 2e-3, side_by_side=False, **options)
-    for n in (1, 2, 3, 4, 5, 7, 8, 9, 16, 17):
-        for threads in (1, 3):
-            batch = simulation.simulate_many({"bodies.OF.mass": masses[:n]}, 2e-3, threads=threads, **options)
-            assert batch.q.tobytes() == whole.q[:n].tobytes() and batch.v.tobytes() == whole.v[:n].tobytes()
+def test_a_given_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No error is looked at then; each run may have a step of its own."""
+    seen, press = Seen(monkeypatch), gudgeon.load("nine_bar_press", "lubricated")
+    steps = np.linspace(1e-4, 2e-4, COUNT)
+    batch, singly = both(press, {"c": np.linspace(3e-4, 8e-4, COUNT)}, 0.01, method="rodas5p", step=steps)
+    assert_same_batches(batch, singly)
+    assert len(seen.taken) == COUNT and not batch.failures
+
+
+OTHERS: list[tuple[str, dict[str, float]]] = [("rodas5p", {}), ("rk4", {"step": 1e-6})]
+MIXED = """
+format: gudgeon/1
+name: mixed
+parameters: {load: 300 N}
+bodies: {journal: {mass: 0.2 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, journal.origin]}}
+forces: {down: {force: journal.origin, value: [0, -load]}}
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bearings: {pin: {radius: 10 mm, clearance: 0.1 mm, length: 20 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  oil:
+    normal: {law: hertz, restitution: 0.7}
+    friction: {law: modified_coulomb, mu: 0.1, v0: 1e-4 m/s, v1: 1e-3 m/s}
+    film: {law: ocvirk, viscosity: 1e-4 Pa*s}
+    mixed: {law: christensen, roughness: 0.5 um}
+scenes: {rough: {play: {A: {bearing: pin, contact: oil}}}}
+start: {play: {A: {e: [0.08 mm, 0], rate: [0.05, -0.8]}}, rates: {journal.omega: 20}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("method", "more"), [("dop853", {}), *(pytest.param(*one, marks=pytest.mark.slow) for one in OTHERS)]
+)
+def test_film_and_metal_that_share_a_load_by_a_law(method: str, more: dict[str, float], tmp_path: Path) -> None:
+    file = tmp_path / "mixed.yaml"
+    file.write_text(MIXED, encoding="utf-8")
+    loads = np.linspace(100.0, 900.0, COUNT)
+    batch, singly = both(gudgeon.load(file, "rough"), {"load": loads}, 0.004, method=method, **more)
+    assert_same_batches(batch, singly)
+    assert sum(map(len, batch.impacts)) > 0 and not batch.failures
+
+
+def test_what_fails_leaves_the_others() -> None:
+    """A journal deep in a soft bearing, numbers that are none, a start that does not close."""
+    press = gudgeon.load("nine_bar_press", scene="dry")
+    sets: list[dict[str, Any]] = [{"omega": 30.0 + 0.1 * k} for k in range(COUNT)]
+    sets[2] |= {"materials.aluminium.E": 1e5}
+    sets[5] |= {"c": -1.0}
+    sets[11] |= {"bodies.L2.length": "5 m"}
+    batch, singly = both(press, sets, 0.05, rtol=1e-6)
+    assert [failure.run for failure in batch.failures] == [2, 5, 11]
+    assert_same_batches(batch, singly)
+
+
+def test_events_are_found_and_end_only_their_own_run(tmp_path: Path) -> None:
+    file = tmp_path / "fall.yaml"
+    file.write_text(FALL, encoding="utf-8")
+    gravity = np.linspace(1.0, 160.0, COUNT)
+    batch, singly = both(gudgeon.load(file), {"g": gravity}, 2.0, method="dop853")
+    assert batch.t_last == pytest.approx(np.minimum(np.sqrt(10.0 / gravity), 2.0), abs=1e-9) and not batch.failures
+    assert_same_batches(batch, singly)
+
+
+def test_ctrl_c_ends_runs_at_whole_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was reached is the beginning of what would have been."""
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    sets = {"c": np.linspace(3e-4, 8e-4, COUNT)}
+    whole = press.simulate_many(sets, 0.1, output=50, rtol=1e-6, threads=1)
+
+    def stop(share: float, _: str) -> None:
+        if share > 0.0:
+            raise KeyboardInterrupt
+
+    part = press.simulate_many(sets, 0.1, output=50, rtol=1e-6, threads=1, progress=stop)
+    assert part.interrupted or not part.failures
+    for i, samples in enumerate(part.samples.tolist()):
+        k = max(samples - 1, 0)  # the last one is where it was stopped
+        assert part.q[i, :k].tobytes() == whole.q[i, :k].tobytes()
+
+
+def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not for what is over in a moment, nor for a few runs; from the middle of a batch on, if that takes its time."""
+    made: list[bool] = []
+    plain = lanes.Lanes.__init__
+
+    def init(own: lanes.Lanes, *arguments: Any, **options: Any) -> None:
+        made.append(True)
+        plain(own, *arguments, **options)
+
+    monkeypatch.setattr(lanes.Lanes, "__init__", init)
+    monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    sets = {"c": np.linspace(3e-4, 8e-4, 4 * COUNT)}
+    monkeypatch.setattr(lanes, "WORTH", 1e9)
+    alone = press.simulate_many(sets, 0.01, output=3, threads=2)
+    press.simulate_many({"c": sets["c"][:1]}, 0.01, output=3, threads=2)
+    assert not made
+    with lanes.followed_by(10**18):  # blocks of a study: what one takes is little, all of them are not
+        gudgeon.load("nine_bar_press", "lubricated").simulate_many(sets, 0.01, output=3, threads=2)
+    assert made == [True]
+    monkeypatch.setattr(lanes, "WORTH", 1e-9)
+    for _ in range(2):  # once a library, whatever batches there are
+        beside = press.simulate_many(sets, 0.01, output=3, threads=2)
+        assert made == [True, True]
+    assert_same_batches(beside, alone)
+
+
+@pytest.mark.parametrize("rows", [pytest.param(4096, marks=pytest.mark.slow), 300])
+def test_peaks_of_all_steps_are_those_of_runs_alone(rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each lane has a tape of its own, which is fetched where the run alone would stop for it: at 100 rows of 300."""
+    monkeypatch.setattr(steps, "ROWS", rows)
+    seen, press = Seen(monkeypatch), gudgeon.load("nine_bar_press", "dry")
+    beside, alone = both(press, {"omega": np.linspace(6.0, 30.0, COUNT)}, 0.02, rtol=1e-6, peaks=["S9.ay", "A.F"])
+    assert {*seen.taken} == {*range(COUNT)} and len({run[0].max for run in beside.extremes}) > COUNT / 2
+    assert beside.extremes == alone.extremes
+    assert_same_batches(beside, alone)
 
 
 def test_a_lane_that_fails_leaves_the_others() -> None:
@@ -141,7 +279,7 @@ def test_a_lane_that_fails_leaves_the_others() -> None:
     clearances: list[float] = [0.8e-3, 0.3e-3, 0.75e-3, -1.0, 0.7e-3, 0.25e-3, 0.8e-3, 0.72e-3, 0.78e-3]
     sets: list[dict[str, float | str]] = [{"c": c} for c in clearances]
     sets[7] |= {"bodies.L2.length": "5 m"}
-    batch, singly = both(simulation, sets, 5e-3, step=1e-4)
+    batch, singly = both(simulation, sets, 5e-3, method="rk4", step=1e-4)
     assert [failure.run for failure in batch.failures] == [1, 3, 5, 7]
     assert_same_batches(batch, singly)
     with pytest.raises(GudgeonError) as alone:
@@ -154,7 +292,7 @@ def test_links_in_line() -> None:
     simulation = gudgeon.load("n_four_bar")
     angles = np.array([1.0, 0.0, 2.0, 1e-3, 0.5, 0.05, 1.5])
     sets = {"start.set.crank0.theta": angles, "start.guess.crank1.theta": angles, "start.guess.crank2.theta": angles}
-    batch, singly = both(simulation, sets, 0.1, step=1e-4)
+    batch, singly = both(simulation, sets, 0.1, method="rk4", step=1e-4)
     assert [failure.run for failure in batch.failures] == [1]
     assert_same_batches(batch, singly)
 
@@ -163,10 +301,10 @@ def test_links_in_line() -> None:
 def test_contacts_through_a_thin_film(least: float, step: float) -> None:
     """Film and contact blended; with the longer step and some of these films runs leave the model."""
     simulation = gudgeon.load("nine_bar_press", scene="lubricated")
-    viscosities = np.linspace(least, 10.0 * least, COUNT)
+    viscosities = np.linspace(least, 10.0 * least, 11)
     sets = {"contacts.oil.film.viscosity": viscosities, "omega": 30.0, "contacts.oil.normal.restitution": 0.6}
-    batch, singly = both(simulation, sets, 0.03, step=step)
-    assert batch.onsets.sum() > 10 and len(batch.failures) < COUNT and (step < 1e-5 or batch.failures)
+    batch, singly = both(simulation, sets, 0.03, method="rk4", step=step)
+    assert batch.onsets.sum() > 10 and len(batch.failures) < 11 and (step < 1e-5 or batch.failures)
     assert_same_batches(batch, singly)
 
 
@@ -181,26 +319,6 @@ def test_a_run_that_leaves_the_model_is_told_as_alone(options: dict[str, Any]) -
     with pytest.raises(GudgeonError) as alone:
         simulation.simulate(0.1, output=7, parameters={"materials.aluminium.E": 1e5, "omega": 30.0}, **options)
     assert str(alone.value) == str(batch.failures[0].error) and "deep" in str(alone.value)
-
-
-FALL = """\
-format: gudgeon/1
-name: fall
-gravity: [0, -g]
-parameters: {g: 10 m/s^2}
-bodies: {ball: {mass: 1 kg, inertia: 1 kg*m^2}}
-start: {set: {ball.x: 0, ball.y: 5 m, ball.theta: 0}, rates: {ball.vx: 1 m/s}}
-events: {floor: {zero: ball.y, action: stop}, way: {zero: ball.x - 0.4 m}}
-"""
-
-
-def test_events_are_found_and_end_only_their_own_run(tmp_path: Path) -> None:
-    file = tmp_path / "fall.yaml"
-    file.write_text(FALL, encoding="utf-8")
-    batch, singly = both(gudgeon.load(file), {"g": [1.0, 10.0, 40.0, 2.0, 160.0]}, 2.0, step=1e-3)
-    assert batch.t_last == pytest.approx([2.0, 1.0, 0.5, 2.0, 0.25], abs=1e-9) and not batch.failures
-    assert [len(events) for events in batch.events] == [1, 2, 2, 1, 1]
-    assert_same_batches(batch, singly)
 
 
 SPIN = """\
@@ -225,34 +343,13 @@ def test_angles_that_the_library_turns_and_corners(tmp_path: Path) -> None:
     sets: list[dict[str, float | str]] = [
         {"torque": float(k), "first": angle} for k, angle in enumerate((0.0, 2e5, 99999.5, 1.0, -1e5, 3.0, 1e4))
     ]
-    batch, singly = both(gudgeon.load(file), sets, 2.0, step=1e-3)
+    batch, singly = both(gudgeon.load(file), sets, 2.0, method="rk4", step=1e-3)
     assert not batch.failures and batch.q[2, -1, 2] > 1e5
     assert_same_batches(batch, singly)
 
 
-def test_only_runs_with_the_same_step_share_a_vector() -> None:
-    own = lanes.Lanes.__new__(lanes.Lanes)
-    own.count = 4
-    steps = np.array([1.0, 1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0])
-    same = Times(np.linspace(0.0, 1.0, 3), np.full(8, 3), np.zeros(8, dtype=np.int_))
-    assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps, same) == [[0, 1], [2, 3, 4, 5], [6], [7]]
-    times = Times.of_runs({k: (np.linspace(0.0, 1.0 + (k == 3), 3), True) for k in range(8)}, 8)
-    assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps, times) == [[0, 1], [2], [3], [4, 5, 6], [7]]
-    assert own.groups([0, 1, 7], steps, same) == [[0, 1, 7]]
-
-
-@pytest.mark.slow
-def test_runs_with_steps_of_their_own_go_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a step rk4 takes one from each film and contact."""
-    seen, simulation = Seen(monkeypatch), gudgeon.load(HERE / "valid" / "slider_crank.yaml", scene="oiled")
-    stiffnesses = {"materials.bronze.E": [50e9, 100e9, 200e9]}
-    batch, singly = both(simulation, stiffnesses, 2e-2)
-    assert not seen.groups and not batch.failures
-    assert_same_batches(batch, singly)
-
-
 def test_nobody_else_pays(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The library of lanes is not even looked for in single runs, with other methods, or where friction may stick."""
+    """The library of lanes is not even looked for in single runs, or where friction may stick."""
 
     def refuse(*_: Any) -> None:
         raise AssertionError("lanes were asked for")
@@ -260,7 +357,6 @@ def test_nobody_else_pays(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lanes.Lanes, "__init__", refuse)
     press, belt = gudgeon.load("nine_bar_press", scene="dry"), gudgeon.load("belt_block")
     press.simulate(1e-3, method="rk4", step=1e-5, output=2)
-    press.simulate_many({"c": [3e-4, 4e-4]}, 1e-3, output=2)
     press.simulate_many({"c": [3e-4]}, 1e-3, method="rk4", step=1e-5, output=2)
     address = belt.source.slots[0].address
     belt.simulate_many({address: [belt.source.slots[0].default] * 3}, 0.01, method="rk4", step=1e-3, output=2)

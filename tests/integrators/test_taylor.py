@@ -23,9 +23,8 @@ from gudgeon.generator.symbols.storage import Key, Place, key_of
 from gudgeon.integrators import lanes
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
-from tests.integrators.test_flow import COUNT, Seen, both
 from tests.integrators.test_methods import digits, observed_order, scene_of
-from tests.integrators.test_side_by_side import assert_same_batches
+from tests.integrators.test_side_by_side import COUNT, Seen, assert_same_batches, both
 from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
 

@@ -48,8 +48,6 @@ int main(void)
 
     /* counters */
     count_step(&run, 1);
-    count_step(&run, 0);
-    take_back_step(&run);
     count_evaluations(&run, 3);
     CHECK(run.counts.steps == 1 && run.counts.stiff_steps == 1 && run.counts.evaluations == 3);
 
