@@ -76,7 +76,7 @@ def test_rest_where_branches_meet_but_for_rounding(method: str, tmp_path: Path) 
     ("push", "order"), [("where(t < T, F, 0 N)", 1), ("F * max(t - T, 0 s) / (1 s)", 2), ("F * max(t - T, 0 s)**2", 3)]
 )
 def test_rk4_at_a_jump_and_at_a_corner_of_a_force(push: str, order: int, tmp_path: Path) -> None:
-    """A step ends there: it did not, and the order was 1 where the force jumps, one more for each rate that does not."""
+    """A step ends there. It did not: the order was 1 where the force jumps, one more for each rate that does not."""
     slug = loader(tmp_path)(SLUG % (push + " / (1 s)**2" * (order == 3)))
     T = np.linspace(0.3, 0.31, 33)[:-1] + 1e-5
     momentum = {1: 20.0 * T, 2: 10.0 * (1.0 - T) ** 2, 3: 20.0 / 3.0 * (1.0 - T) ** 3}[order]
