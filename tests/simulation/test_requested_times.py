@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import BadValueError, SolverError
+from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from gudgeon.simulation.horizon import horizon
@@ -122,6 +122,20 @@ def test_times_that_are_refused(output: list[float], message: str) -> None:
     for call in (simulation.simulate, lambda **given: simulation.simulate_many([{}, {}], **given)):
         with pytest.raises(BadValueError, match=message):
             call(output=output)
+
+
+def test_a_count_and_times_of_other_types() -> None:
+    """An array of no dimension is a count if it is whole; times of single precision end at the t_end they round to."""
+    simulation = scene("slider_crank", "ideal")
+    times = np.linspace(0.0, 0.1, 5, dtype=np.float32)
+    for call in (simulation.simulate, lambda *given, **more: simulation.simulate_many([{}, {}], *given, **more)):
+        assert len(call(0.1, output=np.array(20)).t) == 21
+        for given in (times, list(times), times.astype(np.float16)):
+            assert call(0.1, output=given).t.tolist() == [float(t) for t in given]
+        for t_end, output in ((0.1, np.array(20.0)), (0.1, np.array(True)), (0.1, times.astype(float)),
+                              (0.1 + 1e-7, times), (0.1, [0, 1])):  # fmt: skip
+            with pytest.raises(InputError, match="output"):
+                call(t_end, output=output)
 
 
 def test_a_run_that_an_event_ends(tmp_path: Path) -> None:
