@@ -304,7 +304,8 @@ def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
         mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
         rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= AT_REST))
         lasts = rests[1:] & rests[:-1]
-        if lasts.any():
+        static = run.source.place.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
+        if lasts.any() and static is not None and run.p[static] > 0.0:
             t, count = float(run.t[lasts.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
             found.append(
                 f"friction {name} is at rest by drives or by other friction from t = {t:.9g} s on, in {count}: any"
