@@ -124,6 +124,25 @@ def test_times_that_are_refused(output: list[float], message: str) -> None:
             call(output=output)
 
 
+def test_files_keep_the_given_start(tmp_path: Path) -> None:
+    """The state that runs were given as `start` is read back bit for bit, and is None where there was none."""
+    simulation = scene("nine_bar_press", "dry")
+    first = simulation.simulate(output=[0.002])
+    for start in (first.final, None):
+        run = simulation.simulate(output=[0.003, 0.004], start=start)
+        batch = simulation.simulate_many([{}, {}], output=[0.003, 0.004], start=start)
+        run.save(tmp_path / "run.nc")
+        batch.save(tmp_path / "batch.nc")
+        for found in (Result.load(tmp_path / "run.nc"), Batch.load(tmp_path / "batch.nc")[1]):
+            if start is None:
+                assert found.begun is None
+                continue
+            assert found.begun is not None and found.begun.t == start.t
+            for name in ("q", "v", "state", "memory"):
+                np.testing.assert_array_equal(getattr(found.begun, name), getattr(start, name), name)
+        assert bool(Result.load(tmp_path / "run.nc").check(100))
+
+
 def test_a_count_and_times_of_other_types() -> None:
     """An array of no dimension is a count if it is whole; times of single precision end at the t_end they round to."""
     simulation = scene("slider_crank", "ideal")
