@@ -66,7 +66,8 @@ def _tied(matrix: Array, least: float) -> Array:
 def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Names of rows of Φ and of start.rates that tie each other at q; empty at an ordinary configuration.
 
-    Rows that are redundant everywhere were left out when the scene was derived and do not count.
+    Rows that are redundant everywhere do not count. They were left out when the scene was derived, or tie each other
+    near q, too, as rows of joints with play do that are closed at the start alone.
     """
     source = compiled.source
     redundant = set(left_out(compiled))
@@ -78,8 +79,13 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
     for k, rate in enumerate(source.start_rates):
         body, _, component = rate.partition(".")
         rates[k, source.coordinates.index(f"{body}.{_POSITION[component]}")] = 1.0
-    matrix = np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates])
-    return _tied_rows(compiled, p, matrix, names, DEAD)
+    tied_there = _tied_rows(compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD)
+    if not tied_there:
+        return ()
+    near = configurations(compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t)
+    rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near)
+    at_start, *others = (rank(scaled_rows(compiled, p, matrix), DEAD) for matrix in rows)
+    return () if others and max(others) == at_start else tied_there
 
 
 def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
