@@ -50,6 +50,12 @@ enum AuditCheck {
 /* m: a joint with play has not touched where surfaces overlap by less. */
 #define SHALLOW 1e-13
 
+/* m/s: a slip below it may stick. */
+#define AT_REST 1e-9
+
+/* Mode of a dry_friction element: 0 sticks, -1 and 1 slip, and this one is held at rest by drives or other friction. */
+enum FrictionMode { MODE_HELD = 2 };
+
 /* Events and contacts that the lists of a run hold. */
 enum Capacity { MAX_LISTED = 256 };
 

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import angles, mechanism_size
-from gudgeon.assembly.mobility import SAMPLES, check_freedoms, configurations, find_mobility
-from gudgeon.assembly.rank import RANK, rank, tied
+from gudgeon.assembly.linkage import scaled_rows
+from gudgeon.assembly.mobility import check_freedoms, find_mobility
+from gudgeon.assembly.rank import RANK, SAMPLES, configurations, rank, tied
 from gudgeon.assembly.start import search
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
@@ -35,9 +35,9 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     try:
         with np.errstate(all="ignore"):
             q = search(numeric, numeric.p).q
-            more = SAMPLES if rank(numeric.closed_phi_q(0.0, q, numeric.p)[kept]) < len(kept) else 0
-            near = configurations(numeric, numeric.p, q, kept, more)
-            matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in near]
+            start = scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[kept])
+            near = configurations(numeric, numeric.p, q, kept, SAMPLES if rank(start) < len(kept) else 0)
+            matrices = [scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, x, numeric.p)[kept]) for x in near]
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
         return Redundancy()
@@ -62,11 +62,11 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
     numeric = NumPyLinkage(model, source)
     names = {row.name for row in model.rows}
     kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
-    scale = np.where(angles(source), 1.0, mechanism_size(numeric, numeric.p))
     try:
         near = configurations(numeric, numeric.p, search(numeric, numeric.p).q, kept, SAMPLES)
         heavy = numeric.mass(numeric.p) > 0.0
-        found = [_lightest_motion(numeric.closed_phi_q(0.0, q, numeric.p)[kept] * scale, heavy) for q in near]
+        matrices = [scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[kept]) for q in near]
+        found = [_lightest_motion(matrix, heavy) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
     if all(share <= RANK for share, _ in found):

@@ -63,7 +63,7 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
 #define FILM_FORCE 1e4 /* times rtol: share of a film's force that may be wrong inside a step */
 #define RODAS5P_FILM 3.0 /* times that: its interpolant errs all along the step, those of others between few nodes */
 #define FILM_PART 0.03 /* of the largest acceleration: forces of films that give less are no better known */
-#define FILM_FADED 1e-6 /* of the largest force of a film in a run: the audit asks no more of what is left of it */
+#define FILM_FADED 1e-3 /* of the largest force of a film in a run: the audit measures errors of smaller ones by that */
 #define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least; ten times that of explicit methods, without control */
 
 static double film_limit(const Run *run) { return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }

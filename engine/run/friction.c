@@ -3,15 +3,14 @@
  * and the mode changes. The place is the root of the indicator over the length of a trial step.
  */
 #if N_FRICTIONS
-#define AT_REST 1e-9   /* m/s: a slip below it may stick */
 #define ROUNDING 1e-12 /* m/s: of a slip that others hold at zero */
-enum { HELD = 2, MAX_TRIES = 8 + 4 * N_FRICTIONS };
+enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
 
 /* Positive while friction goes on as it is: what is left of the limit in stick, slip in its direction. */
 static double indicator(const Memory *memory, const Aside *aside, int i)
 {
     const Friction *friction = &aside->friction[i];
-    if (memory->mode[i] == HELD)
+    if (memory->mode[i] == MODE_HELD)
         return AT_REST - fabs(friction->v);
     if (memory->mode[i] == 0.0)
         return friction->static_limit - fabs(friction->force);
@@ -26,7 +25,7 @@ static int rates_of_modes(Run *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
-        run->memory.mode[friction_of_pivot[status - N_LOOPS - 1]] = HELD;
+        run->memory.mode[friction_of_pivot[status - N_LOOPS - 1]] = MODE_HELD;
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     }
     return status;
@@ -37,7 +36,7 @@ static int begin_at_rest(Run *run, const Parameters *p)
 {
     const Memory known = run->memory;
     for (int i = 0; i < N_FRICTIONS; i++)
-        if (run->memory.mode[i] != HELD && fabs(run->aside.friction[i].v) <= AT_REST)
+        if (run->memory.mode[i] != MODE_HELD && fabs(run->aside.friction[i].v) <= AT_REST)
             run->memory.mode[i] = 0.0;
     const int status = rates_of_modes(run, p);
     if (!status)
@@ -62,10 +61,10 @@ static int mend_modes(Run *run)
             wrong = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
             next = friction->force > 0.0 ? -1.0 : 1.0;
         } else if (fabs(friction->v) <= AT_REST && fabs(friction->rate) > AT_REST) {
-            wrong = now == HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
-            next = now != HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
+            wrong = now == MODE_HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
+            next = now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
-        held = now == HELD && wrong == 0.0 ? i : held;
+        held = now == MODE_HELD && wrong == 0.0 ? i : held;
         if (wrong > most) {
             worst = i;
             most = wrong;
@@ -81,7 +80,7 @@ static int mend_modes(Run *run)
 static int settle(Run *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
-        if (run->memory.mode[i] == HELD && fabs(run->aside.friction[i].v) <= AT_REST)
+        if (run->memory.mode[i] == MODE_HELD && fabs(run->aside.friction[i].v) <= AT_REST)
             run->memory.mode[i] = 0.0;
     for (int i = 0; i < MAX_TRIES; i++) {
         const int status = rates_of_modes(run, p);
@@ -103,7 +102,7 @@ static int switch_friction(Run *run, const Parameters *p)
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
             *mode = friction->force > 0.0 ? -1.0 : 1.0;
         else
-            *mode = *mode == HELD ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
+            *mode = *mode == MODE_HELD ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
     }
     const int status = begin_at_rest(run, p);
     return status ? status : settle(run, p);
@@ -141,9 +140,6 @@ static int slip_after_blow(Run *run, const Parameters *p)
 
 #else
 /* No friction that may stick. */
-#define AT_REST 0.0
-enum { HELD = 2 };
-
 static inline double indicator(const Memory *memory, const Aside *aside, int i)
 {
     (void)memory, (void)aside, (void)i;

@@ -26,7 +26,7 @@ static int follows_from_force(const Run *run, int k)
     const int friction = k - N_CLEARANCES - N_SWITCHES;
     if (k < N_CLEARANCES)
         return !gives(k) && run->memory.latch[k].closed;
-    return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != HELD;
+    return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != MODE_HELD;
 }
 
 #if N_FRICTIONS

@@ -48,6 +48,12 @@ def angles(source: KernelSource) -> NDArray[np.bool_]:
     return np.array([name.endswith(".theta") for name in source.coordinates], dtype=bool)
 
 
+def scaled_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
+    """Return rows of Φ_q without units, (m, n): angles count as arcs at the mechanism's size, each row has length 1."""
+    matrix = matrix / np.where(angles(linkage.source), mechanism_size(linkage, p), 1.0)
+    return np.asarray(matrix / (np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300))
+
+
 def arm_of(p: Array, point: PointInfo) -> Array:
     """A point in its body's frame of the centre of mass, or in ground axes, (2,), m."""
     pairs = ((point.x, point.sign_x), (point.y, point.sign_y))

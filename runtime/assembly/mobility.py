@@ -11,13 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.assembly.linkage import Linkage, angles, mechanism_size
-from gudgeon.assembly.rank import RANK
+from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, scaled_rows
+from gudgeon.assembly.rank import RANK, SAMPLES, configurations
 from gudgeon.errors import BadValueError, Location
 from gudgeon.model.compiled import Array
 
-SAMPLES = 3
-REACH = 0.05  # rad, or share of the size: how far from the start the other configurations are
 INDEPENDENT = 1e-6  # of a coordinate's largest motion: what is left of it when others are held
 
 
@@ -52,11 +50,10 @@ def find_mobility(
     linkage: Linkage, p: Array, q: Array, rows: Sequence[int] | None = None, t: float = 0.0
 ) -> Mobility:
     """Of a linkage that is assembled at q (n,); of some of its rows where those of joints with play are left out."""
-    scale = np.where(angles(linkage.source), 1.0, mechanism_size(linkage, p))
     kept = list(range(len(linkage.source.start_rows))) if rows is None else list(rows)
     with np.errstate(all="ignore"):
         near = configurations(linkage, p, q, kept, SAMPLES, t)
-        matrices = [linkage.closed_phi_q(t, x, p)[kept] * scale for x in near]
+        matrices = [scaled_rows(linkage, p, linkage.closed_phi_q(t, x, p)[kept]) for x in near]
     spaces = [_free_motions(matrix) for matrix in matrices if np.isfinite(matrix).all()]
     least = min(reversed(range(len(spaces))), key=lambda k: spaces[k].shape[1])  # not the start, where links may align
     names, free = linkage.source.coordinates, spaces[least]
@@ -70,7 +67,7 @@ def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
     count as arcs at the mechanism's size."""
     scale = np.where(angles(linkage.source), 1.0 / mechanism_size(linkage, p), 1.0)
     with np.errstate(all="ignore"):
-        matrix = linkage.closed_phi_q(t, q, p) * scale
+        matrix = scaled_rows(linkage, p, linkage.closed_phi_q(t, q, p))
     return _free_motions(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
@@ -81,25 +78,6 @@ def check_freedoms(wanted: float, where: Location, found: Mobility) -> None:
         told = f"freedoms is {wanted:g}, but with all joints closed there are {found.freedoms}{along}"
         hint = "look for a joint or a drive that is missing or too many, or correct the number"
         raise BadValueError(told, where, f"expected {found.freedoms}, if that is meant; {hint}")
-
-
-def configurations(
-    linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
-) -> list[Array]:
-    """The start, and `count` configurations near it: a random step along the motion, closed again by Newton's."""
-    if not count:  # NumPy imports its random numbers when they are asked for
-        return [q]
-    rng, found, kept = np.random.default_rng(0), [q], list(rows)
-    for _ in range(count):
-        x = q + REACH * rng.standard_normal(len(q)) * np.linalg.norm(q, np.inf)
-        for _ in range(50):
-            residual = linkage.closed_phi(t, x, p)[kept]
-            if np.abs(residual).max(initial=0.0) < 1e-13:
-                break
-            x = x - np.linalg.lstsq(linkage.closed_phi_q(t, x, p)[kept], residual, rcond=1e-10)[0]
-        if np.abs(linkage.closed_phi(t, x, p)[kept]).max(initial=0.0) < 1e-9:
-            found.append(x)
-    return found
 
 
 def _free_motions(matrix: Array) -> Array:

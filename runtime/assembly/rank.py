@@ -11,19 +11,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gudgeon.assembly.large import LARGE, is_independent, rank_by_rows, tied_shares
-from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, scaled_rows
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import mechanism_sizes
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Problem, Trajectory
 
+SAMPLES = 3
+REACH = 0.05  # rad, or share of the size: how far from the start the other configurations are
 RANK = 1e-9  # singular values below this share of the largest count as zero
 DAMPED = 1e-7  # the least limit that a damped factorization can tell
 DEAD = 1e-6  # singular values below this share count as zero: a double root is found to 1e-8 only
@@ -64,7 +66,8 @@ def _tied(matrix: Array, least: float) -> Array:
 def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Names of rows of Φ and of start.rates that tie each other at q; empty at an ordinary configuration.
 
-    Rows that are redundant everywhere were left out when the scene was derived and do not count.
+    Rows that are redundant everywhere do not count. They were left out when the scene was derived, or tie each other
+    near q, too, as rows of joints with play do that are closed at the start alone.
     """
     source = compiled.source
     redundant = set(left_out(compiled))
@@ -76,8 +79,13 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
     for k, rate in enumerate(source.start_rates):
         body, _, component = rate.partition(".")
         rates[k, source.coordinates.index(f"{body}.{_POSITION[component]}")] = 1.0
-    matrix = np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates])
-    return _tied_rows(compiled, p, matrix, names, DEAD)
+    tied_there = _tied_rows(compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD)
+    if not tied_there:
+        return ()
+    near = configurations(compiled, p, q, [k for k in index if source.start_rows[k].kind != "drive"], SAMPLES, t)
+    rows = (np.concatenate([compiled.closed_phi_q(t, x, p)[index], rates]) for x in near)
+    at_start, *others = (rank(scaled_rows(compiled, p, matrix), DEAD) for matrix in rows)
+    return () if others and max(others) == at_start else tied_there
 
 
 def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
@@ -89,10 +97,31 @@ def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array)
 
 
 def _tied_rows(compiled: CompiledModel, p: Array, matrix: Array, names: list[str], least: float) -> tuple[str, ...]:
-    """Names of the rows that depend on each other, by their geometry alone: angles are measured by the size."""
-    matrix = matrix / np.tile([1.0, 1.0, float(mechanism_sizes(compiled.source, p))], matrix.shape[1] // 3)
-    matrix /= np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300
-    return tuple(name for name, share in zip(names, tied(matrix, least), strict=True) if share > 1e-6)
+    """Names of the rows that depend on each other, by their geometry alone."""
+    shares = tied(scaled_rows(compiled, p, matrix), least)
+    return tuple(name for name, share in zip(names, shares, strict=True) if share > 1e-6)
+
+
+def configurations(
+    linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
+) -> list[Array]:
+    """The start, and `count` configurations near it: a random step along the motion, closed again by Newton's."""
+    if not count:  # NumPy imports its random numbers when they are asked for
+        return [q]
+    rng, found, kept, size = np.random.default_rng(0), [q], list(rows), mechanism_size(linkage, p)
+    scale = np.where(angles(linkage.source), 1.0, size)
+    units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in kept])
+    for _ in range(count):
+        x = q + REACH * rng.standard_normal(len(q)) * scale
+        for _ in range(50):
+            residual = linkage.closed_phi(t, x, p)[kept] / units
+            if np.abs(residual).max(initial=0.0) < 1e-13:
+                break
+            matrix = linkage.closed_phi_q(t, x, p)[kept] * scale / units[:, None]
+            x = x - scale * np.linalg.lstsq(matrix, residual, rcond=1e-10)[0]
+        if np.abs(linkage.closed_phi(t, x, p)[kept] / units).max(initial=0.0) < 1e-9:
+            found.append(x)
+    return found
 
 
 def left_out(compiled: CompiledModel) -> list[int]:
@@ -107,7 +136,8 @@ def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     extra = left_out(compiled)
     if not extra:
         return
-    rows, kept = compiled.closed_phi_q(t, q, p), compiled.phi_q(t, q, p)
+    rows = scaled_rows(compiled, p, compiled.closed_phi_q(t, q, p))
+    kept = scaled_rows(compiled, p, compiled.phi_q(t, q, p))
     if rank(kept) == len(kept) and rank(np.concatenate([kept, rows[extra]])) > len(kept):
         raise AssemblyError(
             f"{_named(compiled, extra)} said nothing new with the file's numbers and"

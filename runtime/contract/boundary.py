@@ -4,6 +4,7 @@ from typing import Final
 
 AUDIT_FAILS: Final = 10.0
 SHALLOW: Final = 1e-13
+AT_REST: Final = 1e-9
 
 # enum Status
 AUDITED: Final = -15
@@ -60,6 +61,9 @@ N_CHECKS: Final = 11
 AUDIT_CHECK_NAMES = (
     "defect", "gap", "free", "position", "velocity", "acceleration", "branch", "event", "force", "rate", "step",
 )
+
+# enum FrictionMode
+MODE_HELD: Final = 2
 
 # enum Capacity
 MAX_LISTED: Final = 256

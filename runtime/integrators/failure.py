@@ -14,6 +14,7 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.rank import nearly_dependent_rows
 from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.boundary import (
+    AT_REST,
     CHATTERING,
     JAMMED,
     LOST,
@@ -48,6 +49,10 @@ NO_NUMBER = "end the run before that, or write it so that it is a number at ever
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
 BOUNDED = "write the drive with powers of 2 and more, or end the run before that; a looser rtol may lead past it"
 GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
+JUMPS = (
+    "a force that jumps with the sign of a speed v may hold v at zero: use a dry_friction element; of one that jumps at"
+    " a speed v1 make the jump smooth: tanh((v - v1) / v0) over a small speed v0"
+)
 SLOWER = "a slower drive can be followed: look at its unit"
 OVERFLOWING = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
 FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad/s or m/s that nothing can follow
@@ -130,10 +135,13 @@ def _chattering(compiled: CompiledModel, t: float) -> SolverError:
             f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
             f"  a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)} closes them earlier", t
         )  # fmt: skip
-    return SolverError(
-        f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"
-        "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
-    )  # fmt: skip
+    source = compiled.source
+    used = f"  dry_friction sticks at a slip below {AT_REST:g} m/s: speeds that small are not resolved"
+    advice = [used] if source.frictions else []
+    if with_corners(source) or not advice:
+        advice.append(f"  {JUMPS}")
+    told = f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s"
+    return SolverError("\n".join([told, *advice]), t)
 
 
 def _singular(
@@ -251,7 +259,6 @@ def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_ma
     kinds = ("a contact begins or ends", f"a force changes its form (a corner{form})",
              "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
     count = "all" if ended[whose] == pace.steps else str(ended[whose])
-    smooth = "or make what acts there smooth: of a jump with the sign of a speed v, tanh(v / v0) over a small speed v0"
     if film:
         why = film
     elif ended[whose] > 0.01 * pace.steps:
@@ -261,8 +268,8 @@ def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_ma
     return SolverError(
         f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gained:.3g} s;"
         f" {pace.left:.3g} s are left, {pace.needed:.1e} steps at this pace\n  {why}\n"
-        "  what was computed is kept: look at its last samples; end the run before,"
-        f" {smooth}; rk4 with a step of its own goes over a jump of a force, with an error", pace.t
+        f"  what was computed is kept: look at its last samples, or end the run before; {JUMPS};"
+        " rk4 with a step of its own goes over a jump of a force, with an error", pace.t
     )  # fmt: skip
 
 

@@ -62,11 +62,15 @@ def output_times(
 
     The times increase from the start t0. Raises BadValueError.
     """
+    if isinstance(output, np.ndarray) and not output.ndim:
+        output = output[()]
     if isinstance(output, (float, np.floating)):
         raise BadValueError(f"output is {told(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
     if output is not None and not isinstance(output, bool) and not is_whole(output):
         times, requested = _given_times(t0, output)
-        _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
+        kind = np.asarray(output).dtype
+        rounding = float(np.finfo(kind).eps) if kind.kind == "f" else 0.0
+        _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]), rounding)
         return times, requested
     end = seconds("t_end", scene_end(source, p) if t_end is None else t_end)
     if not end > t0:
@@ -98,9 +102,9 @@ def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
     return times if requested else np.concatenate([[t0], times]), requested
 
 
-def _check_both(t_end: float | None, last: float) -> None:
-    """BadValueError for a t_end that is not the last of the times that were given, but for rounding."""
-    if t_end is not None and not abs(t_end - last) <= 1e-9 * max(abs(t_end), abs(last)):
+def _check_both(t_end: float | None, last: float, rounding: float) -> None:
+    """BadValueError for a t_end that is not the last of the times that were given, but for their `rounding`."""
+    if t_end is not None and not abs(t_end - last) <= max(1e-9, 0.5 * rounding) * max(abs(t_end), abs(last)):
         hint = "leave out t_end, for the times say when the run ends, or let them end there"
         raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last:.12g} s", hint=hint)
 

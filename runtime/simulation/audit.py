@@ -162,11 +162,14 @@ def _balances(
     off = np.zeros((len(at), len(LIMITS)))
     given = [compiled.pointer(values) for values in (x.t[at], x.q[at], x.v[at], memory, problem.p)]
     compiled.lib.gudgeon_audit_samples(len(at), *given, size, compiled.pointer(off, written=True))
-    limits = LIMITS
+    limits, body = LIMITS, ""
     if problem.audit > 1 or x.counts.right_hand_sides > LONG:
         left = newton_euler(compiled, problem.p, x.q, evaluation, at)
-        off, limits = np.column_stack([off, left]), LIMITS | BODY
+        off, limits = np.column_stack([off, left.max(axis=1)]), LIMITS | BODY
+        body = compiled.source.bodies[int(left.max(axis=0).argmax())].name
     off[~np.isfinite(off)] = 0.0  # those are of another check
     times = x.t[at[off.argmax(axis=0)]].tolist()
     shares = zip(limits.items(), off.max(axis=0).tolist(), times, strict=True)
-    return tuple(Finding(check, worst / limit, t, "") for (check, limit), worst, t in shares)
+    return tuple(
+        Finding(check, worst / limit, t, body if check in BODY else "") for (check, limit), worst, t in shares
+    )

@@ -13,7 +13,7 @@ import numpy as np
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.rank import contradiction, dependent_rows
-from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
+from gudgeon.contract.boundary import AT_REST, MODE_HELD, PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
@@ -45,8 +45,6 @@ MANY = 10_000  # steps of an explicit method, that a stiff film asks for
 THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
-AT_REST = 1e-9  # m/s, of a slip (engine/run/friction.c)
-HELD = 2.0  # the mode of a friction that others hold at rest, the same
 AFTER_CTRL_C = 0.1  # s that the energy balance of an interrupted run may take; without it its residual is NaN
 
 
@@ -302,9 +300,10 @@ def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
     first, found = len(run.source.clearances), list[str]()
     for k, name in enumerate(run.source.frictions):
         mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
-        rests = (mode != 0.0) & ((mode == HELD) | (np.abs(slip) <= AT_REST))
+        rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= AT_REST))
         lasts = rests[1:] & rests[:-1]
-        if lasts.any():
+        static = run.source.place.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
+        if lasts.any() and static is not None and run.p[static] > 0.0:
             t, count = float(run.t[lasts.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
             found.append(
                 f"friction {name} is at rest by drives or by other friction from t = {t:.9g} s on, in {count}: any"

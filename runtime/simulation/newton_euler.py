@@ -114,10 +114,14 @@ def _number(source: KernelSource, address: str) -> Number | None:
 
 
 def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
-    """Return what is left of the equations of bodies at samples `at`, (len(at),), as a share of the largest term."""
+    """Return what is left of the equations of each body at samples `at`, as a share of the largest term.
+
+    Of shape (len(at), n_bodies), 0 for bodies that are left out.
+    """
     table, n = table_of(compiled.source), len(at)
+    worst = np.zeros((n, len(compiled.source.bodies)))
     if not len(table.moved) or not n:
-        return np.zeros(n)
+        return worst
     m = compiled.mass(p)
     inertia = (evaluation.a[at] * m).reshape(n, -1, 3)
     q = q[at].reshape(n, -1, 3)
@@ -130,12 +134,13 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
     for axis, k in table.gravity:
         left[:, :, axis] -= m[::3] * p[k]
     largest = max(np.abs(inertia[:, :, :2]).max(), np.abs(forces).max(initial=0.0), LEAST)
-    worst = np.abs(left[:, table.moved]).max(axis=(1, 2)) / largest
+    worst[:, table.moved] = np.abs(left[:, table.moved]).max(axis=2) / largest
     if len(table.turned):
         moments, longest = _moments(table, p, q, wrenches)
-        off = np.abs(inertia[:, table.turned, 2] - moments.sum(axis=2)).max(axis=1)
-        worst = np.maximum(worst, off / max(np.abs(moments).max(initial=0.0), largest * longest, LEAST))
-    return np.asarray(worst)
+        off = np.abs(inertia[:, table.turned, 2] - moments.sum(axis=2))
+        off /= max(np.abs(moments).max(initial=0.0), largest * longest, LEAST)
+        worst[:, table.turned] = np.maximum(worst[:, table.turned], off)
+    return worst
 
 
 def _wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:

@@ -9,6 +9,7 @@ import pytest
 import gudgeon
 from gudgeon.assembly.rank import dependent_rows
 from tests.programs import needs_compiler
+from tests.scenes import loader
 
 pytestmark = needs_compiler
 TEXT = """
@@ -55,3 +56,27 @@ def test_a_stretched_linkage_is_one_for_all_masses(tmp_path: Path) -> None:
         stretched[[0, 1, 2]], stretched[[3, 4, 5]] = (0.025, 0.0, 0.0), (0.15, 0.0, 0.0)
         stretched[[6, 7, 8]] = (0.25, 0.0, 0.0)
         assert "D" in dependent_rows(driven.compiled, run.p, 0.0, stretched)
+
+
+LIFT = """
+parameters: {mu: 0.3}
+gravity: [0, -9.81]
+materials: {s: {E: 207 GPa, nu: 0.3}}
+bodies: {car: {mass: 2 kg, inertia: 1e-2}, ball: {mass: 0.5 kg, inertia: 1e-4}}
+ground: {O: [0, 0]}
+joints:
+  rail: {translational: [ground.O, car.origin], axis: [0, 1], angle: 0}
+  pen: {revolute: [car.origin, ball.origin]}
+  hold: {translational: [ground.O, ball.origin], axis: [0, 1], angle: 0}
+DRIVES
+bearings: {h: {radius: 30 mm, clearance: 10 mm, length: 10 mm, bearing_material: s, journal_material: s}}
+contacts: {c: {normal: {law: flores, restitution: 0.5}}}
+scenes: {m: {play: {pen: {bearing: h, contact: c}}}}
+"""
+
+
+@pytest.mark.parametrize("drives", ["drives: {m: {coordinate: car.y, value: 0.5 m/s * t}}", ""])
+def test_a_joint_with_play_that_says_the_same_makes_no_dead_centre(drives: str, tmp_path: Path) -> None:
+    """Closed, the pen says again that the ball stays on the line of the car: everywhere, and not at the start alone."""
+    scene = loader(tmp_path)(LIFT.replace("DRIVES", drives), "m")
+    assert not any("dead centre" in note for note in scene.simulate(1e-6, output=1).diagnostics.notes)

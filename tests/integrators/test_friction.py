@@ -158,3 +158,13 @@ def test_friction_of_what_a_drive_holds_at_rest_is_noted(tmp_path: Path) -> None
     assert not [note for note in moving.diagnostics.notes if "rub" in note]
     batch = block.simulate_many([{}], 1.0, output=100)
     assert [note for note in batch[0].diagnostics.notes if "from t = 0 s on" in note]
+
+
+@needs_compiler
+@pytest.mark.parametrize(("limits", "noted"), [("mu*12 N, kinetic: mu*8 N", False), ("0 N, kinetic: 0 N", False),
+                                               ("0 N + 12 N, kinetic: 0 N", True)])  # fmt: skip
+def test_friction_without_a_force_is_determined_at_rest(limits: str, noted: bool, tmp_path: Path) -> None:
+    text = DWELLS.replace("12 N, kinetic: 8 N", limits).replace("bodies:", "parameters: {mu: 1}\nbodies:")
+    (tmp_path / "dwells.yaml").write_text(text, encoding="utf-8")
+    run = gudgeon.load(tmp_path / "dwells.yaml").simulate(1.0, output=100, parameters={"mu": 0.0})
+    assert any("rub" in note for note in run.diagnostics.notes) == noted

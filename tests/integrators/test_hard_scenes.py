@@ -355,3 +355,32 @@ def test_a_fixed_step_that_loses_energy_is_told(tmp_path: Path) -> None:
     coarse = simulation.simulate(0.5, method="rk4", output=200)
     assert any("turned over: rk4's step" in note for note in coarse.diagnostics.notes)
     assert simulation.simulate(0.5, output=200).diagnostics.notes == ()
+
+
+JUMPS = BLOCK.replace("start: {{", "start: {{rates: {{a.vx: {v} m/s}}, ")
+SPRING = "-(100 N/m)*a.x - "
+
+
+@pytest.mark.parametrize("force", ["5 N*sign(a.vx)", "5 N*sign(a.vx - 0.1 m/s)", "where(a.vx > 0.1 m/s, 5 N, 0 N)"])
+def test_a_force_that_jumps_at_a_speed_gets_a_remedy_that_works(load: Load, force: str) -> None:
+    """Such a run ends where the force jumps to and fro; both messages give the remedies for both kinds of a jump."""
+    with pytest.raises(SolverError, match=r"(?s)(without end|no longer advances).*dry_friction.*tanh\(\(v - v1\) / v0"):
+        load(JUMPS.format(x=0.2, v=0, force=SPRING + force)).simulate(3.0, output=10)
+    v1 = "0 m/s" if force.endswith("sign(a.vx)") else "0.1 m/s"
+    smooth = f"5 N*tanh((a.vx - {v1}) / (1 mm/s))"
+    smooth = smooth.replace("*tanh", "/2*(1 + tanh") + ")" if "where" in force else smooth
+    assert load(JUMPS.format(x=0.2, v=0, force=SPRING + smooth)).simulate(3.0, output=10).t[-1] == 3.0
+    rub = f"dry_friction: [ground.o, a.origin], direction: [1, 0], static: 5 N, kinetic: 5 N, speed: {v1}"
+    stuck = JUMPS.format(x=0.2, v=0, force=SPRING + "0 N").replace("0 N, 0]}}", f"0 N, 0]}}, rub: {{{rub}}}}}")
+    assert load(stuck).simulate(3.0, output=10).t[-1] == 3.0
+
+
+def test_a_speed_that_friction_takes_for_rest_is_named(load: Load) -> None:
+    """A belt at the speed below which a slip may stick: the message names that limit, and not the element in use."""
+    rub = "{dry_friction: [ground.o, a.origin], direction: [1, 0], static: 5.886 N, kinetic: 3.924 N, speed: 1e-9 m/s}"
+    spring = "{spring_damper: [ground.o, a.origin], stiffness: 1e10 N/m, free_length: 1 m}"
+    text = BLOCK.format(x=1, force="0 N").replace("mass: 1 kg", "mass: 1e8 kg")
+    text = text.replace("forces: {", f"forces: {{rub: {rub}, spring: {spring}, ")
+    with pytest.raises(SolverError, match="slip below 1e-09 m/s") as caught:
+        load(text).simulate(5.0)
+    assert "use a dry_friction element" not in str(caught.value)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.assembly.mobility import find_mobility
 from gudgeon.errors import AssemblyError, SingularError, SolverError
 from gudgeon.mechanisms import n_four_bar
 from tests.scenes import Load, loader
@@ -259,3 +261,25 @@ def test_many_loops_pass_singular_positions_in_as_many_steps_as_few(formulation:
         assert run.diagnostics.energy_residual < 1e-7  # of 10 (2 n + 1) J
         evaluations.append(run.diagnostics.right_hand_sides)
     assert evaluations[1] < 1.05 * evaluations[0]
+
+
+@pytest.mark.parametrize("length", [1e-12, 1e-9, 1e6])
+def test_ranks_do_not_depend_on_the_unit_of_length(load: Load, length: float) -> None:
+    """A parallelogram with a third crank has one freedom and redundant rows; a four-bar and a slider crank have none.
+
+    Rows of lengths and of angles stand side by side.
+    """
+    third = PARALLELOGRAM.format(**THIRD_CRANK)
+    rest = "start: {set: {a.theta: 50 deg}, guess: {b.theta: 0.1, c.theta: 60 deg}}"
+    open_pin = PARALLELOGRAM.format(bodies="", joints="", rest=rest).replace("p: [2 m", "p: [2.2 m")
+    slider = open_pin.replace("length: 1 m", "length: 1.5 m").replace(
+        "B: {revolute: [b.head, c.head]}\n  P: {revolute: [ground.p, c.tail]}",
+        "B: {revolute: [b.head, c.com]}\n  P: {translational: [ground.o, c.com], axis: [1, 0]}",
+    )  # fmt: skip
+    drive = "\ndrives: {D: {angle: a, value: 50 deg + 1 rad/s * t}}"
+    for text, freedoms, redundant in ((third, 1, 1), (open_pin, 1, 0), (slider, 1, 0), (slider + drive, 0, 0)):
+        text = text.replace(", set: {a.theta: 50 deg}", "") if drive in text else text
+        scene = load(re.sub(r"([\d.]+) m\b(?!/)", lambda found: f"{float(found[1]) * length:.9g} m", text))
+        found = find_mobility(scene.compiled, scene.p, scene.start().q)
+        assert (found.freedoms, found.redundant, found.loose) == (freedoms, redundant, ()), text
+        assert scene.source.degrees_of_freedom == freedoms and bool(scene.source.indeterminate) == bool(redundant)

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import gudgeon
 from gudgeon.loading.shipped import shipped_file
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.reference import check_reference
 from gudgeon.simulation.newton_euler import newton_euler
 from tests.audit_mutants import mutant
@@ -254,3 +257,20 @@ def test_moments_of_forces_without_an_arm(tmp_path: Path) -> None:
         for samples in (1001, 1501):
             run = scene.simulate(0.1, parameters={"omega": f"{speed} rpm"}, output=samples)
             assert max(one.worst for one in run.diagnostics.audit if one.check == "body") < 1e-3
+
+
+@pytest.mark.parametrize("body", ["crank", "rod", "slider"])
+def test_the_check_of_bodies_names_the_body(body: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The acceleration of one body is changed, in a run and in a batch."""
+    scene = gudgeon.load("slider_crank", "ideal")
+    k = [one.name for one in scene.source.bodies].index(body)
+
+    def shifted(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: Any) -> Array:
+        a = evaluation.a + 10.0 * (np.arange(q.shape[1]) == 3 * k)
+        return newton_euler(compiled, p, q, replace(evaluation, a=a), at)
+
+    monkeypatch.setattr("gudgeon.simulation.audit.newton_euler", shifted)
+    with pytest.raises(gudgeon.AuditError, match=f"check body of .* at body {body}"):
+        scene.simulate(0.1, audit="full")
+    with pytest.raises(gudgeon.AuditError, match=f"check body of .* at body {body}"):
+        scene.simulate_many([{}, {}], 0.1, audit="full")[1]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import BadValueError, SolverError
+from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from gudgeon.simulation.horizon import horizon
@@ -122,6 +122,39 @@ def test_times_that_are_refused(output: list[float], message: str) -> None:
     for call in (simulation.simulate, lambda **given: simulation.simulate_many([{}, {}], **given)):
         with pytest.raises(BadValueError, match=message):
             call(output=output)
+
+
+def test_files_keep_the_given_start(tmp_path: Path) -> None:
+    """The state that runs were given as `start` is read back bit for bit, and is None where there was none."""
+    simulation = scene("nine_bar_press", "dry")
+    first = simulation.simulate(output=[0.002])
+    for start in (first.final, None):
+        run = simulation.simulate(output=[0.003, 0.004], start=start)
+        batch = simulation.simulate_many([{}, {}], output=[0.003, 0.004], start=start)
+        run.save(tmp_path / "run.nc")
+        batch.save(tmp_path / "batch.nc")
+        for found in (Result.load(tmp_path / "run.nc"), Batch.load(tmp_path / "batch.nc")[1]):
+            if start is None:
+                assert found.begun is None
+                continue
+            assert found.begun is not None and found.begun.t == start.t
+            for name in ("q", "v", "state", "memory"):
+                np.testing.assert_array_equal(getattr(found.begun, name), getattr(start, name), name)
+        assert bool(Result.load(tmp_path / "run.nc").check(100))
+
+
+def test_a_count_and_times_of_other_types() -> None:
+    """An array of no dimension is a count if it is whole; times of single precision end at the t_end they round to."""
+    simulation = scene("slider_crank", "ideal")
+    times = np.linspace(0.0, 0.1, 5, dtype=np.float32)
+    for call in (simulation.simulate, lambda *given, **more: simulation.simulate_many([{}, {}], *given, **more)):
+        assert len(call(0.1, output=np.array(20)).t) == 21
+        for given in (times, list(times), times.astype(np.float16)):
+            assert call(0.1, output=given).t.tolist() == [float(t) for t in given]
+        for t_end, output in ((0.1, np.array(20.0)), (0.1, np.array(True)), (0.1, times.astype(float)),
+                              (0.1 + 1e-7, times), (0.1, [0, 1])):  # fmt: skip
+            with pytest.raises(InputError, match="output"):
+                call(t_end, output=output)
 
 
 def test_a_run_that_an_event_ends(tmp_path: Path) -> None:

@@ -28,6 +28,7 @@ from gudgeon.results.files.hdf5 import Table, Variable, write
 from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, opened
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT, MOTION, catalogue
+from gudgeon.results.state import State
 
 if TYPE_CHECKING:
     import xarray
@@ -36,6 +37,7 @@ FORMAT = "gudgeon-result/2"
 LONGEST = 200  # characters of the name of an attribute
 SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
 START = "start_row"  # series at the start of a run, where that is not a sample
+GIVEN_START = "given_start"  # the state that a run was given as `start`
 PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
@@ -61,6 +63,7 @@ def tables(run: Result) -> Iterator[Table]:
     """All that a file holds: series over `time` at its root, groups over their own dimensions."""
     yield Table("", "time", tuple(_series(run)), attributes(run))
     yield Table(START, "time", () if run.start_row is None else tuple(_series(run.start_row)), {})
+    yield Table(GIVEN_START, "row", tuple(_given_start(run)), {})
     joints = [joint.name for joint in run.source.clearances]
     yield Table("impacts", "impact", tuple(records(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
@@ -81,6 +84,14 @@ def _series(run: Result) -> Iterator[Variable]:
         if name in older:
             continue
         yield Variable(variable(name), run[name], unit, run.meaning(name))
+
+
+def _given_start(run: Result) -> Iterator[Variable]:
+    """The state as one column; nothing where the run was given none."""
+    if run.begun is not None:
+        parts = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
+        values = np.concatenate([np.asarray(part, dtype=np.float64) for part in parts])
+        yield Variable("value", values, "", "time, coordinates, velocities, contact codes, memory, SI")
 
 
 def _states(run: Result, events: list[str]) -> Iterator[Variable]:
@@ -154,7 +165,7 @@ def attributes(run: Result) -> dict[str, str]:
 
 def variable(name: str) -> str:
     """An output may be called like what else stands at the root; no other name can, for they all have a dot."""
-    return f"output.{name}" if name in ("time", *PARTS, START, COMPILED, PROVENANCE_GROUP) else name
+    return f"output.{name}" if name in ("time", *PARTS, START, GIVEN_START, COMPILED, PROVENANCE_GROUP) else name
 
 
 def import_xarray() -> Any:
@@ -235,6 +246,8 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     if file.has(START):
         run.start_row = start_row(file, run)
         check_times(np.append(run.start_row.t, t[0]))
+    if file.has(GIVEN_START):
+        run.begun = _read_given_start(file, run.final)
     if file.has(STATES):
         run.__dict__["states_at_events"] = states_at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
@@ -405,6 +418,13 @@ def start_row(file: File, run: Result) -> Result:
     for values in stored.values():
         values.flags.writeable = False
     return replace(run, t=t, **samples_of(run.source, stored, 1), trace=None, stored=stored)
+
+
+def _read_given_start(file: File, final: State) -> State:
+    """Return the state that a run was given as `start`, of the scene of its final state."""
+    ends = np.cumsum([1, len(final.q), len(final.v), len(final.state), len(final.memory)])
+    t, q, v, state, memory = np.split(file.numbers(f"{GIVEN_START}/value", int(ends[-1])), ends[:-1])
+    return replace(final, t=float(t[0]), q=q, v=v, state=state.astype(np.int8), memory=memory)
 
 
 def read_provenance(file: File) -> dict[str, str]:

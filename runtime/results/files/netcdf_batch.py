@@ -82,7 +82,7 @@ def tables(batch: Batch) -> Iterator[Table]:
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
     yield Table(GIVEN, NUMBER, tuple(given), {})
-    for group in ("", *netcdf.PARTS, netcdf.START, netcdf.COMPILED):
+    for group in ("", *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED):
         own = [(i, table) for i, table in parts if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
         yield long_table(group or netcdf.SERIES, own, source)
@@ -255,7 +255,7 @@ class Whole:
         self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if told else [""] * count
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
-        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.COMPILED, KEPT, TIMES):
+        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
             owner, always = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
             if file.has(group) and (always or file.has(f"{group}/{OWNER}")):
                 owner = file.numbers(f"{group}/{OWNER}", None, "i4")
