@@ -175,7 +175,7 @@ def make_run(scene: str = "dry", samples: int = 201, t_end: float = 1.0) -> Resu
     state = np.where(np.sin(9 * t) > 0.86, CONTACT, FREE).astype(np.int8)[:, None][:, :play]
     peaks = (Peak("A", 40.0, 0.115, 1.1 * CLEARANCE, 0.11, 38.0),) if play else ()
     diagnostics = Diagnostics(
-        "rk4" if play else "kinematic", 1e-5 if play else np.nan, 100000 * play, 400000 * play, 2 * play, 0, 1e-12,
+        "rk4" if play else "kinematic", 1e-5 if play else np.nan, 100000 * play, 400000 * play, 2 * play, 1e-12,
         1e-11, 3e-9, 0.4, np.nan, np.inf if play else np.nan, 0, peaks, 0.5, 0.5, False, ("a note",),
     )  # fmt: skip
     return Result(
