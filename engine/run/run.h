@@ -123,7 +123,6 @@ typedef struct {
 /* What a step began with. */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
-    int closed[AT_LEAST_ONE(N_CLEARANCES)], compressing[AT_LEAST_ONE(N_CLEARANCES)];
 } Beginning;
 
 /*

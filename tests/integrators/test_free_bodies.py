@@ -168,7 +168,7 @@ def test_momentum_of_a_run(index: int, tmp_path: Path) -> None:
     assert np.ptp(spin) < 1e-7 * np.abs(MASS * run.v)[:, [2, 5]].max()
     kinetic = 0.5 * (MASS * run.v**2).sum(axis=1)
     assert np.ptp(kinetic - run.work.sum(axis=1)) < 1e-6 * kinetic[0]
-    assert kinetic[-1] < kinetic[0]
+    assert kinetic[-1] < kinetic[0] * (1.0 + 1e-8)  # one of the laws has no dissipation
     assert np.hypot(run["J0.ex"], run["J0.ey"]) == pytest.approx(run["J0.e"], abs=1e-15)
 
 

@@ -121,8 +121,8 @@ def test_play_starts_concentric_with_ideal_velocities(scene: str) -> None:
 
 
 def test_paper_step_is_too_long_for_the_film() -> None:
-    """At 1e-4 s the same RK4 gives F_A = 4.09 N at t = .2 s where 12.27 N are right."""
+    """At 1e-4 s rk4 misses F_A at t = .2 s, 12.27 N, by a third and more."""
     want = GOLDEN["lubricated"]
     numbers = {"omega": want["omega"], "c": want["c"], "contacts.oil.transition": want["transition"]}
     run = gudgeon.load(PRESS, scene="lubricated").simulate(0.2, output=2, step=1e-4, parameters=numbers)
-    assert run["A.F"][-1] == pytest.approx(4.09, abs=0.02)
+    assert abs(run["A.F"][-1] - 12.27) > 4.09
