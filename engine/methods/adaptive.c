@@ -66,6 +66,12 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     return status ? status : check_contacts(run, p);
 }
 
+/* How close (s) to the end t of a fixed step a sample is the end's own: both are products of rounded numbers. */
+static double rounded_end(const Run *run, double t)
+{
+    return run->control.fixed > 0.0 ? rounded(t, run->control.fixed) : 0.0;
+}
+
 /* Samples of the step before `t_new`, from its interpolant. */
 static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, const Samples *out)
 {
@@ -201,7 +207,8 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
         return !last; /* it was under way */
     if (*status)
         return 0;
-    for (; *out->done < out->n && out->t[*out->done] <= run->t; ++*out->done)
+    const double here = run->t + rounded_end(run, run->t);
+    for (; *out->done < out->n && out->t[*out->done] <= here; ++*out->done)
         store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
     if (*out->done == out->n || last)
         return 0;
@@ -230,11 +237,14 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     int status = event_of_step(run, out, p, step, &share, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* what was found meanwhile means nothing */
+    if (run->control.fixed > 0.0)
+        run->memory.held = 1;
     const double t_whole = run->control.fixed > 0.0 ? run->control.attempt.end
         : step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
     /* what is so near is at the event */
-    const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.tick);
+    const double close = event < 0 ? rounded_end(run, t_new)
+        : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.tick);
     status = sample_step(run, step, t_new - close, p, out);
     /* the end of a fixed step may lie at the jump of a drive, as that of a run may */
     const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && share >= 1.0));

@@ -67,8 +67,12 @@ static int rests_on_law(const Run *run)
 /* A run; one that starts at a drive's jump, or right before it, beyond: on the rows that hold there, without work. */
 static int begin_run(Run *run, const Parameters *p)
 {
-    if (DRIVE_IMPULSES)
-        project_state(run, ahead_of(run->t), run->y, p);
+    if (DRIVE_IMPULSES) {
+        double all[N_S];
+        to_absolute(run->t, run->y, &run->memory, p, all);
+        if (drives_jump(run->t, all, all + N_Q, p))
+            project_state(run, ahead_of(run->t), run->y, p);
+    }
     const int status = begin(run, p);
     if (DRIVE_IMPULSES)
         set_phi_dot_max(run, 0.0); /* rates are those beyond the jump */

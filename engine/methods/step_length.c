@@ -283,13 +283,12 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
         h = up_to_grid(run, t_end, &end);
-        run->memory.held = 0;
+        run->memory.held = DRIVE_IMPULSES; /* at a drive's jump rows have two rates: the held one */
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.pace) : run->control.h;
         h = within_flight(run, up_to_parting(run, min_of(below_refused(run, h), stride(run, NULL, p))), p);
+        h = h > left * SAME_LENGTH ? left : h;
     }
-    if (h > left * SAME_LENGTH)
-        h = left;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
         .lane = run->choice.method->lane, .of_films = INFINITY};
 }

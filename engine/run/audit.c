@@ -61,6 +61,8 @@ static void record(Audit *audit, int check, double value, double limit, double t
  */
 static void check_closed(Run *run)
 {
+    if (drifts(run))
+        return;
     double limit = max_of(audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * size_of(run));
     if (run->counts.steps <= 1)
         run->audit.phi_start = run->residuals.phi_max;

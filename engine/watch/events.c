@@ -277,8 +277,11 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
 
 static void start_roots(Run *run) { run->roots.crossed = run->roots.skip = -1; }
 
-/* left: of the run, s. */
-static void set_tick(Run *run, double left) { run->roots.tick = min_of(1e-12, 1e-11 * left); }
+/* left: of the run, s. By fixed steps a run goes on as if it had never been cut. */
+static void set_tick(Run *run, double left)
+{
+    run->roots.tick = min_of(1e-12, run->control.fixed > 0.0 ? 1e-8 * run->control.fixed : 1e-11 * left);
+}
 
 #define LEAST_LEAP 1e-3 /* of a tolerance: a corner that changes less in a step is none that counts */
 /* By how many tolerances a second the other side's rates differ from those before. */

@@ -276,14 +276,14 @@ def test_peaks_of_all_steps_are_those_of_runs_alone(rows: int, monkeypatch: pyte
 def test_a_lane_that_fails_leaves_the_others() -> None:
     """The film's damping asks for steps shorter than these; not at the larger clearances."""
     simulation = gudgeon.load("nine_bar_press", scene="lubricated")
-    clearances: list[float] = [0.8e-3, 0.3e-3, 0.75e-3, -1.0, 0.7e-3, 0.25e-3, 0.8e-3, 0.72e-3, 0.78e-3]
+    clearances: list[float] = [0.8e-3, 0.1e-3, 0.75e-3, -1.0, 0.7e-3, 0.05e-3, 0.8e-3, 0.72e-3, 0.78e-3]
     sets: list[dict[str, float | str]] = [{"c": c} for c in clearances]
     sets[7] |= {"bodies.L2.length": "5 m"}
-    batch, singly = both(simulation, sets, 5e-3, method="rk4", step=1e-4)
+    batch, singly = both(simulation, sets, 5e-3, method="rk4", step=4e-4)
     assert [failure.run for failure in batch.failures] == [1, 3, 5, 7]
     assert_same_batches(batch, singly)
     with pytest.raises(GudgeonError) as alone:
-        simulation.simulate(5e-3, output=7, method="rk4", step=1e-4, parameters=sets[1])
+        simulation.simulate(5e-3, output=7, method="rk4", step=4e-4, parameters=sets[1])
     assert str(alone.value) == str(batch.failures[0].error)
 
 
@@ -299,12 +299,12 @@ def test_links_in_line() -> None:
 
 @pytest.mark.parametrize(("least", "step"), [(1e-7, 2e-6), (3e-5, 1e-5)])
 def test_contacts_through_a_thin_film(least: float, step: float) -> None:
-    """Film and contact blended; with the longer step and some of these films runs leave the model."""
+    """Film and contact blended; with the longer step some of these runs left the model."""
     simulation = gudgeon.load("nine_bar_press", scene="lubricated")
     viscosities = np.linspace(least, 10.0 * least, 11)
     sets = {"contacts.oil.film.viscosity": viscosities, "omega": 30.0, "contacts.oil.normal.restitution": 0.6}
     batch, singly = both(simulation, sets, 0.03, method="rk4", step=step)
-    assert batch.onsets.sum() > 10 and len(batch.failures) < 11 and (step < 1e-5 or batch.failures)
+    assert batch.onsets.sum() > 5 and not batch.failures
     assert_same_batches(batch, singly)
 
 

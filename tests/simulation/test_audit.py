@@ -88,8 +88,8 @@ IN_C = {check.name for check in CHECKS}
     ("nine_bar_press", "lubricated", "auto",
      {"defect", "gap", "position", "velocity", "acceleration", "branch", "force", "step"}),
     ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration", "step"}),
-    ("nine_bar_press", "dry", "rk4", set()),
-    ("pendulum", "ideal", "rk4", set()),
+    ("nine_bar_press", "dry", "rk4", {"free", "position", "velocity", "acceleration", "branch"}),
+    ("pendulum", "ideal", "rk4", {"position", "velocity", "acceleration"}),
 ])  # fmt: skip
 def test_what_was_not_checked_is_not_listed(name: str, scene: str, method: str, checked: set[str]) -> None:
     run = gudgeon.load(name, scene).simulate(

@@ -169,7 +169,7 @@ def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     found = bench(pendulum, [1e-3, 2e-3, 5e-3], [1e-6], t_end=0.1, quick=True)
     assert [row.setting.value for row in found.rows] == [5e-3, 2e-3]
-    assert found.interrupted and found.done == (2, 6)
+    assert found.interrupted and found.done == (2, 7)
 
 
 def test_bench_says_that_it_is_a_part(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
