@@ -274,8 +274,8 @@ static double up_to_grid(Run *run, double t_end, double *end)
 }
 
 /*
- * How long a step towards t_end is tried at first. What a fixed one leads over is at each stage as the state there says:
- * no error tells that branches which are held beyond their ends grow without bounds, as the force of a film does.
+ * How long a step towards t_end is tried at first. A fixed one reads at each stage what the state there says: no error
+ * tells that branches which are held beyond their ends grow without bounds, as the force of a film does.
  */
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
@@ -283,7 +283,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
         h = up_to_grid(run, t_end, &end);
-        run->memory.held = DRIVE_IMPULSES; /* at a drive's jump rows have two rates: the held one */
+        run->memory.held = DRIVE_IMPULSES; /* at the jump of a drive rows have two rates */
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.pace) : run->control.h;
         h = within_flight(run, up_to_parting(run, min_of(below_refused(run, h), stride(run, NULL, p))), p);
