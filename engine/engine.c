@@ -18,7 +18,6 @@
 #include "watch/jumps.c"
 #include "methods/rk4.c"
 #include "methods/methods.c"
-#include "watch/reach.c"
 #include "watch/roots.c"
 #include "methods/defect.c"
 #include "watch/gaps.c"
@@ -29,7 +28,6 @@
 #else
 #include "watch/looks.c"
 #endif
-#include "watch/poles.c"
 #include "watch/events.c"
 #include "run/peaks.c"
 #include "run/changes.c"

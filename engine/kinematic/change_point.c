@@ -11,7 +11,7 @@ enum { PASS_NODES = 4 /* on either side */, PASS_TRIES = 3, PASS_HALVINGS = 8 };
 #define PASS_ROUGH 1e3   /* roundings of a coordinate that are left of Newton's method near such a position */
 
 /* How fast the fastest coordinate is: rad/s, lengths as shares of the mechanism's size. */
-static double fastest_rate(const Place *at, double extent)
+static double fastest_rate(const Position *at, double extent)
 {
     double most = 0.0;
     for (int k = 0; k < N_Q; k++)
@@ -20,7 +20,7 @@ static double fastest_rate(const Place *at, double extent)
 }
 
 /* Whether Newton's method left more than rounding. */
-static int is_rough(const Place *at)
+static int is_rough(const Position *at)
 {
     double size = 1.0;
     for (int k = 2; k < N_Q; k += 3)
@@ -29,12 +29,12 @@ static int is_rough(const Place *at)
 }
 
 /* From one regular place to another along the same branch, forwards or backwards in time. */
-static int walk_to(double t, double reach, double extent, const Parameters *p, const Place *from, Place *to)
+static int walk_to(double t, double reach, double extent, const Parameters *p, const Position *from, Position *to)
 {
     double h = t - from->t;
     *to = *from;
     for (int halvings = 0; to->t != t;) {
-        Place next;
+        Position next;
         double moved;
         const int status = place_at(fabs(h) < fabs(t - to->t) ? to->t + h : t, p, extent, to, &next, &moved);
         if (status == STOPPED)
@@ -51,8 +51,8 @@ static int walk_to(double t, double reach, double extent, const Parameters *p, c
 }
 
 /* node[2 j] and node[2 j + 1] lie j + 1 distances d before and after t. */
-static int walk_to_nodes(double t, double d, double reach, double extent, const Parameters *p, const Place *here,
-    Place *node)
+static int walk_to_nodes(double t, double d, double reach, double extent, const Parameters *p, const Position *here,
+    Position *node)
 {
     int status = walk_to(t - d, reach, extent, p, here, &node[0]);
     if (!status)
@@ -63,7 +63,7 @@ static int walk_to_nodes(double t, double d, double reach, double extent, const 
 }
 
 /* The value in the middle of the polynomial through one number of the first n nodes on either side. */
-static double middle_of(const Place *node, int n, const double *of_first)
+static double middle_of(const Position *node, int n, const double *of_first)
 {
     const size_t place = (size_t)((const char *)of_first - (const char *)node);
     double sum = 0.0;
@@ -72,7 +72,7 @@ static double middle_of(const Place *node, int n, const double *of_first)
     return sum;
 }
 
-static void interpolate_place(const Place *node, double t, const Parameters *p, Place *to)
+static void interpolate_place(const Position *node, double t, const Parameters *p, Position *to)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     *to = node[0];
@@ -101,7 +101,8 @@ static void interpolate_place(const Place *node, double t, const Parameters *p, 
  * The place at t, at or near a change point, from `here` near by: on the branch that is smooth. 0, or why there is
  * none: nothing leads on, or what does is not smooth.
  */
-static int pass_change_point(double t, double reach, double extent, const Parameters *p, const Place *here, Place *to)
+static int pass_change_point(double t, double reach, double extent, const Parameters *p, const Position *here,
+    Position *to)
 {
     const double fastest = fastest_rate(here, extent);
     double d = PASS_TURN / fastest;
@@ -109,7 +110,7 @@ static int pass_change_point(double t, double reach, double extent, const Parame
     if (!(fastest > 0.0) || !(fabs(t - here->t) <= PASS_NODES * d))
         return status;
     for (int i = 0; i < PASS_TRIES && status != STOPPED; i++, d *= 0.125) {
-        Place node[2 * PASS_NODES];
+        Position node[2 * PASS_NODES];
         double differs = 0.0;
         status = walk_to_nodes(t, d, reach, extent, p, here, node);
         if (status)
@@ -126,7 +127,7 @@ static int pass_change_point(double t, double reach, double extent, const Parame
 }
 
 /* From one place to another near by, also where rows depend on each other there. */
-static int place_near(double t, const Parameters *p, double reach, double extent, const Place *from, Place *to,
+static int place_near(double t, const Parameters *p, double reach, double extent, const Position *from, Position *to,
     double *moved)
 {
     const int status = place_at(t, p, extent, from, to, moved);
@@ -141,9 +142,9 @@ static int place_near(double t, const Parameters *p, double reach, double extent
  * set.
  */
 static int begin_near(double t, const double *q, const double *v, double reach, double extent, const Parameters *p,
-    Place *here)
+    Position *here)
 {
-    Place passed;
+    Position passed;
     double differs = 0.0;
     const int status = begin(t, q, v, p, here);
     if (status < 0 || !is_rough(here) || pass_change_point(t, reach, extent, p, here, &passed))

@@ -1,7 +1,7 @@
 /* The closed linkage in absolute coordinates. */
 
 /* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
-static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
+static int solve_motion(const Parameters *p, const Position *here, double *a, Aside *aside)
 {
     const Memory memory = {.asked = here->asked, USUAL_SHARES};
     const int status = dynamics(beyond_jump(here->t), here->q, here->v, &memory, p, a, aside);
@@ -62,7 +62,7 @@ static int velocities(double t, const double *q, const Parameters *p, double *v)
 }
 
 /* From one place to another near by; accelerations come with `settle`. */
-static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
+static int place_at(double t, const Parameters *p, double extent, const Position *from, Position *to, double *moved)
 {
     *moved = 0.0;
     to->asked = from->asked;
@@ -75,7 +75,7 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
 }
 
 /* What a sample has beside positions and velocities. */
-static int settle(const Parameters *p, Place *here)
+static int settle(const Parameters *p, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     Aside aside;
@@ -93,7 +93,7 @@ static int settle(const Parameters *p, Place *here)
     return 0;
 }
 
-static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+static int begin(double t, const double *q, const double *v, const Parameters *p, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     here->t = t;

@@ -3,7 +3,6 @@
  * is followed from sample to sample so that it stays on its branch.
  */
 #include "../run/asked.h"
-#include "../scene/events.h"
 
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
 
@@ -16,7 +15,7 @@ typedef struct {
 #if POSITIONS_IN_TREE
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
 #endif
-} Place;
+} Position;
 
 /* What a way is measured by (a share of the mechanism's size or rad; m), and the step that it has come down to. */
 typedef struct {
@@ -29,7 +28,7 @@ typedef struct {
     double reach, extent, t_end;
     Asked asked;
     Pace pace;
-    Place motion, work;
+    Position motion, work;
     int motion_begun, work_begun;
     long passed;     /* samples that were interpolated at or near a change point */
     double t_passed; /* the first of them, s */
@@ -88,7 +87,7 @@ long gudgeon_course_taped(void *memory)
     return n;
 }
 
-static void tape_place(Course *course, const Place *here)
+static void tape_place(Course *course, const Position *here)
 {
     if (!course->tape)
         return;
@@ -109,7 +108,7 @@ static double larger(double most, double x) { return x > most || isnan(x) ? x : 
 #include "full.c"
 #endif
 /* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
-static double bend_between(const Place *a, const Place *b, double extent)
+static double bend_between(const Position *a, const Position *b, double extent)
 {
     const double half = 0.5 * (b->t - a->t), share = 1.0 / extent;
     double lengths = 0.0, angles = 0.0;
@@ -145,7 +144,7 @@ static int hides_a_pulse(double t0, double t1, const Parameters *p)
 #endif
 
 /* Whether all rows are numbers at a time: a drive may be none there. */
-static int rows_are_numbers(double t, const Place *here, const Parameters *p)
+static int rows_are_numbers(double t, const Position *here, const Parameters *p)
 {
     double phi[N_ALL_ROWS];
     constraints(t, here->q, p, phi);
@@ -157,11 +156,11 @@ static int rows_are_numbers(double t, const Place *here, const Parameters *p)
  * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
  * jump of positions that no velocity explains.
  */
-static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
+static int step_on(Stride *stride, double t1, const Parameters *p, Position *here)
 {
     const double straight = 0.002 * stride->reach;
     for (;;) {
-        Place there, passed;
+        Position there, passed;
         double moved = 0.0, bent = 0.0;
         if (given_up(here->asked))
             return STOPPED;
@@ -192,7 +191,7 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
 }
 
 /* To t1, in steps; a run whose pace is watched. */
-static int advance(Course *course, double t1, const Parameters *p, Place *here, long *steps)
+static int advance(Course *course, double t1, const Parameters *p, Position *here, long *steps)
 {
     Stride stride = {course->reach, course->extent, t1 - here->t, 0};
     while (here->t < t1) {
@@ -218,7 +217,7 @@ int gudgeon_kinematic(void *memory, long n, const double *t, const double *param
 {
     Course *course = memory;
     const Parameters *p = (const Parameters *)parameters;
-    Place *here = &course->motion;
+    Position *here = &course->motion;
     *done = 0;
     for (long i = course->motion_begun; i <= n; i++) {
         here->asked = &course->asked;

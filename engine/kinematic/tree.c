@@ -2,7 +2,7 @@
 #define MAX_BEND 0.05 /* rad, or share of the mechanism's size, that second rates may add to a first guess */
 
 /* Powers, accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
-static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
+static int solve_motion(const Parameters *p, const Position *here, double *a, Aside *aside)
 {
     const Memory memory = {.asked = here->asked};
     const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &memory, p, a, aside);
@@ -13,7 +13,7 @@ static int solve_motion(const Parameters *p, const Place *here, double *a, Aside
  * Newton on the closures until the step is rounding or no longer shrinks; the rates belong to the positions. Steps
  * are measured in rad, slides as shares of the mechanism's size; `moved` is the way from the first guess.
  */
-static int close_linkage(double t, const Parameters *p, double extent, Place *at, double *moved)
+static int close_linkage(double t, const Parameters *p, double extent, Position *at, double *moved)
 {
     double step[N_X + 1], before = INFINITY;
     at->left = 0.0;
@@ -41,7 +41,7 @@ static int close_linkage(double t, const Parameters *p, double extent, Place *at
  * Whether second rates lead further than a first guess may: near an instant at which a drive's second rate is unbounded
  * they do not describe the motion over a whole step.
  */
-static int is_unbounded(const Place *from, double h, double extent)
+static int is_unbounded(const Position *from, double h, double extent)
 {
     double most = 0.0;
     for (int k = 0; k < N_X; k++)
@@ -50,7 +50,7 @@ static int is_unbounded(const Place *from, double h, double extent)
 }
 
 /* From one place to another near by: first guess s + h s' + h^2 s''/2, or s + h s' where s'' is unbounded. */
-static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
+static int place_at(double t, const Parameters *p, double extent, const Position *from, Position *to, double *moved)
 {
     const double h = t - from->t, bend = is_unbounded(from, h, extent) ? 0.0 : 0.5 * h;
     *moved = 0.0;
@@ -65,7 +65,7 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
 }
 
 /* A place has all that a sample needs. */
-static int settle(const Parameters *p, Place *here)
+static int settle(const Parameters *p, Position *here)
 {
     (void)p;
     (void)here;
@@ -73,7 +73,7 @@ static int settle(const Parameters *p, Place *here)
 }
 
 /* A given position; where closures depend on each other the equations of motion may still tell its accelerations. */
-static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+static int begin(double t, const double *q, const double *v, const Parameters *p, Position *here)
 {
     double step[N_X + 1], rates[N_X + 1];
     here->t = t;

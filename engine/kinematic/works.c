@@ -2,7 +2,7 @@
  * Works along a kinematic motion: powers over the steps that follow it, impulses where velocities jump.
  */
 /* Powers at a place, and the accelerations of all bodies; a status as that of settle. */
-static int powers(const Parameters *p, Place *here, double *power)
+static int powers(const Parameters *p, Position *here, double *power)
 {
     Aside aside;
 #if POSITIONS_IN_TREE
@@ -24,8 +24,8 @@ static double turn(const double *v, int k, double extent) { return k % 3 == 2 ? 
  * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
  * NOT_FINITE where a power is none, at `work[0]`.
  */
-static int work_between(const Parameters *p, double extent, const Place *a, const Place *b, double least, double *work,
-    int *jumped)
+static int work_between(const Parameters *p, double extent, const Position *a, const Position *b, double least,
+    double *work, int *jumped)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
@@ -34,7 +34,7 @@ static int work_between(const Parameters *p, double extent, const Place *a, cons
     for (int k = 0; k < N_Q; k++)
         missed[k] = b->v[k] - a->v[k];
     for (int i = 0; i < 3; i++) {
-        Place at;
+        Position at;
         double power[N_WORK], moved;
         int status = place_at(a->t + half * (1.0 + node[i]), p, extent, a, &at, &moved);
         if (!status)
@@ -61,7 +61,7 @@ static int work_between(const Parameters *p, double extent, const Place *a, cons
 }
 
 /* Of all bodies, J. */
-static double kinetic_energy_at(const Parameters *p, const Place *at)
+static double kinetic_energy_at(const Parameters *p, const Position *at)
 {
     double m[N_Q], sum = 0.0;
     mass_matrix(p, m);
@@ -74,8 +74,8 @@ static double kinetic_energy_at(const Parameters *p, const Place *at)
  * The same, halved where velocities jump until nothing is left to halve: what kinetic energy gains there is the work
  * of the impulse with which the drives change the velocities. `halvings` are left for the whole step.
  */
-static int work_across(const Parameters *p, double reach, double extent, const Place *a, const Place *b, double least,
-    int *halvings, double *work)
+static int work_across(const Parameters *p, double reach, double extent, const Position *a, const Position *b,
+    double least, int *halvings, double *work)
 {
     double part[N_WORK] = {0.0}, moved;
     int jumped = 0;
@@ -89,7 +89,7 @@ static int work_across(const Parameters *p, double reach, double extent, const P
     else if (status)
         return status;
     if (jumped && wide && *halvings > 0) {
-        Place middle;
+        Position middle;
         --*halvings;
         status = place_near(t, p, reach, extent, a, &middle, &moved);
         if (!status)
@@ -108,7 +108,8 @@ static int work_across(const Parameters *p, double reach, double extent, const P
 }
 
 /* Of one step; speeds that change by less than a billionth of what they are do not jump. */
-static int work_of_step(const Parameters *p, double reach, double extent, const Place *a, const Place *b, double *work)
+static int work_of_step(const Parameters *p, double reach, double extent, const Position *a, const Position *b,
+    double *work)
 {
     int halvings = MAX_SPLITS;
     double speed = 0.0;
@@ -124,7 +125,7 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
     Course *course = memory;
     const double extent = course->extent;
     const Parameters *p = (const Parameters *)parameters;
-    Place here = course->work;
+    Position here = course->work;
     here.asked = &course->asked;
     *done = 0;
     int status = course->work_begun ? 0 : begin_near(t[0], q, v, course->reach, extent, p, &here);
@@ -134,7 +135,7 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
         while (here.t < t[i + 1] && !status) {
-            const Place before = here;
+            const Position before = here;
             status = step_on(&stride, t[i + 1], p, &here);
             if (!status)
                 status = work_of_step(p, course->reach, extent, &before, &here, sum);

@@ -6,7 +6,6 @@
 #define GUDGEON_RUN_H
 #include "asked.h"
 #include "audit.h"
-#include "../scene/events.h"
 
 /* Parts of a step of rk4, in which a rigid contact may bounce again and again; contacts that a step may list. */
 #if N_RIGID

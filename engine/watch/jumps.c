@@ -4,8 +4,7 @@
  * computed up to the one before it sees one branch only, what begins at the one behind it the other.
  */
 #if N_CORNERS
-enum { MOST_ENDS = 64, MOST_SEEN = 2000 };
-
+#define SMALLEST (DBL_MIN * DBL_EPSILON) /* positive number: less than zero by it is less than zero */
 /* Whether any corner has changed its side. */
 static int is_crossed(const double *from, const double *now)
 {
@@ -15,83 +14,60 @@ static int is_crossed(const double *from, const double *now)
     return some;
 }
 
-/*
- * Whether a corner that begins a part of the time, `width` s, on a side is on the other one at its end and not before
- * (1), nowhere (0), or that is not known so far (-1). Bounds are rounded: what is computed at the end comes first.
- */
-static int corner_verdict(Range f, double at_a, double at_b, int below, double width, int small)
+/* The search for the first jump: corners where it begins, and where the part begins that is judged; where it is. */
+typedef struct {
+    const Parameters *p;
+    double from[N_CORNERS], at_a[N_CORNERS], before, after;
+} JumpSearch;
+
+/* Below zero once any corner has changed its side; of all of them no more than that is told. */
+static int evaluate_sides(void *context, double t, Place *now)
 {
-    const int beyond = (at_b < 0.0) != below;
-    if (is_empty(f) || (!beyond && (below ? f.hi < 0.0 : f.lo >= 0.0)))
-        return 0;
-    if (small || (!f.partly && (f.down >= 0.0 || f.up <= 0.0)))
-        return beyond;
-    if (f.partly)
-        return -1;
-    /* the nearest to zero that a function of these slopes between these ends may come */
-    const double side = below ? -1.0 : 1.0, down = below ? -f.up : f.down, up = below ? -f.down : f.up;
-    const double nearest = side * at_a + down * (side * (at_b - at_a) - up * width) / (down - up);
-    return side * at_a > 0.0 && side * at_b > 0.0 && nearest > 0.0 ? 0 : -1;
+    const JumpSearch *of = context;
+    double at[N_CORNERS];
+    drive_corners(t, of->p, at);
+    now->f = is_crossed(of->from, at) ? -1.0 : 1.0;
+    return 0;
 }
 
-/* The same of all corners: 1 where the first is found, -1 where the part from a to b is to be halved. */
-static int corners_verdict(const double *from, double a, double b, const double *at_a, const double *at_b, int small,
-    const Parameters *p)
+/* Judges a part of the time by bounds of all corners; zero is beyond a corner that comes from below it. */
+static int judge_corners(void *context, double a, double b, int small)
 {
+    JumpSearch *of = context;
     Range f[N_CORNERS];
+    double at_b[N_CORNERS];
     int found = 0;
-    drive_corner_ranges((Range){a, b, 1.0, 1.0, 0}, p, f);
+    drive_corners(b, of->p, at_b);
+    drive_corner_ranges((Range){a, b, 1.0, 1.0, 0}, of->p, f);
     for (int k = 0; k < N_CORNERS; k++) {
-        const int result = corner_verdict(f[k], at_a[k], at_b[k], from[k] < 0.0, b - a, small);
+        const int below = of->from[k] < 0.0;
+        const double side = below ? -1.0 : 1.0, zero = below ? SMALLEST : 0.0;
+        const Range margin = below ? range_add(range_negative(f[k]), only(-zero)) : f[k];
+        const int result = zero_verdict(margin, side * of->at_a[k] - zero, side * at_b[k] - zero, b - a, small);
         if (result < 0)
             return -1;
         found |= result;
     }
-    return found;
-}
-
-/* Neighbouring numbers between a and b, on this side of the first corner and beyond it. */
-static void locate_jump(const double *from, double a, double b, const Parameters *p, double *before, double *after)
-{
-    for (double middle = a + 0.5 * (b - a); a < middle && middle < b; middle = a + 0.5 * (b - a)) {
-        double now[N_CORNERS];
-        drive_corners(middle, p, now);
-        if (is_crossed(from, now))
-            b = middle;
-        else
-            a = middle;
+    if (found) {
+        Bracket of_jump = {{{a, 1.0, NAN}, {b, -1.0, NAN}}, 2};
+        (void)locate_zero(evaluate_sides, of, &(ZeroTolerance){.width = 0.0}, 2, NAN, &of_jump);
+        of->before = of_jump.at[0].s;
+        of->after = of_jump.at[1].s;
     }
-    *before = a;
-    *after = b;
+    memcpy(of->at_a, at_b, sizeof at_b);
+    return found;
 }
 
 /* Whether the rate of a drive may jump between two times: the last one before the first jump, and the one after it. */
 static int next_jump(double a, double t_end, const Parameters *p, double *before, double *after)
 {
-    double end[MOST_ENDS + 1], from[N_CORNERS], at_a[N_CORNERS], at_b[N_CORNERS];
-    int n = 1, seen = 0;
-    drive_corners(a, p, from);
-    drive_corners(a, p, at_a);
-    end[0] = t_end;
-    while (n > 0) {
-        const double b = end[n - 1], middle = a + 0.5 * (b - a);
-        const int small = !(a < middle && middle < b) || n == MOST_ENDS || ++seen > MOST_SEEN;
-        drive_corners(b, p, at_b);
-        const int result = corners_verdict(from, a, b, at_a, at_b, small, p);
-        if (result > 0) {
-            locate_jump(from, a, b, p, before, after);
-            return 1;
-        }
-        if (result < 0) { /* its first half is looked at first */
-            end[n++] = middle;
-            continue;
-        }
-        for (int k = 0; k < N_CORNERS; k++)
-            at_a[k] = at_b[k];
-        a = b;
-        n--;
-    }
-    return 0;
+    JumpSearch of = {.p = p};
+    drive_corners(a, p, of.from);
+    memcpy(of.at_a, of.from, sizeof of.from);
+    const int found = first_part(a, t_end, 0.0, judge_corners, &of);
+    *before = of.before;
+    *after = of.after;
+    return found;
 }
 
 /* A run; one that starts at a jump, or right before it, beyond: on the rows that hold there, without work. */
