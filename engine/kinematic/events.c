@@ -15,11 +15,11 @@ typedef struct {
     int has_error;
 } View;
 
-static void look(const Parameters *p, View *view)
+static void look(Course *course, View *view)
 {
     Aside aside = {0};
     double a[N_Q];
-    (void)solve_motion(p, &view->at, a, &aside); /* told before, where it cannot be solved */
+    (void)solve_motion(course, &view->at, a, &aside); /* told before, where it cannot be solved */
     memcpy(view->event, aside.event, sizeof view->event);
     view->has_error = 0;
 }
@@ -64,16 +64,16 @@ static void speeds_of(const Position *at, double extent, double *speed)
  * A place at positions that are wrong by ROUNDINGS, by signs of a mask, with the velocities that belong to them.
  * Newton's last step tells of positions near a singular one, where rounding counts for more.
  */
-static void disturb(const Position *here, int mask, double extent, const Parameters *p, Position *other)
+static void disturb(const Course *course, const Position *here, int mask, Position *other)
 {
     double step[N_PLACE + 1], *q = positions_of(other);
     *other = *here;
-    const int open = !newton_step(other, p, step);
+    const int open = !newton_step(other, course->p, step);
     for (int k = 0; k < N_PLACE; k++) {
-        const double size = ROUNDINGS * DBL_EPSILON * max_of(is_turn(k) ? 1.0 : extent, fabs(q[k]));
+        const double size = ROUNDINGS * DBL_EPSILON * max_of(is_turn(k) ? 1.0 : course->extent, fabs(q[k]));
         q[k] += (k & mask ? -1.0 : 1.0) * (size + (open && isfinite(step[k]) ? LEFT * fabs(step[k]) : 0.0));
     }
-    if (newton_step(other, p, step))
+    if (newton_step(other, course->p, step))
         memcpy(rates_of(other), rates_of(here), N_PLACE * sizeof *q);
 }
 
@@ -81,37 +81,38 @@ static void disturb(const Position *here, int mask, double extent, const Paramet
  * By how much rounding errors of positions and velocities change event function i; 0 where they lead to a pole. Some
  * signs are tried, of neighbours the same and others.
  */
-static double uncertainty(View *here, int i, double extent, const Parameters *p)
+static double uncertainty(const Course *course, View *here, int i)
 {
+    const Position *at = &here->at;
     double of_q[N_Q] = {0.0}, of_v[N_Q] = {0.0}, speed[2];
     if (here->has_error)
         return here->error[N_WATCHED - N_USER_EVENTS + i];
     for (int mask = 0; mask < 8; mask = mask ? 2 * mask : 1) {
         Position other;
-        disturb(&here->at, mask, extent, p, &other);
+        disturb(course, at, mask, &other);
 #if POSITIONS_IN_TREE
-        if (arrive(beyond_jump(other.t), other.s, other.s_rate, p, other.s_second, other.q, other.v, other.a,
-                &other.phi))
+        if (arrive(beyond_jump(other.t), other.s, other.s_rate, course->p, other.s_second, other.q, other.v,
+                other.a, &other.phi))
             continue;
 #endif
         for (int k = 0; k < N_Q; k++) {
-            of_q[k] += fabs(other.q[k] - here->at.q[k]);
-            of_v[k] += fabs(other.v[k] - here->at.v[k]);
+            of_q[k] += fabs(other.q[k] - at->q[k]);
+            of_v[k] += fabs(other.v[k] - at->v[k]);
         }
     }
-    speeds_of(&here->at, extent, speed);
+    speeds_of(at, course->extent, speed);
     for (int k = 0; k < N_Q; k++)
         of_v[k] += ROUNDINGS * DBL_EPSILON * speed[k % 3 == 2];
-    error_by_bounds(here->at.t, here->at.q, here->at.v, of_q, of_v, N_Q, &(Memory){0}, p, here->error);
+    error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(Memory){0}, course->p, here->error);
     here->has_error = 1;
     return here->error[N_WATCHED - N_USER_EVENTS + i];
 }
 
 /* The value of event function i, last on `side`; 0 where it is below its uncertainty. */
-static double resolved(View *here, int i, int side, double extent, const Parameters *p)
+static double resolved(const Course *course, View *here, int i, int side)
 {
     const double f = here->event[i];
-    return side * f > 0.0 || !(fabs(f) <= uncertainty(here, i, extent, p)) ? f : 0.0;
+    return side * f > 0.0 || !(fabs(f) <= uncertainty(course, here, i)) ? f : 0.0;
 }
 
 /*
@@ -120,8 +121,7 @@ static double resolved(View *here, int i, int side, double extent, const Paramet
  * where it and those after it end, the last status.
  */
 typedef struct {
-    const Parameters *p;
-    double reach, extent;
+    Course *course;
     signed char *side;
     double *t;
     int *event;
@@ -132,25 +132,20 @@ typedef struct {
     double h, most[N_USER_EVENTS];
     View here, *end;
     int n, status;
-} Search;
-
-/* Event function i between two views; it has its event before the second one. */
-typedef struct {
-    const Search *search;
-    View low, high;
+    View low, high; /* of event function i, before and after the zero that is located */
     int i;
-} Crossing;
+} Search;
 
 /* Follows the motion to t1, in steps. */
 static int follow(const Search *of, double t1, View *view)
 {
-    Stride stride = {of->reach, of->extent, t1 - view->at.t, 0};
+    Stride stride = {t1 - view->at.t, 0};
     while (view->at.t < t1) {
-        const int status = step_on(&stride, t1, of->p, &view->at);
+        const int status = step_on(of->course, &stride, t1, &view->at);
         if (status)
             return status;
     }
-    look(of->p, view);
+    look(of->course, view);
     return 0;
 }
 
@@ -164,9 +159,9 @@ static double value_before(double end, double x)
 
 static int evaluate_event(void *context, double t, Place *now)
 {
-    Crossing *of = context;
+    Search *of = context;
     View view = of->low;
-    const int status = follow(of->search, t, &view);
+    const int status = follow(of, t, &view);
     now->f = value_before(of->high.event[of->i], view.event[of->i]);
     *(now->f < 0.0 ? &of->high : &of->low) = view;
     return status;
@@ -176,19 +171,19 @@ static int evaluate_event(void *context, double t, Place *now)
  * The time before b at which event function i comes to the side where it is at b, or to be no number as there; whether
  * it does so at a pole: there it grows to values that are larger than their uncertainty.
  */
-static int locate(const Search *search, int i, const View *b, double *t, int *pole)
+static int locate(Search *of, int i, const View *b, double *t, int *pole)
 {
-    Crossing of = {search, search->here, *b, i};
-    const double from = of.low.at.t, to = b->at.t, end = b->event[i];
+    const double from = of->here.at.t, to = b->at.t, end = b->event[i];
     const ZeroTolerance near = {.width = max_of(1e-13 * (to - from), 4.0 * DBL_EPSILON * fabs(to))};
-    Bracket of_zero = {{{from, value_before(end, of.low.event[i]), NAN}, {to, value_before(end, end), NAN}}, 2};
-    const int status = locate_zero(evaluate_event, &of, &near, MOST_PLACES, guess_zero(&of_zero, 2), &of_zero);
+    Bracket of_zero = {{{from, value_before(end, of->here.event[i]), NAN}, {to, value_before(end, end), NAN}}, 2};
+    of->low = of->here, of->high = *b, of->i = i;
+    const int status = locate_zero(evaluate_event, of, &near, MOST_PLACES, guess_zero(&of_zero, 2), &of_zero);
     if (status)
         return status;
     *t = of_zero.at[1].s;
-    const int lost = follow(search, *t + POLE_DISTANCE * near.width, &of.low);
-    *pole = is_near_pole(of.high.event[i], lost ? INFINITY : of.low.event[i])
-        && resolved(&of.high, i, 0, search->extent, search->p) != 0.0;
+    const int lost = follow(of, *t + POLE_DISTANCE * near.width, &of->low);
+    *pole = is_near_pole(of->high.event[i], lost ? INFINITY : of->low.event[i])
+        && resolved(of->course, &of->high, i, 0) != 0.0;
     return 0;
 }
 
@@ -221,7 +216,7 @@ static int compare(Search *of, View *b)
             status = isnan(a->event[i]) ? 0 : locate(of, i, b, &t, &pole);
             if (!status)
                 status = note(of, first, t, i + N_USER_EVENTS);
-        } else if (event_crosses(i, &of->side[i], resolved(b, i, of->side[i], of->extent, of->p))) {
+        } else if (event_crosses(i, &of->side[i], resolved(of->course, b, i, of->side[i]))) {
             status = locate(of, i, b, &t, &pole);
             if (!status && !pole && t - of->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
                 status = note(of, first, t, i);
@@ -244,10 +239,10 @@ static int compare(Search *of, View *b)
 static int is_held(Search *of, View *b, int i, Range f)
 {
     const double part = (b->at.t - of->here.at.t) / of->h, most = max_of(-f.lo, f.hi);
-    const double error = uncertainty(&of->here, i, of->extent, of->p);
+    const double error = uncertainty(of->course, &of->here, i);
     return !f.partly && fabs(of->here.event[i]) <= error
         && (most <= ALIKE * error || is_narrowing(-most, part, -of->most[i]))
-        && resolved(b, i, 0, of->extent, of->p) == 0.0;
+        && resolved(of->course, b, i, 0) == 0.0;
 }
 
 /* Bounds of positions and velocities over the cubic between two places; slopes by the way between them. */
@@ -274,7 +269,7 @@ static int is_open(Search *of, View *b)
     const double h = b->at.t - a->at.t;
     Range q[N_Q], v[N_Q], out[N_WATCHED];
     bound_motion(&a->at, &b->at, q, v);
-    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(Memory){0}, of->p, out);
+    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(Memory){0}, of->course->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Range f = out[N_WATCHED - N_USER_EVENTS + i];
         const double side = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
@@ -308,14 +303,14 @@ static int judge_part(void *context, double a, double b, int small)
 /* From one sample to the next. */
 static int search(Search *of, double t1)
 {
-    Stride stride = {of->reach, of->extent, t1 - of->here.at.t, 0};
+    Stride stride = {t1 - of->here.at.t, 0};
     int status = 0;
     while (!status && of->here.at.t < t1) {
         *of->end = of->here;
-        status = step_on(&stride, t1, of->p, &of->end->at);
+        status = step_on(of->course, &stride, t1, &of->end->at);
         if (status)
             return status;
-        look(of->p, of->end);
+        look(of->course, of->end);
         of->n = 1;
         of->h = of->end->at.t - of->here.at.t;
         (void)first_part(of->here.at.t, of->end->at.t, SMALLEST_PART * of->h, judge_part, of);
@@ -335,17 +330,17 @@ int gudgeon_kinematic_events(void *memory, long n, const double *t, const double
 {
     Course *course = memory;
     View end[DEEPEST + 2];
-    Search of = {.p = (const Parameters *)parameters, .reach = course->reach, .extent = course->extent, .side = side,
-        .t = at, .event = event, .capacity = capacity, .start = start, .stop = stop, .end = end};
+    Search of = {.course = course, .side = side, .t = at, .event = event, .capacity = capacity, .start = start,
+        .stop = stop, .end = end};
+    course->p = (const Parameters *)parameters;
     for (*done = 0; *done < n; ++*done) {
         signed char sides[N_USER_EVENTS];
-        of.here.at.asked = &course->asked;
-        int status = begin_near(t[*done], q + *done * N_Q, v + *done * N_Q, of.reach, of.extent, of.p, &of.here.at);
+        int status = begin_near(course, t[*done], q + *done * N_Q, v + *done * N_Q, &of.here.at);
         if (status)
             return status;
-        look(of.p, &of.here);
+        look(course, &of.here);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)event_crosses(i, &side[i], side[i] ? 0.0 : resolved(&of.here, i, 0, of.extent, of.p));
+            (void)event_crosses(i, &side[i], side[i] ? 0.0 : resolved(course, &of.here, i, 0));
             sides[i] = side[i]; /* the first one, where there was none */
         }
         *found = of.found;
