@@ -16,7 +16,6 @@
 #include "run/audit.c"
 #include "run/audit_state.c"
 #include "methods/methods.c"
-#include "watch/reach.c"
 #include "watch/roots.c"
 #include "methods/defect.c"
 #include "watch/gaps.c"
@@ -27,7 +26,6 @@
 #else
 #include "watch/looks.c"
 #endif
-#include "watch/poles.c"
 #include "watch/events.c"
 #include "run/peaks.c"
 #include "run/changes.c"

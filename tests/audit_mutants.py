@@ -57,7 +57,7 @@ SCENES = (
 )  # fmt: skip
 ENGINE_FILES = ("both/dop853.h", "both/motion.h", "both/project.h", "both/weigh.h", "both/rodas5p.h", "motion/tree.c",
                 "methods/step.c", "methods/adaptive.c", "run/run.c", "run/changes.c", "run/latches.c",
-                "watch/roots.c", "watch/gaps.c")  # fmt: skip
+                "watch/roots.c", "watch/zeros.h", "watch/gaps.c")  # fmt: skip
 SCENE_FILES = ("dynamics.c", "reduced.c", "constraints.c", "parameters.c", "clearance.c")
 
 

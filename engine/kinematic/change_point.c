@@ -10,17 +10,8 @@ enum { PASS_NODES = 4 /* on either side */, PASS_TRIES = 3, PASS_HALVINGS = 8 };
 #define PASS_RATES 1e-5  /* of the fastest rate, that the rates of a start may differ from those of a branch */
 #define PASS_ROUGH 1e3   /* roundings of a coordinate that are left of Newton's method near such a position */
 
-/* How fast the fastest coordinate is: rad/s, lengths as shares of the mechanism's size. */
-static double fastest_rate(const Place *at, double extent)
-{
-    double most = 0.0;
-    for (int k = 0; k < N_Q; k++)
-        most = larger(most, fabs(at->v[k]) / (k % 3 == 2 ? 1.0 : extent));
-    return most;
-}
-
 /* Whether Newton's method left more than rounding. */
-static int is_rough(const Place *at)
+static int is_rough(const Position *at)
 {
     double size = 1.0;
     for (int k = 2; k < N_Q; k += 3)
@@ -29,17 +20,17 @@ static int is_rough(const Place *at)
 }
 
 /* From one regular place to another along the same branch, forwards or backwards in time. */
-static int walk_to(double t, double reach, double extent, const Parameters *p, const Place *from, Place *to)
+static int walk_to(Course *course, double t, const Position *from, Position *to)
 {
     double h = t - from->t;
     *to = *from;
     for (int halvings = 0; to->t != t;) {
-        Place next;
+        Position next;
         double moved;
-        const int status = place_at(fabs(h) < fabs(t - to->t) ? to->t + h : t, p, extent, to, &next, &moved);
+        const int status = place_at(course, fabs(h) < fabs(t - to->t) ? to->t + h : t, to, &next, &moved);
         if (status == STOPPED)
             return status;
-        if (!status && moved <= reach && bend_between(to, &next, extent) <= 0.002 * reach) {
+        if (!status && moved <= course->reach && bend_between(to, &next, course->extent) <= 0.002 * course->reach) {
             *to = next;
             continue;
         }
@@ -47,23 +38,22 @@ static int walk_to(double t, double reach, double extent, const Parameters *p, c
             return status ? status : NEWTON_FAILED;
         h *= 0.5;
     }
-    return settle(p, to);
+    return settle(course, to);
 }
 
 /* node[2 j] and node[2 j + 1] lie j + 1 distances d before and after t. */
-static int walk_to_nodes(double t, double d, double reach, double extent, const Parameters *p, const Place *here,
-    Place *node)
+static int walk_to_nodes(Course *course, double t, double d, const Position *here, Position *node)
 {
-    int status = walk_to(t - d, reach, extent, p, here, &node[0]);
+    int status = walk_to(course, t - d, here, &node[0]);
     if (!status)
-        status = walk_to(t + d, reach, extent, p, &node[0], &node[1]);
+        status = walk_to(course, t + d, &node[0], &node[1]);
     for (int j = 2; j < 2 * PASS_NODES && !status; j++)
-        status = walk_to(t + (j % 2 ? 1 + j / 2 : -1 - j / 2) * d, reach, extent, p, &node[j - 2], &node[j]);
+        status = walk_to(course, t + (j % 2 ? 1 + j / 2 : -1 - j / 2) * d, &node[j - 2], &node[j]);
     return status;
 }
 
 /* The value in the middle of the polynomial through one number of the first n nodes on either side. */
-static double middle_of(const Place *node, int n, const double *of_first)
+static double middle_of(const Position *node, int n, const double *of_first)
 {
     const size_t place = (size_t)((const char *)of_first - (const char *)node);
     double sum = 0.0;
@@ -72,7 +62,7 @@ static double middle_of(const Place *node, int n, const double *of_first)
     return sum;
 }
 
-static void interpolate_place(const Place *node, double t, const Parameters *p, Place *to)
+static void interpolate_place(const Position *node, double t, const Parameters *p, Position *to)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     *to = node[0];
@@ -101,24 +91,23 @@ static void interpolate_place(const Place *node, double t, const Parameters *p, 
  * The place at t, at or near a change point, from `here` near by: on the branch that is smooth. 0, or why there is
  * none: nothing leads on, or what does is not smooth.
  */
-static int pass_change_point(double t, double reach, double extent, const Parameters *p, const Place *here, Place *to)
+static int pass_change_point(Course *course, double t, const Position *here, Position *to)
 {
-    const double fastest = fastest_rate(here, extent);
+    const double fastest = turn_of(here->v, course->extent);
     double d = PASS_TURN / fastest;
     int status = NEWTON_FAILED;
     if (!(fastest > 0.0) || !(fabs(t - here->t) <= PASS_NODES * d))
         return status;
     for (int i = 0; i < PASS_TRIES && status != STOPPED; i++, d *= 0.125) {
-        Place node[2 * PASS_NODES];
-        double differs = 0.0;
-        status = walk_to_nodes(t, d, reach, extent, p, here, node);
+        Position node[2 * PASS_NODES];
+        double differs[N_Q];
+        status = walk_to_nodes(course, t, d, here, node);
         if (status)
             continue;
-        interpolate_place(node, t, p, to);
+        interpolate_place(node, t, course->p, to);
         for (int k = 0; k < N_Q; k++)
-            differs = larger(differs, fabs(to->q[k] - middle_of(node, PASS_NODES - 1, &node->q[k]))
-                / (k % 3 == 2 ? 1.0 : extent));
-        if (differs <= PASS_SMOOTH)
+            differs[k] = to->q[k] - middle_of(node, PASS_NODES - 1, &node->q[k]);
+        if (turn_of(differs, course->extent) <= PASS_SMOOTH)
             return 0;
         status = NEWTON_FAILED;
     }
@@ -126,31 +115,26 @@ static int pass_change_point(double t, double reach, double extent, const Parame
 }
 
 /* From one place to another near by, also where rows depend on each other there. */
-static int place_near(double t, const Parameters *p, double reach, double extent, const Place *from, Place *to,
-    double *moved)
+static int place_near(Course *course, double t, const Position *from, Position *to, double *moved)
 {
-    const int status = place_at(t, p, extent, from, to, moved);
-    if (!status || status == STOPPED || pass_change_point(t, reach, extent, p, from, to))
+    const int status = place_at(course, t, from, to, moved);
+    if (!status || status == STOPPED || pass_change_point(course, t, from, to))
         return status;
     *moved = 0.0;
     return 0;
 }
 
-/*
- * A given place, also at a change point, where its velocities have to be those of one of the branches. `here->asked` is
- * set.
- */
-static int begin_near(double t, const double *q, const double *v, double reach, double extent, const Parameters *p,
-    Place *here)
+/* A given place, also at a change point, where its velocities have to be those of one of the branches. */
+static int begin_near(Course *course, double t, const double *q, const double *v, Position *here)
 {
-    Place passed;
-    double differs = 0.0;
-    const int status = begin(t, q, v, p, here);
-    if (status < 0 || !is_rough(here) || pass_change_point(t, reach, extent, p, here, &passed))
+    Position passed;
+    double differs[N_Q];
+    const int status = begin(course, t, q, v, here);
+    if (status < 0 || !is_rough(here) || pass_change_point(course, t, here, &passed))
         return status;
     for (int k = 0; k < N_Q; k++)
-        differs = larger(differs, fabs(passed.v[k] - v[k]) / (k % 3 == 2 ? 1.0 : extent));
-    if (!(differs <= PASS_RATES * fastest_rate(here, extent)))
+        differs[k] = passed.v[k] - v[k];
+    if (!(turn_of(differs, course->extent) <= PASS_RATES * turn_of(here->v, course->extent)))
         return status;
     *here = passed;
     return 0;

@@ -1,32 +1,23 @@
 /* The closed linkage in absolute coordinates. */
 
 /* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
-static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
+static int solve_motion(Course *course, const Position *here, double *a, Aside *aside)
 {
-    const Memory memory = {.asked = here->asked, USUAL_SHARES};
-    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &memory, p, a, aside);
+    const Memory memory = {.asked = &course->asked, USUAL_SHARES};
+    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &memory, course->p, a, aside);
     return status > 0 ? N_ROWS + status : status;
 }
 
-/* A change of q, as the angle that it is worth: positions as shares of the mechanism's size. */
-static double turn_of(const double *x, double extent)
-{
-    double most = 0.0;
-    for (int k = 0; k < N_Q; k++)
-        most = larger(most, fabs(x[k]) / (k % 3 == 2 ? 1.0 : extent));
-    return most;
-}
-
 /* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
-static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved, double *left)
+static int close_linkage(const Course *course, double t, double *q, double *moved, double *left)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
-        constraints(t, q, p, phi);
-        const int status = project(t, q, phi, p, step);
+        constraints(t, q, course->p, phi);
+        const int status = project(t, q, phi, course->p, step);
         if (status)
             return status;
-        const double size = turn_of(step, extent);
+        const double size = turn_of(step, course->extent);
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
         *moved += size;
@@ -62,29 +53,28 @@ static int velocities(double t, const double *q, const Parameters *p, double *v)
 }
 
 /* From one place to another near by; accelerations come with `settle`. */
-static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
+static int place_at(const Course *course, double t, const Position *from, Position *to, double *moved)
 {
     *moved = 0.0;
-    to->asked = from->asked;
     to->t = t;
     to->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         to->q[k] = from->q[k] + (t - from->t) * from->v[k];
-    const int status = close_linkage(beyond_jump(t), p, extent, to->q, moved, &to->left);
-    return status ? status : velocities(beyond_jump(t), to->q, p, to->v);
+    const int status = close_linkage(course, beyond_jump(t), to->q, moved, &to->left);
+    return status ? status : velocities(beyond_jump(t), to->q, course->p, to->v);
 }
 
 /* What a sample has beside positions and velocities. */
-static int settle(const Parameters *p, Place *here)
+static int settle(Course *course, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     Aside aside;
     if (here->interpolated)
         return 0;
-    const int status = solve_motion(p, here, here->a, &aside);
+    const int status = solve_motion(course, here, here->a, &aside);
     if (status)
         return status;
-    constraints(beyond_jump(here->t), here->q, p, phi);
+    constraints(beyond_jump(here->t), here->q, course->p, phi);
     here->phi = here->phi_dot = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
         here->phi = larger(here->phi, fabs(phi[r]));
@@ -93,16 +83,14 @@ static int settle(const Parameters *p, Place *here)
     return 0;
 }
 
-static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+static int begin(Course *course, double t, const double *q, const double *v, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     here->t = t;
     here->interpolated = 0;
-    for (int k = 0; k < N_Q; k++) {
-        here->q[k] = q[k];
-        here->v[k] = v[k];
-    }
-    constraints(beyond_jump(t), q, p, phi);
-    here->left = project(beyond_jump(t), q, phi, p, step) ? INFINITY : 0.0; /* rows depend on each other there */
-    return settle(p, here);
+    memcpy(here->q, q, sizeof here->q);
+    memcpy(here->v, v, sizeof here->v);
+    constraints(beyond_jump(t), q, course->p, phi); /* rows may depend on each other there */
+    here->left = project(beyond_jump(t), q, phi, course->p, step) ? INFINITY : 0.0;
+    return settle(course, here);
 }

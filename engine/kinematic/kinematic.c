@@ -3,33 +3,35 @@
  * is followed from sample to sample so that it stays on its branch.
  */
 #include "../run/asked.h"
-#include "../scene/events.h"
 
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {
-    Asked *asked;
     double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
     double left;      /* of Newton's method: its last step, rad or share of the mechanism's size */
     int interpolated; /* at or near a change point (change_point.c) */
 #if POSITIONS_IN_TREE
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
 #endif
-} Place;
+} Position;
 
-/* What a way is measured by (a share of the mechanism's size or rad; m), and the step that it has come down to. */
+/* The step that a way has come down to. */
 typedef struct {
-    double reach, extent, h;
+    double h;
     int halvings;
 } Stride;
 
-/* A run of many calls: where it is to end, where its motion and its works are, whom it asks, its pace. */
+/*
+ * A run of many calls: the parameters of a call, what a way is measured by (a share of the mechanism's size or rad; m),
+ * where it is to end, where its motion and its works are, whom it asks, its pace.
+ */
 typedef struct {
+    const Parameters *p;
     double reach, extent, t_end;
     Asked asked;
     Pace pace;
-    Place motion, work;
+    Position motion, work;
     int motion_begun, work_begun;
     long passed;     /* samples that were interpolated at or near a change point */
     double t_passed; /* the first of them, s */
@@ -39,7 +41,7 @@ typedef struct {
 
 size_t gudgeon_course_size(void) { return sizeof(Course); }
 
-/* `reach` and `extent` as in Stride; `ask` is called with `whom` each `every` seconds (0: at each step). */
+/* `reach` and `extent` as in Course; `ask` is called with `whom` each `every` seconds (0: at each step). */
 void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
     double every)
 {
@@ -88,20 +90,27 @@ long gudgeon_course_taped(void *memory)
     return n;
 }
 
-static void tape_place(Course *course, const Place *here)
+static void tape_place(Course *course, const Position *here)
 {
     if (!course->tape)
         return;
     double *row = course->tape + (1 + 2 * N_Q) * course->taped++;
     *row++ = here->t;
-    for (int k = 0; k < N_Q; k++) {
-        row[k] = here->q[k];
-        row[N_Q + k] = here->v[k];
-    }
+    memcpy(row, here->q, sizeof here->q);
+    memcpy(row + N_Q, here->v, sizeof here->v);
 }
 
 /* The larger one; NaN stays. */
 static double larger(double most, double x) { return x > most || isnan(x) ? x : most; }
+
+/* A change of q, or a rate of it, as the angle that it is worth: positions as shares of the mechanism's size. */
+static double turn_of(const double *x, double extent)
+{
+    double most = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        most = larger(most, fabs(x[k]) / (k % 3 == 2 ? 1.0 : extent));
+    return most;
+}
 
 #if POSITIONS_IN_TREE
 #include "tree.c"
@@ -109,7 +118,7 @@ static double larger(double most, double x) { return x > most || isnan(x) ? x : 
 #include "full.c"
 #endif
 /* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
-static double bend_between(const Place *a, const Place *b, double extent)
+static double bend_between(const Position *a, const Position *b, double extent)
 {
     const double half = 0.5 * (b->t - a->t), share = 1.0 / extent;
     double lengths = 0.0, angles = 0.0;
@@ -145,7 +154,7 @@ static int hides_a_pulse(double t0, double t1, const Parameters *p)
 #endif
 
 /* Whether all rows are numbers at a time: a drive may be none there. */
-static int rows_are_numbers(double t, const Place *here, const Parameters *p)
+static int rows_are_numbers(double t, const Position *here, const Parameters *p)
 {
     double phi[N_ALL_ROWS];
     constraints(t, here->q, p, phi);
@@ -157,27 +166,28 @@ static int rows_are_numbers(double t, const Place *here, const Parameters *p)
  * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
  * jump of positions that no velocity explains.
  */
-static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
+static int step_on(Course *course, Stride *stride, double t1, Position *here)
 {
-    const double straight = 0.002 * stride->reach;
+    const double straight = 0.002 * course->reach;
     for (;;) {
-        Place there, passed;
+        Position there, passed;
         double moved = 0.0, bent = 0.0;
-        if (given_up(here->asked))
+        if (given_up(&course->asked))
             return STOPPED;
         const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
-        const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
+        const int status = next > here->t ? place_at(course, next, here, &there, &moved) : NEWTON_FAILED;
         if (status == STOPPED)
             return status;
-        if ((status || (next == t1 && is_rough(&there))) && next > here->t && rows_are_numbers(next, here, p)
-            && !pass_change_point(next, stride->reach, stride->extent, p, here, &passed)) {
+        if ((status || (next == t1 && is_rough(&there))) && next > here->t && rows_are_numbers(next, here, course->p)
+            && !pass_change_point(course, next, here, &passed)) {
             *here = passed;
             return 0;
         }
-        const int near = !status && moved <= stride->reach;
+        const int near = !status && moved <= course->reach;
         if (near)
-            bent = bend_between(here, &there, stride->extent);
-        if (near && bent <= straight && (stride->halvings > PULSE_HALVINGS || !hides_a_pulse(here->t, next, p))) {
+            bent = bend_between(here, &there, course->extent);
+        if (near && bent <= straight
+            && (stride->halvings > PULSE_HALVINGS || !hides_a_pulse(here->t, next, course->p))) {
             *here = there;
             if (stride->halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
                 stride->h *= 2.0;
@@ -192,13 +202,13 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
 }
 
 /* To t1, in steps; a run whose pace is watched. */
-static int advance(Course *course, double t1, const Parameters *p, Place *here, long *steps)
+static int advance(Course *course, double t1, Position *here, long *steps)
 {
-    Stride stride = {course->reach, course->extent, t1 - here->t, 0};
+    Stride stride = {t1 - here->t, 0};
     while (here->t < t1) {
         if (course->tape && course->taped == course->capacity)
             return EVENTS_FULL;
-        const int status = step_on(&stride, t1, p, here);
+        const int status = step_on(course, &stride, t1, here);
         if (status)
             return status;
         ++*steps;
@@ -206,7 +216,7 @@ static int advance(Course *course, double t1, const Parameters *p, Place *here, 
         if (creeps(&course->pace, here->t, course->t_end))
             return STALLED;
     }
-    return settle(p, here);
+    return settle(course, here);
 }
 
 /*
@@ -217,25 +227,21 @@ int gudgeon_kinematic(void *memory, long n, const double *t, const double *param
     double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
     Course *course = memory;
-    const Parameters *p = (const Parameters *)parameters;
-    Place *here = &course->motion;
+    Position *here = &course->motion;
+    course->p = (const Parameters *)parameters;
     *done = 0;
     for (long i = course->motion_begun; i <= n; i++) {
-        here->asked = &course->asked;
-        const int status = i > 0 ? advance(course, t[i], p, here, steps)
-            : begin_near(t[0], q, v, course->reach, course->extent, p, here);
+        const int status = i > 0 ? advance(course, t[i], here, steps) : begin_near(course, t[0], q, v, here);
         if (status)
             return status;
         course->motion_begun = 1;
         if (here->interpolated && !course->passed++)
             course->t_passed = t[i];
-        for (int k = 0; k < N_Q; k++) {
-            if (i > 0) {
-                q[i * N_Q + k] = here->q[k];
-                v[i * N_Q + k] = here->v[k];
-            }
-            a[i * N_Q + k] = here->a[k];
+        if (i > 0) {
+            memcpy(q + i * N_Q, here->q, sizeof here->q);
+            memcpy(v + i * N_Q, here->v, sizeof here->v);
         }
+        memcpy(a + i * N_Q, here->a, sizeof here->a);
         *phi_max = max_of(here->phi, *phi_max);
         *phi_dot_max = max_of(here->phi_dot, *phi_dot_max);
         *done = i;

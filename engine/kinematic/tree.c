@@ -2,10 +2,10 @@
 #define MAX_BEND 0.05 /* rad, or share of the mechanism's size, that second rates may add to a first guess */
 
 /* Powers, accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
-static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
+static int solve_motion(Course *course, const Position *here, double *a, Aside *aside)
 {
-    const Memory memory = {.asked = here->asked};
-    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &memory, p, a, aside);
+    const Memory memory = {.asked = &course->asked};
+    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &memory, course->p, a, aside);
     return status > 0 ? N_LOOPS + status : status;
 }
 
@@ -13,17 +13,17 @@ static int solve_motion(const Parameters *p, const Place *here, double *a, Aside
  * Newton on the closures until the step is rounding or no longer shrinks; the rates belong to the positions. Steps
  * are measured in rad, slides as shares of the mechanism's size; `moved` is the way from the first guess.
  */
-static int close_linkage(double t, const Parameters *p, double extent, Place *at, double *moved)
+static int close_linkage(const Course *course, double t, Position *at, double *moved)
 {
     double step[N_X + 1], before = INFINITY;
     at->left = 0.0;
     for (int i = 0; i < MAX_NEWTON; i++) {
         double size = 0.0;
-        const int status = close_step(t, at->s, p, step, at->s_rate, &at->phi);
+        const int status = close_step(t, at->s, course->p, step, at->s_rate, &at->phi);
         if (status)
             return status;
         for (int k = 0; k < N_X; k++)
-            size = larger(size, fabs(step[k]) / (is_angle[k] ? 1.0 : extent));
+            size = larger(size, fabs(step[k]) / (is_angle[k] ? 1.0 : course->extent));
         if (isnan(size))
             return NEWTON_FAILED;
         at->left = size;
@@ -41,7 +41,7 @@ static int close_linkage(double t, const Parameters *p, double extent, Place *at
  * Whether second rates lead further than a first guess may: near an instant at which a drive's second rate is unbounded
  * they do not describe the motion over a whole step.
  */
-static int is_unbounded(const Place *from, double h, double extent)
+static int is_unbounded(const Position *from, double h, double extent)
 {
     double most = 0.0;
     for (int k = 0; k < N_X; k++)
@@ -50,31 +50,27 @@ static int is_unbounded(const Place *from, double h, double extent)
 }
 
 /* From one place to another near by: first guess s + h s' + h^2 s''/2, or s + h s' where s'' is unbounded. */
-static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
+static int place_at(const Course *course, double t, const Position *from, Position *to, double *moved)
 {
-    const double h = t - from->t, bend = is_unbounded(from, h, extent) ? 0.0 : 0.5 * h;
+    const double h = t - from->t, bend = is_unbounded(from, h, course->extent) ? 0.0 : 0.5 * h;
     *moved = 0.0;
-    to->asked = from->asked;
     to->t = t;
     to->interpolated = 0;
     for (int k = 0; k < N_X; k++)
         to->s[k] = from->s[k] + h * (from->s_rate[k] + (bend != 0.0 ? bend * from->s_second[k] : 0.0));
     const double then = beyond_jump(t);
-    const int status = close_linkage(then, p, extent, to, moved);
-    return status ? status : arrive(then, to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
+    const int status = close_linkage(course, then, to, moved);
+    return status ? status
+        : arrive(then, to->s, to->s_rate, course->p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
 }
 
 /* A place has all that a sample needs. */
-static int settle(const Parameters *p, Place *here)
-{
-    (void)p;
-    (void)here;
-    return 0;
-}
+static int settle(const Course *course, const Position *here) { return (void)course, (void)here, 0; }
 
 /* A given position; where closures depend on each other the equations of motion may still tell its accelerations. */
-static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+static int begin(Course *course, double t, const double *q, const double *v, Position *here)
 {
+    const Parameters *p = course->p;
     double step[N_X + 1], rates[N_X + 1];
     here->t = t;
     here->left = 0.0;
@@ -85,13 +81,11 @@ static int begin(double t, const double *q, const double *v, const Parameters *p
         return 0;
     Aside aside;
     here->left = INFINITY;
-    for (int k = 0; k < N_Q; k++) {
-        here->q[k] = q[k];
-        here->v[k] = v[k];
-    }
+    memcpy(here->q, q, sizeof here->q);
+    memcpy(here->v, v, sizeof here->v);
     for (int k = 0; k < N_X; k++)
         here->s_second[k] = 0.0;
     here->phi = here->phi_dot = 0.0;
-    const int status = dynamics(t, q, v, &(Memory){.asked = here->asked, USUAL_SHARES}, p, here->a, &aside);
+    const int status = dynamics(t, q, v, &(Memory){.asked = &course->asked, USUAL_SHARES}, p, here->a, &aside);
     return status > 0 ? N_LOOPS + status : status;
 }

@@ -2,43 +2,39 @@
  * Works along a kinematic motion: powers over the steps that follow it, impulses where velocities jump.
  */
 /* Powers at a place, and the accelerations of all bodies; a status as that of settle. */
-static int powers(const Parameters *p, Place *here, double *power)
+static int powers(Course *course, Position *here, double *power)
 {
     Aside aside;
 #if POSITIONS_IN_TREE
     double a[N_X + 1];
-    const int status = solve_motion(p, here, a, &aside);
+    const int status = solve_motion(course, here, a, &aside);
 #else
-    const int status = solve_motion(p, here, here->a, &aside);
+    const int status = solve_motion(course, here, here->a, &aside);
 #endif
     for (int k = 0; k < N_WORK; k++)
         power[k] = aside.power[k];
     return status;
 }
 
-/* A rate, as the angle that it is worth: lengths as shares of the mechanism's size. */
-static double turn(const double *v, int k, double extent) { return k % 3 == 2 ? fabs(v[k]) : fabs(v[k]) / extent; }
-
 /*
  * Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. `jumped`: the
  * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
  * NOT_FINITE where a power is none, at `work[0]`.
  */
-static int work_between(const Parameters *p, double extent, const Place *a, const Place *b, double least, double *work,
-    int *jumped)
+static int work_between(Course *course, const Position *a, const Position *b, double least, double *work, int *jumped)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
     const double half = 0.5 * (b->t - a->t);
-    double missed[N_Q], most = 0.0, scale = 0.0;
+    double missed[N_Q], scale = 0.0;
     for (int k = 0; k < N_Q; k++)
         missed[k] = b->v[k] - a->v[k];
     for (int i = 0; i < 3; i++) {
-        Place at;
+        Position at;
         double power[N_WORK], moved;
-        int status = place_at(a->t + half * (1.0 + node[i]), p, extent, a, &at, &moved);
+        int status = place_at(course, a->t + half * (1.0 + node[i]), a, &at, &moved);
         if (!status)
-            status = powers(p, &at, power);
+            status = powers(course, &at, power);
         if (status)
             return status;
         for (int k = 0; k < N_WORK; k++) {
@@ -48,20 +44,18 @@ static int work_between(const Parameters *p, double extent, const Place *a, cons
             }
             work[k] += half * weight[i] * power[k];
         }
-        for (int k = 0; k < N_Q; k++) {
+        for (int k = 0; k < N_Q; k++)
             missed[k] -= half * weight[i] * at.a[k];
-            scale = larger(scale, half * turn(at.a, k, extent));
-        }
+        scale = larger(scale, half * turn_of(at.a, course->extent));
     }
-    for (int k = 0; k < N_Q; k++)
-        most = larger(most, turn(missed, k, extent));
+    const double most = turn_of(missed, course->extent);
     /* or an acceleration is none: a rate of no bounded slope */
     *jumped = !(scale <= DBL_MAX) || (most > least && most > 1e-6 * scale);
     return 0;
 }
 
 /* Of all bodies, J. */
-static double kinetic_energy_at(const Parameters *p, const Place *at)
+static double kinetic_energy_at(const Parameters *p, const Position *at)
 {
     double m[N_Q], sum = 0.0;
     mass_matrix(p, m);
@@ -74,12 +68,11 @@ static double kinetic_energy_at(const Parameters *p, const Place *at)
  * The same, halved where velocities jump until nothing is left to halve: what kinetic energy gains there is the work
  * of the impulse with which the drives change the velocities. `halvings` are left for the whole step.
  */
-static int work_across(const Parameters *p, double reach, double extent, const Place *a, const Place *b, double least,
-    int *halvings, double *work)
+static int work_across(Course *course, const Position *a, const Position *b, double least, int *halvings, double *work)
 {
     double part[N_WORK] = {0.0}, moved;
     int jumped = 0;
-    int status = work_between(p, extent, a, b, least, part, &jumped);
+    int status = work_between(course, a, b, least, part, &jumped);
     const double t = a->t + 0.5 * (b->t - a->t);
     const int wide = t > a->t && t < b->t;
     if (status == NOT_FINITE)
@@ -89,15 +82,15 @@ static int work_across(const Parameters *p, double reach, double extent, const P
     else if (status)
         return status;
     if (jumped && wide && *halvings > 0) {
-        Place middle;
+        Position middle;
         --*halvings;
-        status = place_near(t, p, reach, extent, a, &middle, &moved);
+        status = place_near(course, t, a, &middle, &moved);
         if (!status)
-            status = work_across(p, reach, extent, a, &middle, least, halvings, work);
-        return status ? status : work_across(p, reach, extent, &middle, b, least, halvings, work);
+            status = work_across(course, a, &middle, least, halvings, work);
+        return status ? status : work_across(course, &middle, b, least, halvings, work);
     }
     if (jumped && !wide)
-        part[0] = kinetic_energy_at(p, b) - kinetic_energy_at(p, a);
+        part[0] = kinetic_energy_at(course->p, b) - kinetic_energy_at(course->p, a);
     if (!isfinite(part[0])) {
         work[0] = t;
         return NOT_FINITE;
@@ -108,13 +101,11 @@ static int work_across(const Parameters *p, double reach, double extent, const P
 }
 
 /* Of one step; speeds that change by less than a billionth of what they are do not jump. */
-static int work_of_step(const Parameters *p, double reach, double extent, const Place *a, const Place *b, double *work)
+static int work_of_step(Course *course, const Position *a, const Position *b, double *work)
 {
     int halvings = MAX_SPLITS;
-    double speed = 0.0;
-    for (int k = 0; k < N_Q; k++)
-        speed = larger(speed, larger(turn(a->v, k, extent), turn(b->v, k, extent)));
-    return work_across(p, reach, extent, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
+    const double speed = larger(turn_of(a->v, course->extent), turn_of(b->v, course->extent));
+    return work_across(course, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
 }
 
 /* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
@@ -122,22 +113,20 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
     const double *v, double *work, long *done)
 {
     Course *course = memory;
-    const double extent = course->extent;
-    const Parameters *p = (const Parameters *)parameters;
-    Place here = course->work;
-    here.asked = &course->asked;
+    Position here = course->work;
+    course->p = (const Parameters *)parameters;
     *done = 0;
-    int status = course->work_begun ? 0 : begin_near(t[0], q, v, course->reach, extent, p, &here);
+    int status = course->work_begun ? 0 : begin_near(course, t[0], q, v, &here);
     for (long i = 0; i < n && !status; i++) {
-        Stride stride = {course->reach, extent, t[i + 1] - t[i], 0};
+        Stride stride = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
         while (here.t < t[i + 1] && !status) {
-            const Place before = here;
-            status = step_on(&stride, t[i + 1], p, &here);
+            const Position before = here;
+            status = step_on(course, &stride, t[i + 1], &here);
             if (!status)
-                status = work_of_step(p, course->reach, extent, &before, &here, sum);
+                status = work_of_step(course, &before, &here, sum);
         }
         *done = i + !status;
     }

@@ -2,6 +2,7 @@
  * A run: the right-hand side with its questions, what is watched at accepted states, its begin.
  */
 #include "run.h"
+#include "../watch/zeros.h"
 #include "../both/one.h"
 
 #include "../both/states.h"

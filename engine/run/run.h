@@ -6,7 +6,6 @@
 #define GUDGEON_RUN_H
 #include "asked.h"
 #include "audit.h"
-#include "../scene/events.h"
 
 enum {
     /* what the lists of a run hold: they are full from MAX_LISTED on, and one more step finds its place */

@@ -3,9 +3,7 @@
  * constraints by. A function that is smaller has no sign: it keeps the branch that it had.
  */
 #if N_WATCHED
-#define ROUNDINGS 1024.0 /* ulp: rounding errors that a coordinate of the state collects on its way */
-#define LEFT 16.0        /* steps that close the linkage, as they are left over, that a state may be wrong by */
-#define AS_SEEN 16.0     /* times the differences that are seen, where rounding in a function may be all of them */
+#define AS_SEEN 16.0 /* times the differences that are seen, where rounding in a function may be all of them */
 
 /*
  * What is missing to close the linkage at a state is an error of it; so is what velocities miss at positions that are
@@ -88,13 +86,7 @@ static inline double watched_value(const Aside *aside, int i)
 #if KNOWN_BOUNDS
 static void error_of_watched(Run *run, double t, const double *y, const double *error, const Parameters *p, double *out)
 {
-    Range state[2 * N_X + 1], f[N_WATCHED];
-    const double rounded = 4.0 * DBL_EPSILON * fabs(t);
-    for (int k = 0; k < 2 * N_X; k++)
-        state[k] = (Range){y[k] - error[k], y[k] + error[k], 0.0, 0.0, 0};
-    watched_ranges((Range){t - rounded, t + rounded, 0.0, 0.0, 0}, state, state + N_X, &run->memory, p, f);
-    for (int i = 0; i < N_WATCHED; i++)
-        out[i] = isfinite(f[i].hi - f[i].lo) ? 0.5 * (f[i].hi - f[i].lo) : 0.0;
+    error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->memory, p, out);
 }
 #else
 /* No bounds are known: errors of some signs are tried, neighbours with the same one and with another. */

@@ -16,6 +16,8 @@ typedef struct {
 static inline Range only(double x) { return (Range){x, x, 0.0, 0.0, 0}; }
 static inline int is_empty(Range x) { return !(x.lo <= x.hi); }
 
+static inline Range range_negative(Range x) { return (Range){-x.hi, -x.lo, -x.up, -x.down, x.partly}; }
+
 /* Zero times a bound that is infinite is zero. */
 static inline double scaled(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : x * y; }
 

@@ -1,8 +1,12 @@
 /*
- * Where along a step a margin crosses zero: looks at the step's interpolant, and roots by what they have found.
+ * Where along a step a margin crosses zero (zeros.h): samples of the step's interpolant, and how near the tolerance of
+ * the run asks a zero to be located.
  */
-enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
-#define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
+#define AT_ONSET 1e-9   /* of a step, behind the begin of a contact, at most */
+#define AT_END 1e-6     /* the same behind its end */
+#define AT_CORNER 1e-2  /* of a step, behind a corner, at most */
+#define NO_HARM 1e-4    /* of the tolerance, that its wrong branch may change a step by */
+
 
 static void interpolate(const Run *run, const Step *step, double s, double *y)
 {
@@ -115,23 +119,23 @@ static int look_in(Run *run, const Step *step, double s, int k, const Parameters
     return slot;
 }
 
-static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
+/* Margin k at a share of a step, which is in a slot of run->roots.looked; -1: it is not known. */
+static Place place_in(const Looked *looked, int slot, double s, int k)
 {
-    const int slot = look_in(run, step, s, k, p);
-    return slot < 0 ? NAN : run->roots.looked.margin[slot][k];
+    return slot < 0 ? (Place){s, NAN, NAN}
+        : (Place){s, looked->margin[slot][k], k < N_CLEARANCES ? looked->slope[slot][k] : NAN};
 }
 
-/* A margin at share s of a step, and its slope there; NAN where that is not known. */
-typedef struct {
-    double s, f, slope;
-} Place;
-
+/* The same, sampled there if it has not been. */
 static Place place_at(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
     const int slot = look_in(run, step, s, k, p);
-    if (slot < 0)
-        return (Place){s, NAN, NAN};
-    return (Place){s, run->roots.looked.margin[slot][k], k < N_CLEARANCES ? run->roots.looked.slope[slot][k] : NAN};
+    return place_in(&run->roots.looked, slot, s, k);
+}
+
+static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
+{
+    return place_at(run, step, s, k, p).f;
 }
 
 /* The same of a joint with play, of which no more than its margin is known afterwards. */
@@ -141,75 +145,7 @@ static Place gap_at(Run *run, const Step *step, double s, int k, const Parameter
     Aside aside;
     if (slot < 0 && !play_in(run, step, s, p, &aside))
         slot = note_look(run, step, s, &aside, 1);
-    const Looked *looked = &run->roots.looked;
-    return slot < 0 ? (Place){s, NAN, NAN} : (Place){s, looked->margin[slot][k], looked->slope[slot][k]};
-}
-
-/* Where the polynomial s(f) through n places of different f meets f = 0 (Neville's scheme). */
-static double inverse_zero(const Place *place, int n)
-{
-    double s[MOST_PLACES];
-    for (int i = 0; i < n; i++)
-        s[i] = place[i].s;
-    for (int m = 1; m < n; m++)
-        for (int i = 0; i + m < n; i++)
-            s[i] = (place[i].f * s[i + 1] - place[i + m].f * s[i]) / (place[i].f - place[i + m].f);
-    return s[0];
-}
-
-/*
- * A zero, between a bracket's ends, of the cubic that has their values and slopes and, where that helps, the value of a
- * third place too: of the polynomial of order 4 then.
- */
-static double hermite_zero(Place low, Place high, Place third)
-{
-    const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
-    const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
-    const double less = third.f - (a + x * (r + x * (c + x * d))); /* than the cubic there */
-    const double e = isfinite(third.f) && fabs(v) > FAR_ENOUGH ? less / (v * v) : 0.0;
-    double from = 0.0, to = 1.0, u = -a / b;
-    for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
-        const double back = 1.0 - u, bend = u * back;
-        const double f = a + u * (r + u * (c + u * d)) + e * bend * bend;
-        const double f_u = r + u * (2.0 * c + 3.0 * u * d) + 2.0 * e * bend * (back - u), before = u;
-        if (f >= 0.0)
-            from = u;
-        else
-            to = u;
-        u -= f / f_u;
-        if (!(u > from && u < to))
-            u = 0.5 * (from + to);
-        if (fabs(u - before) < 1e-5) /* Newton's next step is its square */
-            break;
-    }
-    return low.s + w * u;
-}
-
-/*
- * What is known of a margin about a zero: a bracket of it, and places beside it, nearest first; what stages tell of
- * them serves to know where to look first.
- */
-typedef struct {
-    Place at[MOST_PLACES]; /* low, high, others */
-    int n;
-} Bracket;
-
-/* Where a polynomial through what is known has its zero; of values alone through so many places at most. */
-static double guess_zero(const Bracket *of, int places)
-{
-    const Place low = of->at[0], high = of->at[1];
-    if (isfinite(low.f + low.slope + high.f + high.slope))
-        return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Place){NAN, NAN, NAN});
-    return inverse_zero(of->at, of->n < places ? of->n : places);
-}
-
-/* A place more, `at` of those that are known: what was there is known beside it. */
-static void narrow(Bracket *of, int at, Place now)
-{
-    of->n = of->n < MOST_PLACES ? of->n + 1 : MOST_PLACES;
-    of->at[3] = of->at[2];
-    of->at[2] = of->at[at];
-    of->at[at] = now;
+    return place_in(&run->roots.looked, slot, s, k);
 }
 
 /* Margin k at both ends of a step. */
@@ -240,65 +176,75 @@ static Bracket bracket_of(const Step *step, int k, Place low, Place high)
     return (Bracket){{low, high, nearest, next}, 2 + (nearest.s == nearest.s) + (next.s == next.s)};
 }
 
-/* A guess within the bracket. */
-static double about_where(double guess, const Bracket *of)
+/* The share to which a zero is located: 4 ulp of the time, or a tick. */
+static double root_width(const Run *run, const Step *step)
 {
-    const double low = of->at[0].s, high = of->at[1].s;
-    return guess > low && guess < high ? guess : 0.5 * (low + high);
+    return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->roots.tick) / step->h;
 }
 
-/* By how much a margin falls a share near its zero, which is about there: at most, as the places say that are known. */
-static double falls_by(const Bracket *of, double about)
+/* Whether margin k may be found behind its zero: of a contact that gives, of a corner where branches meet. */
+static int may_lie_behind(const Run *run, int k)
 {
-    const double s = about_where(about, of);
-    double most = 0.0;
-    for (int i = 0; i < of->n; i++)
-        most = max_of(most, fabs(of->at[i].f / (of->at[i].s - s)));
-    return most;
+    const int corner = k - N_CLEARANCES;
+    if (run->control.fixed > 0.0 || watched_as[k] >= 0)
+        return 0;
+    return corner < 0 ? gives(k) : corner < N_SWITCHES && meets[corner];
+}
+
+/*
+ * How far behind its zero the margin of a contact that gives may be found, as a share of a step. Forces may begin with
+ * a jump, and how long a contact lasts is not known before it begins, nor by others: of one as short as the
+ * tolerance's share of the step that finds its onset, the tolerance is missed. The step that finds an end is a part of
+ * the contact.
+ */
+static double reach_of_contact(const Run *run, int k)
+{
+    const double tolerance = tolerance_of(run);
+    return run->memory.latch[k].closed ? min_of(AT_END, tolerance * sqrt(tolerance))
+        : min_of(AT_ONSET, tolerance * tolerance);
+}
+
+/*
+ * How near its zero margin k is located: of a corner, where branches meet, as far after it as the wrong one does no
+ * harm. Rates differ in proportion to the margin, and what that does grows with the square of the way: at the step's
+ * end they do so by what step->harm tells.
+ */
+static ZeroTolerance zero_tolerance(const Run *run, const Step *step, int k)
+{
+    const double width = root_width(run, step);
+    if (!may_lie_behind(run, k))
+        return (ZeroTolerance){.width = width};
+    if (k < N_CLEARANCES)
+        return (ZeroTolerance){width, reach_of_contact(run, k), INFINITY, 1.0};
+    return (ZeroTolerance){width, AT_CORNER, NO_HARM * fabs(margin(&run->memory, &step->aside, k)), step->harm};
 }
 
 /* How many places tell where a zero is: near one that is located to rounding a fourth tells of that alone. */
 static int telling(const Run *run, int k) { return MOST_PLACES - !may_lie_behind(run, k); }
 
-/* Whether a place behind a zero is no further from it than that, as the margin falls there, or from `low` to there. */
-static int is_reached(Place low, Place now, double reach)
+/* Margin k of a step, whose zero is located; whether it has not been sampled yet. */
+typedef struct {
+    Run *run;
+    const Step *step;
+    const Parameters *p;
+    int k, first;
+} MarginOfStep;
+
+/* The first sample is seldom the last one, after which the whole state is needed. */
+static int evaluate_margin(void *context, double s, Place *now)
 {
-    const double slope = isfinite(now.slope) ? now.slope : (now.f - low.f) / (now.s - low.s);
-    return now.f >= slope * reach;
+    MarginOfStep *of = context;
+    *now = of->first && of->k < N_CLEARANCES ? gap_at(of->run, of->step, s, of->k, of->p)
+        : place_at(of->run, of->step, s, of->k, of->p);
+    of->first = 0;
+    return 0;
 }
 
-/*
- * The first share at which margin k is below zero, from a bracket of it, which looks make narrow: at the zero of a
- * polynomial through what is known, or a little behind it, on the other side of it once that is known so well, and in
- * the middle where looks do not halve the bracket. guess: the first of these zeros.
- */
+/* The first share at which margin k is below zero, from a bracket of it and a guess. */
 static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
-    const double least = root_width(run, step);
-    const int places = telling(run, k);
-    double width = 2.0, before = 2.0;
-    for (int i = 0;; i++) {
-        const double from = of.at[0].s, to = of.at[1].s;
-        double s = i ? guess_zero(&of, places) : guess;
-        const double reach = reach_of(run, step, k, falls_by(&of, s)), close = max_of(reach, least);
-        if (!(to - from > close))
-            break;
-        if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
-            s = 0.5 * (from + to);
-        else if (s - from < 2.0 * close)
-            s = min_of(from + 0.9 * (to - from), s + 0.75 * close);
-        else if (reach > 0.0)
-            s += min_of(0.5 * reach, 0.9 * (to - s));
-        else if (to - s < 2.0 * close)
-            s = max_of(to - 0.9 * (to - from), s - 0.75 * close);
-        if (!(s > from && s < to))
-            break; /* nothing lies between */
-        before = width;
-        width = to - from;
-        const Place now = i == 0 && k < N_CLEARANCES ? gap_at(run, step, s, k, p) : place_at(run, step, s, k, p);
-        if (now.f < 0.0 && is_reached(of.at[0], now, reach))
-            return s;
-        narrow(&of, now.f >= 0.0 ? 0 : 1, now);
-    }
+    MarginOfStep margin_of_step = {run, step, p, k, 1};
+    const ZeroTolerance near = zero_tolerance(run, step, k);
+    (void)locate_zero(evaluate_margin, &margin_of_step, &near, telling(run, k), guess, &of);
     return of.at[1].s;
 }

@@ -4,26 +4,75 @@
  * any part of it, so that the expressions have bounds there too (ranges.h). Parts over which one may be negative are
  * halved until it is monotone there, or clear of zero: no zero of the interpolant is missed, however many.
  */
-enum { DEEPEST = 64, MAX_PARTS_SEEN = 2000 };
-
 /* A step's interpolant in powers of the share s, from which bounds follow, its place in time. */
 typedef struct {
     double power[N_DENSE + 1][2 * N_X + 1], t, h;
     int degree;
 } Course;
 
-/* A part of a step, and all margins at its begin. */
+/*
+ * Values of watched functions that are below their uncertainty (run/uncertainty.c) mean nothing, as of a velocity that
+ * something holds at zero: a step is not ended by their signs, nor searched for them.
+ *
+ * How large margins are that mean nothing, at whichever end of a step that is less: by rounding, and by the tolerance
+ * of an error of the state. They are found once they are asked for.
+ */
 typedef struct {
-    double a, b, at_a[N_WATCHED];
-} Part;
+    int known;
+    double rounding[N_WATCHED], tolerance[N_WATCHED], lowest[N_WATCHED]; /* its lower bound over the whole step */
+} Noise;
 
-/* What is watched, at one place. */
-static void look_at(const Run *run, double t, const double *y, const Parameters *p, Aside *aside)
+static void find_noise(Run *run, const Step *step, Noise *noise, const Parameters *p)
 {
-    watched_functions(t, y, y + N_X, &run->memory, p, aside);
+    double error[2 * N_X + 1], at_end[N_WATCHED];
+    if (noise->known)
+        return;
+    noise->known = 1;
+    for (int k = 0; k < 2 * N_X; k++)
+        error[k] = 1.0 / run->norm.weight[k];
+    uncertainty(run, step->t, run->y, p, noise->rounding);
+    error_of_watched(run, step->t, run->y, error, p, noise->tolerance);
+    uncertainty(run, step->t + step->h, step->y, p, at_end);
+    for (int i = 0; i < N_WATCHED; i++)
+        noise->rounding[i] = min_of(noise->rounding[i], at_end[i]);
+    error_of_watched(run, step->t + step->h, step->y, error, p, at_end);
+    for (int i = 0; i < N_WATCHED; i++)
+        noise->tolerance[i] = min_of(noise->tolerance[i], at_end[i]);
 }
 
-#include "held_at_zero.c"
+/* The state at share s of a step, on the constraints; that at its begin where the time alone is read. */
+static void watched_state(Run *run, const Step *step, double s, const Parameters *p, double *y)
+{
+    memcpy(y, s < 1.0 ? run->y : step->y, N_Y * sizeof *y);
+#if WATCHES_STATE
+    if (s > 0.0 && s < 1.0) {
+        interpolate(run, step, s, y);
+        project_state(run, step->t + s * step->h, y, p);
+    }
+#else
+    (void)p;
+#endif
+}
+
+/* Whether margin i, of this value at share s of a step, is below its uncertainty there. */
+static int is_noise(Run *run, const Step *step, double s, int i, double value, const Parameters *p)
+{
+    double y[N_Y], error[N_WATCHED];
+    watched_state(run, step, s, p, y);
+    uncertainty(run, step->t + s * step->h, y, p, error);
+    return fabs(value) <= error[i];
+}
+
+/*
+ * Whether a margin is taken as zero over a part: it is no larger than rounding at both ends, and its bounds are within
+ * what the tolerance allows; or they are so wide because they do not know how its terms depend on each other, and
+ * become narrower with the part, as those of a function do that hides nothing in it.
+ */
+static int is_held_at_zero(const Noise *noise, int i, Range f, double at_a, double at_b, double width)
+{
+    return fabs(at_a) <= noise->rounding[i] && fabs(at_b) <= noise->rounding[i] && !f.partly
+        && (f.lo >= -noise->tolerance[i] || is_narrowing(f.lo, width, noise->lowest[i]));
+}
 
 static void margins_at(Run *run, const Step *step, double s, const Parameters *p, double *out)
 {
@@ -31,7 +80,7 @@ static void margins_at(Run *run, const Step *step, double s, const Parameters *p
     if (s > 0.0 && s < 1.0) {
         double y[N_Y];
         watched_state(run, step, s, p, y);
-        look_at(run, step->t + s * step->h, y, p, &aside);
+        watched_functions(step->t + s * step->h, y, y + N_X, &run->memory, p, &aside);
     }
     for (int i = 0; i < N_WATCHED; i++)
         out[i] = margin(&run->memory, &aside, watched[i]);
@@ -100,59 +149,62 @@ static void margins_over(const Run *run, const Course *course, double a, double 
     margins_of_ranges(run, t, y, p, out);
 }
 
-/*
- * Whether a margin is below zero at the end of a part and not before (1), not at all (0), or not known so far (-1).
- * Bounds are rounded: what is computed at the end comes first.
- */
-static int verdict(Range f, double at_a, double at_b, double width, int small)
+/* The search along a step: its interpolant, all margins at the begin of the part that is judged. */
+typedef struct {
+    Run *run;
+    Step *step;
+    const Parameters *p;
+    Course course;
+    double at_a[N_WATCHED];
+    Noise noise;
+} WatchedStep;
+
+/* zero_verdict of margin i over a part up to b; at_b is set to 0 where it means nothing. */
+static int judge_margin(WatchedStep *of, int i, Range f, double b, double width, int small, double *at_b)
 {
-    if (is_empty(f) || (f.lo >= 0.0 && !(at_b < 0.0)))
-        return 0;
-    if (small)
-        return at_b < 0.0;
-    if (f.partly)
-        return -1;
-    if (f.down >= 0.0 || f.up <= 0.0)
-        return at_b < 0.0;
-    /* the lowest that a function of these slopes between these ends may reach */
-    const double lowest = at_a + f.down * (at_b - at_a - f.up * width) / (f.down - f.up);
-    return at_a >= 0.0 && at_b >= 0.0 && lowest >= 0.0 ? 0 : -1;
+    const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
+    int result = zero_verdict(f, of->at_a[i], *at_b, width, small);
+    if (width == 1.0)
+        of->noise.lowest[i] = f.lo;
+    if (result > 0 && is_noise(of->run, of->step, b, i, *at_b, of->p)) {
+        *at_b = 0.0;
+        result = zero_verdict(f, of->at_a[i], 0.0, width, small);
+    }
+    if (result < 0) {
+        find_noise(of->run, of->step, &of->noise, of->p);
+        result = -!is_held_at_zero(&of->noise, i, f, of->at_a[i], *at_b, width);
+    }
+    return f.partly && !small && event >= 0 && !of->run->events.no_number[event] ? -1 : result;
 }
 
-/* Verdicts on all margins over a part: 1 where the first is found, -1 where the part is to be halved. */
-static int judge(Run *run, Step *step, const Course *course, const Part *part, double *at_b, int small, Noise *noise,
-    const Parameters *p)
+/* Judges a part of a step by the bounds of all margins over it: 1 where the first zero of some is found. */
+static int judge_margins(void *context, double a, double b, int small)
 {
+    WatchedStep *of = context;
+    Run *run = of->run;
+    Step *step = of->step;
     Range f[N_WATCHED];
+    double at_b[N_WATCHED];
     int found = 0;
-    const double width = part->b - part->a;
-    margins_over(run, course, part->a, part->b, p, f);
+    margins_at(run, step, b, of->p, at_b);
+    margins_over(run, &of->course, a, b, of->p, f);
     for (int i = 0; i < N_WATCHED; i++) {
         const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-        int result = verdict(f[i], part->at_a[i], at_b[i], width, small);
-        if (width == 1.0)
-            noise->lowest[i] = f[i].lo;
-        if (result > 0 && is_noise(run, step, part->b, i, at_b[i], p)) {
-            at_b[i] = 0.0;
-            result = verdict(f[i], part->at_a[i], 0.0, width, small);
-        }
-        if (result < 0) {
-            find_noise(run, step, noise, p);
-            result = -!is_held_at_zero(noise, i, f[i], part->at_a[i], at_b[i], width);
-        }
-        if (result < 0 || (f[i].partly && !small && event >= 0 && !run->events.no_number[event]))
+        const int result = judge_margin(of, i, f[i], b, b - a, small, &at_b[i]);
+        if (result < 0)
             return -1;
         if (event >= 0 && isnan(at_b[i]))
-            note_no_number(run, event, course->t + part->b * course->h);
+            note_no_number(run, event, step->t + b * step->h);
         if (result) {
-            step->from[i] = part->a;
-            step->to[i] = part->b;
-            step->above[i] = part->at_a[i] < 0.0 && is_noise(run, step, part->a, i, part->at_a[i], p)
-                ? 0.0 : part->at_a[i];
+            step->from[i] = a;
+            step->to[i] = b;
+            step->above[i] = of->at_a[i] < 0.0 && is_noise(run, step, a, i, of->at_a[i], of->p) ? 0.0 : of->at_a[i];
             step->below[i] = at_b[i];
             found = 1;
         }
     }
+    if (!found)
+        memcpy(of->at_a, at_b, sizeof at_b);
     return found;
 }
 
@@ -184,40 +236,16 @@ static int is_clear(Run *run, const Step *step, Noise *noise, const Parameters *
 /* The first zero of what is watched along an accepted step: `from` where it is not yet, `to` where it is over. */
 static void look_inside(Run *run, Step *step, const Parameters *p)
 {
-    Course course = {.t = step->t, .h = step->h};
-    Part parts[DEEPEST + 2];
-    Noise noise = {0};
-    const double close = root_width(run, step);
-    int n = 1, seen = 0;
+    WatchedStep of = {.run = run, .step = step, .p = p, .course = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear(run, step, &noise, p)) || make_dense(run, p, step))
+    if ((!step->method->stiff && is_clear(run, step, &of.noise, p)) || make_dense(run, p, step))
         return;
-    course_of(run, step, &course);
+    course_of(run, step, &of.course);
 #endif
-    parts[0].a = 0.0;
-    parts[0].b = 1.0;
-    margins_at(run, step, 0.0, p, parts[0].at_a);
-    while (n > 0) {
-        Part *part = &parts[n - 1];
-        double at_b[N_WATCHED];
-        const double width = part->b - part->a;
-        margins_at(run, step, part->b, p, at_b);
-        const int small = width <= 4.0 * close || n > DEEPEST || ++seen > MAX_PARTS_SEEN;
-        const int result = judge(run, step, &course, part, at_b, small, &noise, p);
-        if (result > 0)
-            return;
-        if (result < 0) { /* its first half is looked at first */
-            parts[n] = *part;
-            parts[n].b = part->a = part->a + 0.5 * width;
-            n++;
-            continue;
-        }
-        if (--n > 0)
-            for (int i = 0; i < N_WATCHED; i++)
-                parts[n - 1].at_a[i] = at_b[i];
-    }
+    margins_at(run, step, 0.0, p, of.at_a);
+    (void)first_part(0.0, 1.0, 4.0 * root_width(run, step), judge_margins, &of);
 }
 
 static int is_unresolved(const Run *run, const Step *step, const Parameters *p)

@@ -5,8 +5,8 @@ their power over the steps that follow the motion (engine/kinematic/kinematic.c)
 the time of the motion, works and events not counted.
 
 engine/kinematic/events.c looks for changes of sign over parts of the way in which no expression
-turns back, and finds their times by bisection to 4 ulp of t or 1e-12 of the part. A zero at the end of the run counts:
-the way is looked at a little beyond it.
+turns back, and locates them to 4 ulp of t or 1e-13 of the part (engine/watch/zeros.h). A zero at the end of the run
+counts: the way is looked at a little beyond it.
 """
 
 from __future__ import annotations
