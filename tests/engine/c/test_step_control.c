@@ -70,9 +70,12 @@ int main(void)
     run.t = 0.0;
     open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
     CHECK(run.control.attempt.h == 0.3 && run.control.attempt.open);
+    run.t = 0.4; /* behind an event: to the end of the grid */
+    open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
+    CHECK(CLOSE(run.control.attempt.h, 0.2, 1e-15) && run.control.attempt.end == 0.6);
     run.t = 0.9;
     open_attempt(&run, 1.0, &(Parameters){.radius = 1.0});
-    CHECK(run.control.attempt.h == 1.0 - run.t);
+    CHECK(CLOSE(run.control.attempt.h, 1.0 - run.t, 1e-15) && run.control.attempt.end == 1.0);
     close_attempt(&run);
     CHECK(!run.control.attempt.open);
 
