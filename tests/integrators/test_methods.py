@@ -66,6 +66,12 @@ def test_dop853_has_order_8_and_its_interpolant_7(inside: bool) -> None:
 
 
 @pytest.mark.parametrize("inside", [False, True])
+def test_dopri5_has_order_5_and_its_interpolant_4(inside: bool) -> None:
+    """As of rodas5p: on the way it errs by O(h⁵)."""
+    assert observed_order("swing", "dopri5", 1.0, (40, 2000, 12), inside) == pytest.approx(5.0, abs=0.15)
+
+
+@pytest.mark.parametrize("inside", [False, True])
 def test_rk4_has_order_4(inside: bool) -> None:
     """The cubic errs by O(h⁴) on the way, which is as good as the ends of the steps."""
     assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), inside) == pytest.approx(4.0, abs=0.15)
