@@ -80,8 +80,8 @@ def test_check_tells_the_story_of_the_reduction(call: Gudgeon) -> None:
     assert (dry["closures"], dry["driven"]) == (["guide.offset"], ["crank1", "crank4"])
     operations = dry["operations of the accelerations"]
     assert operations == {"full": dry["operations in dynamics"], "reduced": dry["operations in reduced_dynamics"]}
-    assert dry["methods"] == ["rk4", "dop853", "rodas5p", "scipy:*", "sundials:*"]
-    assert film["methods"] == ["rk4", "dop853", "rodas5p", "radau5", "radau9", "scipy:*", "sundials:*"]
+    assert dry["methods"] == ["rk4", "dop853", "dopri5", "rodas5p", "scipy:*", "sundials:*"]
+    assert film["methods"] == ["rk4", "dop853", "dopri5", "rodas5p", "radau5", "radau9", "scipy:*", "sundials:*"]
     assert [scene["auto begins with"] for scene in (ideal, dry, film)] == ["kinematic", "dop853", "radau9"]
     shown = call("check", "nine_bar_press", "-v").stdout
     assert max(map(len, shown.splitlines())) <= 100

@@ -254,7 +254,7 @@ def run_arguments(
 PENDULUM = fine(1.0, 0.0, 0.25, 0.0, 0.5, 1.0), np.array([0.0, -1.0, 0.0, 1.0, 0.0, 2.0])
 BALL = fine(0.0, -1.0, 0.5, 0.0, 0.5, 1.5), np.array([0.0, -1.0, 1.0, 0.0, 1.0, 2.0])
 TIMES = fine(0.0, 0.25, 0.375, 0.5)
-OWN = ("auto", "rk4", "dop853", "rodas5p", "radau5", "radau9")
+OWN = ("auto", "rk4", "dop853", "dopri5", "rodas5p", "radau5", "radau9")
 CHECKS = tuple(name for name in python_driver.NAMES if name.startswith("scipy:"))
 
 

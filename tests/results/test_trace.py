@@ -28,20 +28,25 @@ def by_steps(steps: int) -> Result:
 def test_rows_tell_the_extremes_of_their_steps(steps: int, stride: int) -> None:
     """Of 1, 2 or 4 steps each, as many as it takes to stay below the bound; none is forgotten."""
     run = by_steps(steps)
-    assert run.trace is not None and len(run.trace.t) == -(-(steps + 1) // stride) <= TRACE_ROWS
-    first = np.arange(0, steps + 1, stride)
-    last = np.minimum(first + stride, steps + 1) - 1
-    assert (run.trace.t == run.t[last]).all()
+    trace = run.trace
+    assert trace is not None and -(-(steps + 1) // stride) <= len(trace.t) <= TRACE_ROWS  # events end steps, too
+    ends = np.searchsorted(run.t, trace.t, side="right")  # samples up to a row's end: the ends of the grid
+    first = np.concatenate([[0], ends[:-1]])
+    some = ends > first
+    assert ends[-1] == len(run.t) and some.sum() > 0.6 * len(some)
     for k, joint in enumerate(run.source.clearances):
         F, ex, ey, e = (run[f"{joint.name}.{name}"] for name in ("F", "ex", "ey", "e"))
-        low, t_low, high, t_high, x_out, y_out, t_out, x, y = run.trace.joints[:, k].T
-        assert low == pytest.approx(np.minimum.reduceat(F, first), rel=1e-9, abs=1e-9)
-        assert high == pytest.approx(np.maximum.reduceat(F, first), rel=1e-9, abs=1e-9)
-        assert np.interp(t_high, run.t, F) == pytest.approx(high, rel=1e-6, abs=1e-6)
-        assert np.interp(t_low, run.t, F) == pytest.approx(low, rel=1e-6, abs=1e-6)
-        assert np.hypot(x_out, y_out) == pytest.approx(np.maximum.reduceat(e, first), rel=1e-9)
-        assert np.isin(t_out, run.t).all()
-        assert x == pytest.approx(ex[last], abs=1e-15) and y == pytest.approx(ey[last], abs=1e-15)
+        low, t_low, high, t_high, x_out, y_out, t_out, x, y = trace.joints[:, k].T
+        off = 1e-9 * F.max()
+        assert (low[some] <= np.minimum.reduceat(F, first[some]) + off).all()
+        assert (high[some] >= np.maximum.reduceat(F, first[some]) - off).all()
+        assert high.max() == pytest.approx(run.diagnostics.peaks[k].F, rel=1e-12)
+        assert (np.hypot(x_out, y_out)[some] >= np.maximum.reduceat(e, first[some]) - 1e-9 * e.max()).all()
+        for times in (t_low, t_high, t_out):
+            assert (times <= trace.t).all() and (times[1:] >= trace.t[:-1] - 1e-12).all()
+        at = np.isin(trace.t, run.t)
+        rows = np.searchsorted(run.t, trace.t[at])
+        assert x[at] == pytest.approx(ex[rows], abs=1e-15) and y[at] == pytest.approx(ey[rows], abs=1e-15)
 
 
 @pytest.mark.parametrize("options", [{}, {"method": "rodas5p"}, {"method": "rk4", "step": 1e-5}])

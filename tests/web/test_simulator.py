@@ -146,12 +146,12 @@ def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
 @needs_node
 def test_a_journal_that_is_too_deep_is_named(tmp_path: Path) -> None:
     """Which one, and how deep, as the native run says it."""
-    crank, options = gudgeon.load("slider_crank", "dry"), FAST
+    crank, options = gudgeon.load("slider_crank", "dry"), FAST | {"step": 1e-3}
     with pytest.raises(SolverError) as caught:
         crank.simulate(**options)
     (found,) = in_node(crank, tmp_path, [{"options": options}])
     told = str(caught.value).partition(", at t = ")[0]
-    assert "the journal of wristpin lies 129 mm deep" in told and found.error == f"{told}: t = 0.002 s"
+    assert "the journal of wristpin lies 3.52 mm deep" in told and found.error.startswith(f"{told}: t = 0.002")
 
 
 FREE: dict[str, float] = {"baumgarte.alpha": 0.0, "baumgarte.beta": 0.0}
@@ -261,7 +261,7 @@ def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -
     moved = {"rod": 0.2, "half": 1000.5}
     native = simulation.simulate(parameters=moved, **asked)
     (found,) = in_node(simulation, tmp_path, [{"parameters": moved, "options": asked, "slices": True}])
-    assert found.error == "" and np.array_equal(found.arrays["t"], native.t)
+    assert found.error == "" and found.arrays["t"] == pytest.approx(native.t, rel=1e-13)
     assert (native.t[-1] < 501.0) == (scene == "stopped")
     assert found.counts["steps"] / len(found.shares) < 3000 and list(found.shares) == sorted(found.shares)
     for name, most in (("q", 1e-12), ("v", 1e-12), ("work", 1e-8)):
