@@ -30,6 +30,7 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
     .between = {-12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,
         701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0}};
 
+/* A step that is tried; k[0] is left over from the step before. Rates at its end are those of the next step's begin. */
 static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y], change = real_of(0.0), way = real_of(0.0), worst = real_of(0.0);
@@ -78,6 +79,7 @@ static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const Paramete
     return 0;
 }
 
+/* The coefficients of the interpolant, from the stages that there are. */
 static inline void runge_kutta_dense(const RunOf *run, const Tableau *of, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {

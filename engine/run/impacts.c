@@ -256,7 +256,6 @@ static inline int what_ends(const Run *run, int otherwise, const Parameters *p)
     return (void)run, (void)p, otherwise;
 }
 
-
 static inline int meet(Run *run, int event, const Parameters *p)
 {
     (void)run, (void)event, (void)p;

@@ -1,5 +1,5 @@
 /*
- * Contacts of joints with play: their onsets and separations, their list, their peaks. Together with both/watch.h this
+ * Contacts of joints with play: their onsets and separations, their list, their peaks. Together with run/watch.h this
  * file owns Contacts (run.h).
  */
 

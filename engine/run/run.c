@@ -35,7 +35,7 @@ static int rates(Run *run, double t, const double *y, const Parameters *p, doubl
 #endif
 }
 
-#include "../both/watch.h"
+#include "watch.h"
 #include "latches.c"
 #include "trace.c"
 

@@ -126,7 +126,7 @@ typedef struct {
 
 /*
  * Contacts of joints with play, and their list until it is fetched.
- * Written by: run/latches.c, both/watch.h. Copied by: batch/many.c.
+ * Written by: run/latches.c, run/watch.h.
  */
 typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* the contact that lasts in each joint */
@@ -224,7 +224,7 @@ typedef struct {
 /*
  * The norm of errors: what tolerances are relative to.
  * Written by: both/weigh.h, both/speed.h, methods/begin.c.
- * Copied by: batch/many.c, batch/lane_exchange.c, batch/lane_quiet.c.
+ * Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
  */
 typedef struct {
     double inverse_scale[2 * N_X + 1], least[2]; /* 1 / tolerances; the smallest length, m, and angle that matter */

@@ -83,10 +83,6 @@ class Times:
         t = np.broadcast_to(self.t, (len(self.count), self.most))
         return np.where(self.count > 0, t[np.arange(len(self.count)), self.count - 1], np.nan)
 
-    def same(self, i: int, j: int) -> bool:
-        """Whether two runs have the same."""
-        return bool(self.count[i] == self.count[j]) and (self.t.ndim == 1 or np.array_equal(self.of(i), self.of(j)))
-
 
 def last_step(duration: float, step: float) -> float:
     """Length (s) of the last of the steps over `duration`: `step`, or what is left (step_end in numbers.h)."""
