@@ -14,5 +14,8 @@ static Real distance_from_rows(const RunOf *run, const Real *before, const Real 
     return most;
 }
 
+/* Where in a state the motion's k-th part is, of N_FELT: coordinates, velocities, inner states of laws. */
+static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
+
 /* h rho: the length of a step times the largest rate at which its stages saw rates change. */
 static inline void note_stability(RunOf *run, Real stability) { run->choice.stability = stability; }

@@ -146,7 +146,8 @@ static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
     const int status_last = finish_step(run, step, p);
     if (status_last)
         return status_last;
-    for (int i = 0; i < 2 * N_X; i++) {
+    for (int k = 0; k < N_FELT; k++) {
+        const int i = felt(k);
         const Real by = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - step->k[DOP853_STAGES - 1][i]) * by, change);
         way = real_max(real_abs(step->y[i] - y[i]) * by, way);

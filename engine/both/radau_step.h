@@ -207,7 +207,8 @@ static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         step->y[i] = run->y[i] + step->k[RADAU_STAGES - 1][i];
     }
     step->error = RADAU(error)(run, h, run->dy, bend, r, u);
-    for (int i = 0; i < 2 * N_X; i++) { /* J u = u/eta - r */
+    for (int k = 0; k < N_FELT; k++) { /* J u = u/eta - r */
+        const int i = felt(k);
         change = real_max(real_abs(by * u[i] - r[i]) * run->norm.weight[i], change);
         way = real_max(real_abs(u[i]) * run->norm.weight[i], way);
     }

@@ -120,7 +120,8 @@ static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         rodas5p_right(s, h, f, step->k, r);
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages lie at one time: what f changes between them is J times their way */
-            for (int i = 0; i < 2 * N_X; i++) {
+            for (int k = 0; k < N_FELT; k++) {
+                const int i = felt(k);
                 change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);
                 way = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], way);
             }

@@ -70,7 +70,8 @@ static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const Paramete
         return NOT_FINITE;
     if (is_refused(run, step))
         return 0;
-    for (int i = 0; i < 2 * N_X; i++) { /* rho h, of two states at the step's end: the last stage's and the step's */
+    for (int k = 0; k < N_FELT; k++) { /* rho h, of two states at the step's end: the last stage's and the step's */
+        const int i = felt(k);
         const Real by = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - step->k[of->stages - 1][i]) * by, change);
         way = real_max(real_abs(step->y[i] - y[i]) * by, way);

@@ -14,7 +14,8 @@ static void note_works(RunOf *run, Truth taken, const Real *y)
 
 /*
  * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
- * the energy that was turned over: nothing in the motion feels them, but a balance of energy does.
+ * the energy that was turned over: nothing in the motion feels them, but a balance of energy does. Those of inner states
+ * of laws stay (methods/begin.c).
  */
 static void weigh(RunOf *run)
 {
@@ -25,7 +26,4 @@ static void weigh(RunOf *run)
         norm->weight[k] = k < N_X ? norm->inverse_scale[k] : norm->inverse_scale[k] * of_speed[is_angle[k - N_X]];
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++)
         norm->weight[k] = 1.0 / (norm->work_scale * norm->turned_over);
-    for (int k = FIRST_STATE; k < N_Y; k++) /* deflections, as lengths are */
-        norm->weight[k] = is_angle[0] ? norm->inverse_scale[0] * (norm->least[1] / norm->least[0])
-            : norm->inverse_scale[0];
 }

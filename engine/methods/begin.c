@@ -64,6 +64,21 @@ static int rests_on_law(const Run *run)
     return found;
 }
 
+/* Errors of inner states: relative to the deflection at which a joint slides, or as those of lengths where it is 0. */
+static void weigh_states(Run *run, const Parameters *p)
+{
+#if LAW_STATES
+    const double length = is_angle[0] ? run->norm.least[0] / run->norm.least[1] : 1.0;
+    for (int k = 0; k < N_STATES; k++) {
+        const double at = breakaway(p, k / LAW_STATES);
+        run->norm.weight[FIRST_STATE + k] = at > 0.0 ? run->norm.inverse_scale[2 * N_X - 1] / at
+            : run->norm.inverse_scale[0] / length;
+    }
+#else
+    (void)run, (void)p;
+#endif
+}
+
 /* A run; one that starts at a drive's jump, or right before it, beyond: on the rows that hold there, without work. */
 static int begin_run(Run *run, const Parameters *p)
 {
@@ -92,6 +107,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     note_speed(run);
     /* weights are its inverse */
     run->norm.turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
+    weigh_states(run, p);
     weigh(run);
     if (!status)
         status = pass_jumps_here(run, p); /* to the sides that hold there */

@@ -13,6 +13,9 @@ void mass_matrix(const Parameters *p, double *m);
 double radial_clearance(const Parameters *p, int i);
 double deepest(const Parameters *p, int i);
 double slowest_impact(const Parameters *p, int i);
+#if LAW_STATES
+double breakaway(const Parameters *p, int i);
+#endif
 #if N_RIGID
 double restitution_of(const Parameters *p, int i);
 double threshold_of(const Parameters *p, int i);

@@ -17,6 +17,7 @@ enum {
     N_MEMORY = N_CLEARANCES + N_FRICTIONS + N_STATES,
     N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
     N_Y = 2 * N_X + N_WORK + N_STATES, /* state that is integrated */
+    N_FELT = N_Y - N_WORK,             /* of it the motion feels these: all but the works */
     FIRST_STATE = 2 * N_X + N_WORK     /* where inner states are in it */
 };
 

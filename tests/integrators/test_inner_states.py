@@ -273,3 +273,17 @@ def test_a_state_by_hand_says_how_far_it_is_bent(press: Press) -> None:
     memory[2] = np.inf
     with pytest.raises(BadValueError, match=r"the inner state A\.z, is inf: expected a length"):
         press().simulate(0.011, start=replace(final, memory=memory))
+
+
+def test_between_its_steps_dop853_knows_the_bristles(tmp_path: Path) -> None:
+    """At the bound of stability its interpolant errs ten times as much as the ends of its steps."""
+    text = JOURNAL.replace("{law: dahl, mu: z/10, presliding: z_rate/100}", LUGRE.replace("2e4", "2e5"))
+    journal = loader(tmp_path)(text + "start: {rates: {j.omega: 80}}\n", "m")
+    exact = journal.simulate(0.006, output=6000, method="radau9", rtol=1e-12)
+    breakaway = 0.2 / 2e5
+    assert abs(exact["A.z"]).max() > 0.5 * breakaway
+    for rtol in (1e-5, 1e-6, 1e-7):
+        run = journal.simulate(0.006, output=6000, method="dop853", rtol=rtol, audit="full")
+        both = (exact["A.state"] > 0) & (run["A.state"] > 0)
+        assert both.sum() > 100
+        assert abs(run["A.z"] - exact["A.z"])[both].max() < 1e2 * rtol * breakaway, rtol

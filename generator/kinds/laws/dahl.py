@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, State
+from gudgeon.generator.kinds.laws.law import BREAKAWAY, Law, LawInputs, State
 from gudgeon.generator.kinds.laws.roles import MU
 from gudgeon.language.units import LENGTH
 
@@ -23,6 +23,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     v_t, z = s.variables["v_t"], s.variables["z"]
+    s.derive(BREAKAWAY, s.parameters["presliding"], "deflection at which it slides")
     share = z * 1 / s.parameters["presliding"]
     return {"F_t": -s.parameters["mu"] * s.variables["F_n"] * share, "z_rate": v_t - sp.Abs(v_t) * share}
 

@@ -68,6 +68,9 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 MEAN_CLEARANCE = "mean_clearance"
 # What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.
 DEEPEST = "deepest"
+# What a law with an inner state may derive: the deflection (m) at which its friction slides, which errors of the state
+# are measured by; without it they are measured by the lengths of the linkage.
+BREAKAWAY = "breakaway"
 # Of the clearance: where the stiffness of a force that is no power law is taken, for the default step.
 SECANT_DEPTH = 0.05
 

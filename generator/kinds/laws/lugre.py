@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, State
+from gudgeon.generator.kinds.laws.law import BREAKAWAY, Law, LawInputs, State
 from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
 from gudgeon.language.units import dimension
 
@@ -28,6 +28,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     names = ("mu", "mu_s", "v_s", "stiffness", "damping")
     mu, mu_s, v_s, sigma_0, sigma_1 = (s.parameters[name] for name in names)
     v_t, z = s.variables["v_t"], s.variables["z"]
+    s.derive(BREAKAWAY, mu_s / sigma_0, "deflection at which it slides from rest")
     g, rate = sp.Symbol("g_v", real=True), sp.Symbol("bending", real=True)
     return {
         "g_v": mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2)),

@@ -20,7 +20,7 @@ from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
-from gudgeon.generator.kinds.laws.law import DEEPEST
+from gudgeon.generator.kinds.laws.law import BREAKAWAY, DEEPEST
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
@@ -112,6 +112,7 @@ _OF_JOINTS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
     "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
     "slowest_impact": "The least velocity that counts as that of an impact, m/s.",
+    "breakaway": "The deflection at which friction with an inner state slides, m; 0: not known.",
     "restitution_of": "Where surfaces do not give, speed of parting by speed of approach.",
     "threshold_of": "Where surfaces do not give, the speed of parting below which a contact closes, m/s.",
 }
@@ -354,6 +355,8 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
         "deepest": [deepest(c) for c in model.clearances],
         "slowest_impact": [c.velocity_floor for c in model.clearances],
     }
+    if model.law_states:
+        values["breakaway"] = [c.constants.get(BREAKAWAY, 0) for c in model.clearances]
     if model.rigid:
         values |= {
             f"{name}_of": [c.normal.numbers[name] if c.rigid and c.normal else 0 for c in model.clearances]
