@@ -50,6 +50,7 @@ test-all: lint types  ## the slow tests too, and the others under every later Py
 
 lint: setup-test
 	@.venv/bin/ruff check .
+	@.venv/bin/ruff format --check -q .
 	@.venv/bin/lint-imports
 	@.venv/bin/codespell *.md docs engine generator runtime templates tools mechanisms studies benchmarks
 

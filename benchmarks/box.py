@@ -33,8 +33,21 @@ from gudgeon.studies.verdicts import Cell, Status
 MECHANISM, PERIODS, PATIENCE = "nine_bar_press", 2, 60.0  # s a period
 CONTACT = {"dry": "dry", "lubricated": "oil"}  # what the joints of a scene have
 GEOMETRY = ("external", "internal")
-HEAD = ("code", "scene", "geometry", "index", "status", "reason", "seconds", "energy", "penetration_m", "motion",
-        "path", "force", "parameters")  # fmt: skip
+HEAD = (
+    "code",
+    "scene",
+    "geometry",
+    "index",
+    "status",
+    "reason",
+    "seconds",
+    "energy",
+    "penetration_m",
+    "motion",
+    "path",
+    "force",
+    "parameters",
+)
 
 
 @dataclass(frozen=True)
@@ -55,17 +68,21 @@ class Point:
     def python(self) -> str:
         """Python that runs it again."""
         contact = f'{{"contacts.dry.normal.geometry": "{self.geometry}"}}'
-        return (f'gudgeon.load("{MECHANISM}", scene="{self.scene}", overrides={contact}).simulate('
-                f"{self.t_end!r}, parameters={dict(self.parameters)!r})")  # fmt: skip
+        return (
+            f'gudgeon.load("{MECHANISM}", scene="{self.scene}", overrides={contact}).simulate('
+            f"{self.t_end!r}, parameters={dict(self.parameters)!r})"
+        )
 
 
 def ranges(scene: str) -> list[Range]:
     """The box, and the convention as a number: 1 external, 2 internal."""
     edges = [
-        Range("c", 0.05e-3, 1e-3), Range("materials.aluminium.E", 1e9, 400e9),
-        Range("omega", 0.2 * math.pi, 20 * math.pi), Range(f"contacts.{CONTACT[scene]}.normal.restitution", 0.1, 0.99),
+        Range("c", 0.05e-3, 1e-3),
+        Range("materials.aluminium.E", 1e9, 400e9),
+        Range("omega", 0.2 * math.pi, 20 * math.pi),
+        Range(f"contacts.{CONTACT[scene]}.normal.restitution", 0.1, 0.99),
         Range("geometry", 1.0, 2.0),
-    ]  # fmt: skip
+    ]
     return [*edges, *([Range("contacts.oil.film.viscosity", 1e-3, 1.0)] if scene == "lubricated" else [])]
 
 
@@ -83,10 +100,14 @@ def loaded(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
     """Every scene with each convention."""
     return {
         (scene, geometry): gudgeon.load(
-            MECHANISM, scene=scene, overrides={"contacts.dry.normal.geometry": geometry}, quick=False,
+            MECHANISM,
+            scene=scene,
+            overrides={"contacts.dry.normal.geometry": geometry},
+            quick=False,
         )
-        for scene in scenes for geometry in GEOMETRY
-    }  # fmt: skip
+        for scene in scenes
+        for geometry in GEOMETRY
+    }
 
 
 @cache
@@ -131,8 +152,10 @@ def tell(rows: list[dict[str, str]]) -> None:
         times = sorted(float(r["seconds"]) for r in own)
         energy = max((float(r["energy"]) for r in own if r["energy"] != "nan"), default=math.nan)
         print(f"{scene}: {len(own)} points: {', '.join(f'{counts[s.value]} {s.value}' for s in Status)}")
-        print(f"  seconds a point: median {times[len(times) // 2]:.2g}, largest {times[-1]:.2g};"
-              f" largest energy residual {energy:.1e}")  # fmt: skip
+        print(
+            f"  seconds a point: median {times[len(times) // 2]:.2g}, largest {times[-1]:.2g};"
+            f" largest energy residual {energy:.1e}"
+        )
     for r in rows:
         if r["status"] in (Status.DIVERGED.value, Status.INACCURATE.value):
             print(f"FAILED {r['scene']} {r['geometry']} {r['index']}: {r['reason']}\n  {r['parameters']}")

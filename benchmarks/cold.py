@@ -27,8 +27,14 @@ from benchmarks.rhs import machine
 from gudgeon.loading.shipped import shipped_file
 
 # (scene, seconds that are asked for)
-SCENES = (("jansen_leg", "ideal", 3.0), ("andrews_squeezer", "ideal", 3.0), ("four_bar", "ideal", 1.0),
-          ("nine_bar_press", "ideal", 1.5), ("nine_bar_press", "dry", 1.5), ("nine_bar_press", "lubricated", 1.5))
+SCENES = (
+    ("jansen_leg", "ideal", 3.0),
+    ("andrews_squeezer", "ideal", 3.0),
+    ("four_bar", "ideal", 1.0),
+    ("nine_bar_press", "ideal", 1.5),
+    ("nine_bar_press", "dry", 1.5),
+    ("nine_bar_press", "lubricated", 1.5),
+)
 WARM = 0.3  # s
 KINDS = ("cold", "edited", "warm")
 START = """

@@ -1,6 +1,6 @@
 """Processor time of `--help` of each command beyond that of Python's own start, least of some starts.
 
-    python -m benchmarks.help [--starts 7]
+python -m benchmarks.help [--starts 7]
 """
 
 from __future__ import annotations

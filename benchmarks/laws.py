@@ -38,9 +38,16 @@ scenes: {{alone: {{play: {{A: {{bearing: pin, contact: it}}}}}}}}
 """
 # Between which values each variable is drawn, SI; states of laws as z.
 DRAWN = {
-    "delta": (0.0, 5e-6), "ratio": (-1.0, 1.0), "deltadot": (-0.1, 0.1), "F_n": (1.0, 1000.0), "v_t": (-0.05, 0.05),
-    "epsilon": (0.01, 0.95), "w_n": (-10.0, 10.0), "w_t": (-10.0, 10.0), "z": (-1e-5, 1e-5),
-}  # fmt: skip
+    "delta": (0.0, 5e-6),
+    "ratio": (-1.0, 1.0),
+    "deltadot": (-0.1, 0.1),
+    "F_n": (1.0, 1000.0),
+    "v_t": (-0.05, 0.05),
+    "epsilon": (0.01, 0.95),
+    "w_n": (-10.0, 10.0),
+    "w_t": (-10.0, 10.0),
+    "z": (-1e-5, 1e-5),
+}
 STATES, COUNT, ROUNDS = 256, 400_000, 7
 HARNESS = """
 #include "scene.c"
@@ -115,9 +122,16 @@ def harness(call: str, names: list[str], results: int, slots: int) -> str:
     """The program that times a call and prints nanoseconds, then the sum of what it computed."""
     low, high = (", ".join(repr(DRAWN.get(name, DRAWN["z"])[k]) for name in names) for k in (0, 1))
     return HARNESS % {
-        "low": low, "high": high, "states": STATES, "width": len(names), "slots": max(slots, 1), "rounds": ROUNDS,
-        "count": COUNT, "call": call, "sum": " + ".join(f"out[{k}]" for k in range(results)),
-    }  # fmt: skip
+        "low": low,
+        "high": high,
+        "states": STATES,
+        "width": len(names),
+        "slots": max(slots, 1),
+        "rounds": ROUNDS,
+        "count": COUNT,
+        "call": call,
+        "sum": " + ".join(f"out[{k}]" for k in range(results)),
+    }
 
 
 def timed(law: Law, folder: Path) -> tuple[float, float]:

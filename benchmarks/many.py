@@ -138,6 +138,7 @@ def waited(work: Callable[[float], object], values: list[float], threads: int) -
 
     Other work on the machine makes that larger, for who has the lock waits for a core too, but not by itself.
     """
+
     def clocks() -> tuple[float, float]:
         ran, ready, _ = map(int, Path("/proc/thread-self/schedstat").read_text().split())
         return perf_counter(), 1e-9 * (ran + ready)
@@ -158,8 +159,7 @@ def waited(work: Callable[[float], object], values: list[float], threads: int) -
 
 def outside(repeats: int) -> None:
     """Prints how whole calls in threads of the caller's scale, beside the batch's own threads."""
-    print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash  "
-          "waiting")
+    print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash  waiting")
     for scene, t_end in (("lubricated", 1.0), ("dry", 0.2)):
         _outside(gudgeon.load("nine_bar_press", scene=scene, quick=False), t_end, repeats)
 
@@ -185,9 +185,11 @@ def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
     list(map(one, clearances))
     other = process_time() - before - in_c
     works: dict[str, Callable[[], object]] = {
-        "one": lambda: list(map(one, clearances)), "pool": pool,
-        "batch 1": lambda: batch(1), "batch 2": lambda: batch(2),
-    }  # fmt: skip
+        "one": lambda: list(map(one, clearances)),
+        "pool": pool,
+        "batch 1": lambda: batch(1),
+        "batch 2": lambda: batch(2),
+    }
     found = in_turns(works, repeats)
     ratios = found["one"] / found["pool"], found["batch 1"] / found["batch 2"], machine(repeats)
     told = "".join(f"{x:{width}.2f}" for x, width in zip(ratios, (11, 12, 16), strict=True))

@@ -208,16 +208,21 @@ def _cell(value: float, width: int, digits: int = 0) -> str:
 
 def show_times(all_works: list[Work]) -> None:
     """Times in µs with operations; the ratio is the peer's over the reduced one."""
-    print(f"{'work':<20}{'full [µs]':>10}{'oper.':>7}{'reduced [µs]':>14}{'oper.':>7}{f'≤ {BAR}':>8}{'peer [µs]':>11}"
-          f"{'ratio':>8}")  # fmt: skip
+    print(
+        f"{'work':<20}{'full [µs]':>10}{'oper.':>7}{'reduced [µs]':>14}{'oper.':>7}{f'≤ {BAR}':>8}{'peer [µs]':>11}"
+        f"{'ratio':>8}"
+    )
     for work in all_works:
         some = timers(work)
         rounds = np.array([[timer() for timer in some] for _ in range(ROUNDS)])
         full, reduced, peer = map(float, 1e6 * rounds.min(axis=0))
         before, after = work.operations
         verdict = "yes" if reduced <= BAR else "no"
-        print(f"{work.name:<20}{full:10.3f}{before:7,}{reduced:14.3f}{after:7,}{verdict:>8}{_cell(peer, 11, 3)}"
-              f"{_cell(peer / reduced, 8, 1)}", flush=True)  # fmt: skip
+        print(
+            f"{work.name:<20}{full:10.3f}{before:7,}{reduced:14.3f}{after:7,}{verdict:>8}{_cell(peer, 11, 3)}"
+            f"{_cell(peer / reduced, 8, 1)}",
+            flush=True,
+        )
 
 
 def show_instructions(all_works: list[Work]) -> None:
@@ -226,8 +231,11 @@ def show_instructions(all_works: list[Work]) -> None:
     print(f"{'work':<20}{'full':>10}{'reduced':>10}{'an oper.':>10}{'peer':>10}{'ratio':>8}")
     for work in all_works:
         full, reduced, peer = (callgrind.instructions(c) if c else math.nan for c in calls(work))
-        print(f"{work.name:<20}{full:10,.0f}{reduced:10,.0f}{reduced / work.operations[1]:10.2f}{_cell(peer, 10)}"
-              f"{_cell(peer / reduced, 8, 1)}", flush=True)  # fmt: skip
+        print(
+            f"{work.name:<20}{full:10,.0f}{reduced:10,.0f}{reduced / work.operations[1]:10.2f}{_cell(peer, 10)}"
+            f"{_cell(peer / reduced, 8, 1)}",
+            flush=True,
+        )
 
 
 def show_results(all_works: list[Work]) -> None:
@@ -237,8 +245,10 @@ def show_results(all_works: list[Work]) -> None:
         found, names = result(work), work.simulation.source.tree
         some = ", ".join(f"{n} {x:.9g}" for n, x in zip(names[:SHOWN], found.accelerations, strict=False))
         peer = "" if math.isnan(found.from_peer) else f", {found.from_peer:.1e}"
-        print(f"{work.name}, t = {work.t:.9g} s: sum {found.accelerations.sum():.12g}; {some}\n    |Φ| {found.phi:.1e},"
-              f" |Φ̇| {found.phi_dot:.1e}; {found.from_full:.1e}{peer}")  # fmt: skip
+        print(
+            f"{work.name}, t = {work.t:.9g} s: sum {found.accelerations.sum():.12g}; {some}\n    |Φ| {found.phi:.1e},"
+            f" |Φ̇| {found.phi_dot:.1e}; {found.from_full:.1e}{peer}"
+        )
 
 
 def main() -> None:

@@ -78,9 +78,13 @@ def cold(place: Path, name: str, scene: str) -> float:
         file.write_text((place / "mechanisms" / f"{name}.yaml").read_text(encoding="utf-8") + "\n# edited\n", "utf-8")
         begin = perf_counter()
         with subprocess.Popen(
-            [str(place / ".venv/bin/python"), "-c", START, str(file), scene], env=around(f"{folder}/cache"), cwd=place,
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-        ) as process:  # fmt: skip
+            [str(place / ".venv/bin/python"), "-c", START, str(file), scene],
+            env=around(f"{folder}/cache"),
+            cwd=place,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        ) as process:
             told = process.stdout.readline() if process.stdout else ""
             took = perf_counter() - begin
         if told != "done\n":
@@ -95,9 +99,13 @@ def batch(place: Path, of: Presses, cache: str) -> float:
     runs = len(of.columns["c"])
     np.savez(file, **{name: np.broadcast_to(value, runs) for name, value in (PRESS | of.columns).items()})
     done = subprocess.run(
-        [str(place / ".venv/bin/python"), "-c", BATCH, str(file), of.scene, str(of.t_end)], env=around(cache),
-        cwd=place, check=True, capture_output=True, text=True,
-    )  # fmt: skip
+        [str(place / ".venv/bin/python"), "-c", BATCH, str(file), of.scene, str(of.t_end)],
+        env=around(cache),
+        cwd=place,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     return float(done.stdout)
 
 

@@ -108,8 +108,13 @@ def batches(repeats: int) -> None:
         for beside in (True, False) * (repeats + 1):  # the first ones compile
             before = process_time()
             simulation.simulate_many(
-                {**PRESS, **columns}, t_end, output=2, rtol=1e-4, threads=1, side_by_side=beside,
-            )  # fmt: skip
+                {**PRESS, **columns},
+                t_end,
+                output=2,
+                rtol=1e-4,
+                threads=1,
+                side_by_side=beside,
+            )
             least[beside] = min(least[beside], process_time() - before)
         print(f"  {told:<40} {n:7d}{1e3 * least[True] / n:22.3f}{1e3 * least[False] / n:7.3f}", flush=True)
 

@@ -44,8 +44,11 @@ CONSTANT_IN_TIME = ("", OF_PENETRATION, OF_CAM_ANGLE)  # what may not use t
 
 
 RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
-    ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
-}  # fmt: skip
+    ">": operator.gt,
+    ">=": operator.ge,
+    "<": operator.lt,
+    "<=": operator.le,
+}
 
 
 class Bound(NamedTuple):

@@ -76,9 +76,10 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
         where = inertia.where if inertia is not None else bodies[name].where
         raise BadValueError(
             f"body {name} has no moment of inertia, and nothing else resists its turning: its motion is not determined",
-            where, f"expected bodies.{name}.inertia > 0, or its centre of mass (com) away from the joint about which it"
+            where,
+            f"expected bodies.{name}.inertia > 0, or its centre of mass (com) away from the joint about which it"
             " turns, or a drive that turns it",
-        )  # fmt: skip
+        )
 
 
 def _lightest_motion(phi_q: Array, heavy: NDArray[np.bool_]) -> tuple[float, Array]:

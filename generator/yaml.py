@@ -169,9 +169,7 @@ class Items(list[Any]):
 Node: TypeAlias = Text | Map | Items
 
 
-def parse_yaml(
-    data: bytes, file: str, twice: list[InputError] | None = None, begins: str = "gudgeon/1"
-) -> Map:  # fmt: skip
+def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None, begins: str = "gudgeon/1") -> Map:
     """The mapping that a file holds.
 
     Raises NotYamlError, LimitError, or UnknownKeyError for a key that is given twice; these go to `twice`, if given.

@@ -54,14 +54,19 @@ def _root(version: opt.Version = False) -> None:
 @app.command()
 @told
 def run(
-    file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None, t_end: opt.Until = None,
+    file: opt.File,
+    scene: opt.Scenes = None,
+    set_: opt.Set = None,
+    t_end: opt.Until = None,
     output: opt.Intervals = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[
         str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …", autocompletion=completion.methods)
     ] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
-    watch: opt.Watch = None, peaks: opt.Peaks = None, verify: opt.Verify = False,
+    watch: opt.Watch = None,
+    peaks: opt.Peaks = None,
+    verify: opt.Verify = False,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",
@@ -71,8 +76,11 @@ def run(
     out: opt.Out = Path("out"),
     regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
-    report: opt.Report = False, json: opt.Json = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+    report: opt.Report = False,
+    json: opt.Json = False,
+    laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
+) -> int:
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
 
     The ideal scene (no play) is always run too, at the same times and with the same parameters.
@@ -81,10 +89,28 @@ def run(
     """
     from gudgeon.commands.run import Request, run_scenes
 
-    return run_scenes(Request(
-        file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()), report, verify,
-    ))  # fmt: skip
+    return run_scenes(
+        Request(
+            file,
+            tuple(scene or ()),
+            tuple(set_ or ()),
+            t_end,
+            output,
+            step,
+            method,
+            rtol,
+            tuple(watch or ()),
+            out,
+            horizon,
+            regenerate,
+            json,
+            formulation,
+            verbose,
+            tuple(peaks or ()),
+            report,
+            verify,
+        )
+    )
 
 
 @app.command()
@@ -92,9 +118,12 @@ def run(
 def check(
     file: opt.File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
-    branches: opt.Branches = False, set_: opt.Set = None, json: opt.Json = False, laws: opt.Laws = None,
+    branches: opt.Branches = False,
+    set_: opt.Set = None,
+    json: opt.Json = False,
+    laws: opt.Laws = None,
     quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+) -> int:
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
     Example: gudgeon check engine.yaml -v
@@ -111,9 +140,11 @@ def emit(
     folder: Annotated[
         Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for C, one a scene; or x.fmu.")
     ],
-    scene: opt.Scenes = None, files_as_json: opt.FilesJson = False, laws: opt.Laws = None,
+    scene: opt.Scenes = None,
+    files_as_json: opt.FilesJson = False,
+    laws: opt.Laws = None,
     quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+) -> int:
     """Write the generated C, to be read or to be built into something else; to x.fmu as an FMU (FMI 3.0) of a scene.
 
     Example: gudgeon emit engine.yaml -o c --scene worn
@@ -128,9 +159,13 @@ def emit(
 @app.command()
 @told
 def equations(
-    file: opt.File, target: opt.Pages, scene: opt.ScenesOfPages = None, files_as_json: opt.FilesJson = False,
-    laws: opt.Laws = None, quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+    file: opt.File,
+    target: opt.Pages,
+    scene: opt.ScenesOfPages = None,
+    files_as_json: opt.FilesJson = False,
+    laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
+) -> int:
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o engine.tex --scene worn
@@ -143,9 +178,12 @@ def equations(
 @app.command("laws")
 @told
 def force_laws(
-    name: opt.LawName = None, plot: opt.Plot = None, set_: opt.Set = None, json: opt.Json = False,
+    name: opt.LawName = None,
+    plot: opt.Plot = None,
+    set_: opt.Set = None,
+    json: opt.Json = False,
     laws: opt.Laws = None,
-) -> int:  # fmt: skip
+) -> int:
     """List the laws of contact, friction and film; of one its equations, keys, validity and reference, or its plot.
 
     Example: gudgeon laws flores --plot flores.svg --set restitution=.5
@@ -158,9 +196,12 @@ def force_laws(
 @app.command()
 @told
 def new(
-    name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False, files_as_json: opt.FilesJson = False,
+    name: opt.Name,
+    like: opt.Like = None,
+    study: opt.OfStudy = False,
+    files_as_json: opt.FilesJson = False,
     quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+) -> int:
     """Begin a mechanism file, NAME.yaml, or a study's, with comments that explain it.
 
     Example: gudgeon new engine --like slider_crank
@@ -187,9 +228,15 @@ def import_(
 @app.command()
 @told
 def exercise(
-    file: opt.File, target: opt.Sheet, scene: opt.OneScene = "ideal", seed: opt.Seed = 1, at: opt.Moment = None,
-    files_as_json: opt.FilesJson = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+    file: opt.File,
+    target: opt.Sheet,
+    scene: opt.OneScene = "ideal",
+    seed: opt.Seed = 1,
+    at: opt.Moment = None,
+    files_as_json: opt.FilesJson = False,
+    laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
+) -> int:
     """Make an exercise sheet of a mechanism, and its solutions in a second file.
 
     Write Φ, count the freedoms, Φ_q at a position, γ, the force in a joint: numbers are drawn from the seed.
@@ -204,10 +251,16 @@ def exercise(
 @app.command()
 @told
 def draw(
-    file: opt.File, scene: opt.OneScene = "ideal", at: opt.At = None, target: opt.Picture = None, set_: opt.Set = None,
-    branches: opt.Branches = False, files_as_json: opt.FilesJson = False, laws: opt.Laws = None,
+    file: opt.File,
+    scene: opt.OneScene = "ideal",
+    at: opt.At = None,
+    target: opt.Picture = None,
+    set_: opt.Set = None,
+    branches: opt.Branches = False,
+    files_as_json: opt.FilesJson = False,
+    laws: opt.Laws = None,
     quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+) -> int:
     """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
 
     A start that does not close is drawn with what does not reach, in red, and then told as `check` tells it.
@@ -236,15 +289,22 @@ def schema(
 @app.command()
 @told
 def bench(
-    file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None, t_end: opt.End = None,
-    out: opt.Out = Path("out"), csv: opt.Csv = None,
-    quick: opt.Quick = False, mark: opt.Mark = None,
+    file: opt.File,
+    scene: opt.Scenes = None,
+    set_: opt.Set = None,
+    t_end: opt.End = None,
+    out: opt.Out = Path("out"),
+    csv: opt.Csv = None,
+    quick: opt.Quick = False,
+    mark: opt.Mark = None,
     methods: Annotated[
         list[str] | None,
         typer.Option("--methods", metavar="NAMES", help=f"Only these: {','.join(OFFERED)},scipy:*,sundials:cvode."),
     ] = None,
-    json: opt.Json = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+    json: opt.Json = False,
+    laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
+) -> int:
     """Run time against error with every method, for each scene: a table, a CSV file, a picture.
 
     Errors are taken against another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*)
@@ -264,15 +324,23 @@ def bench(
 @told
 def verdicts(
     context: typer.Context,
-    file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None,
-    method: Annotated[
-        str, typer.Option(help=f"{', '.join(OFFERED)}.", autocompletion=completion.methods)
-    ] = "auto",
-    at: opt.Rest = None, axis: opt.Axis = None, box: opt.Box = None, range_: opt.Range = None,
-    t_end: opt.End = None, out: opt.Out = Path("out"), csv: opt.Csv = None, quick: opt.Quick = False,
+    file: opt.File,
+    scene: opt.Scenes = None,
+    set_: opt.Set = None,
+    method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.", autocompletion=completion.methods)] = "auto",
+    at: opt.Rest = None,
+    axis: opt.Axis = None,
+    box: opt.Box = None,
+    range_: opt.Range = None,
+    t_end: opt.End = None,
+    out: opt.Out = Path("out"),
+    csv: opt.Csv = None,
+    quick: opt.Quick = False,
     mark: opt.Mark = None,
-    json: opt.Json = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
-) -> int:  # fmt: skip
+    json: opt.Json = False,
+    laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
+) -> int:
     """Tolerance (rk4: step) × clearance, or what --axis or --box say: where is a run stable, where does it fail?
 
     Each run is stable, inaccurate, diverged or outside the model, with its reason; failures with what to
@@ -294,12 +362,21 @@ def verdicts(
 @app.command()
 @told
 def study(
-    file: opt.StudyFile, finished: opt.Finished = None, out: opt.Folder = None, json: opt.Json = False,
-    laws: opt.Laws = None, quiet: opt.Quiet = False,
-    threads: opt.Threads = None, workers: opt.Workers = None, dask: opt.Cluster = None, restart: opt.Restart = False,
+    file: opt.StudyFile,
+    finished: opt.Finished = None,
+    out: opt.Folder = None,
+    json: opt.Json = False,
+    laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
+    threads: opt.Threads = None,
+    workers: opt.Workers = None,
+    dask: opt.Cluster = None,
+    restart: opt.Restart = False,
     set_: opt.Set = None,
-    runs: opt.Runs = False, starts: opt.Starts = None, seed: opt.StartSeed = None,
-) -> int:  # fmt: skip
+    runs: opt.Runs = False,
+    starts: opt.Starts = None,
+    seed: opt.StartSeed = None,
+) -> int:
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 
     Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on.

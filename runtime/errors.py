@@ -199,9 +199,16 @@ def shortened(path: str | os.PathLike[str]) -> str:
 
 
 _NAMED = {
-    errno.ENOTDIR, errno.EISDIR, errno.EEXIST, errno.ENOENT, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES,
-    errno.EPERM, errno.EROFS,
-}  # fmt: skip
+    errno.ENOTDIR,
+    errno.EISDIR,
+    errno.EEXIST,
+    errno.ENOENT,
+    errno.ENAMETOOLONG,
+    errno.ELOOP,
+    errno.EACCES,
+    errno.EPERM,
+    errno.EROFS,
+}
 _HINTS = {
     errno.ENOSPC: "what stood there is as it was; make room or name another folder, and do it again",
     errno.EDQUOT: "what stood there is as it was; make room or name another folder, and do it again",

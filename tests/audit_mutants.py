@@ -52,12 +52,28 @@ SECONDS = 60.0  # of one mutant's runs
 SAMPLES = 50
 CRASHED = "crashed or endless"
 SCENES = (
-    ("slider_crank_spring", "ideal", 1.0), ("pendulum", "ideal", 3.0), ("andrews_squeezer", "ideal", 0.02),
-    ("nine_bar_press", "lubricated", 0.05), ("slider_crank", "dry", 0.02),
-)  # fmt: skip
-ENGINE_FILES = ("both/dop853.h", "both/motion.h", "both/project.h", "both/weigh.h", "both/rodas5p.h", "motion/tree.c",
-                "methods/step.c", "methods/adaptive.c", "run/run.c", "run/changes.c", "run/latches.c",
-                "watch/roots.c", "watch/zeros.h", "watch/gaps.c")  # fmt: skip
+    ("slider_crank_spring", "ideal", 1.0),
+    ("pendulum", "ideal", 3.0),
+    ("andrews_squeezer", "ideal", 0.02),
+    ("nine_bar_press", "lubricated", 0.05),
+    ("slider_crank", "dry", 0.02),
+)
+ENGINE_FILES = (
+    "both/dop853.h",
+    "both/motion.h",
+    "both/project.h",
+    "both/weigh.h",
+    "both/rodas5p.h",
+    "motion/tree.c",
+    "methods/step.c",
+    "methods/adaptive.c",
+    "run/run.c",
+    "run/changes.c",
+    "run/latches.c",
+    "watch/roots.c",
+    "watch/zeros.h",
+    "watch/gaps.c",
+)
 SCENE_FILES = ("dynamics.c", "reduced.c", "constraints.c", "parameters.c", "clearance.c")
 
 
@@ -146,8 +162,7 @@ class Scene:
         self.simulation = gudgeon.load(name, scene, quick=False)
         self.right = results(self.simulation.simulate(t_end, output=SAMPLES, rtol=EXACT))
         run = self.simulation.simulate(t_end, output=SAMPLES)
-        self.limit = {name: max(CHANGED, LOOSER * off)
-                      for name, off in differences(results(run), self.right).items()}  # fmt: skip
+        self.limit = {name: max(CHANGED, LOOSER * off) for name, off in differences(results(run), self.right).items()}
         folder.mkdir()
         mutant(self.simulation, folder)
 

@@ -38,8 +38,13 @@ def worst(got: np.ndarray, want: np.ndarray) -> float:
 def ideal() -> Iterable[Row]:
     run = gudgeon.load(PRESS).simulate(1.0)
     want = ideal_press.motion(run.t)
-    yield ("ideal press, positions (m, rad)", "closed form: intersections of circles", float(abs(run.q - want.q).max()),
-           "1e-12", "test_golden.py::test_ideal_press_is_its_closed_form")  # fmt: skip
+    yield (
+        "ideal press, positions (m, rad)",
+        "closed form: intersections of circles",
+        float(abs(run.q - want.q).max()),
+        "1e-12",
+        "test_golden.py::test_ideal_press_is_its_closed_form",
+    )
 
 
 def lubricated() -> Iterable[Row]:
@@ -78,14 +83,22 @@ def energy() -> Iterable[Row]:
         ),
     }
     for what, run in runs.items():
-        yield (f"{what}: energy unaccounted for (of what was turned over)", "work of drives, contacts and films",
-               run.diagnostics.energy_residual / run.diagnostics.energy_turned_over, "1e-8",
-               "test_golden.py::test_energy_is_accounted_for")  # fmt: skip
+        yield (
+            f"{what}: energy unaccounted for (of what was turned over)",
+            "work of drives, contacts and films",
+            run.diagnostics.energy_residual / run.diagnostics.energy_turned_over,
+            "1e-8",
+            "test_golden.py::test_energy_is_accounted_for",
+        )
     runs = {method: test_methods.race(method, 1e-8) for method in test_methods.ADAPTIVE}
     worst_of = max(-run.diagnostics.energy_residual / run.work[-1, 2] for run in runs.values())
-    yield ("dry press, .05 s at rtol 1e-8: energy unaccounted for (of what was dissipated)",
-           "work of drives and contacts", worst_of, "1e-5",
-           "test_methods.py::test_energy_of_the_dry_press")  # fmt: skip
+    yield (
+        "dry press, .05 s at rtol 1e-8: energy unaccounted for (of what was dissipated)",
+        "work of drives and contacts",
+        worst_of,
+        "1e-5",
+        "test_methods.py::test_energy_of_the_dry_press",
+    )
 
 
 def order() -> Iterable[Row]:
@@ -107,24 +120,41 @@ def order() -> Iterable[Row]:
 def onsets() -> Iterable[Row]:
     exact = np.array([t for _, t, _ in test_methods.ONSETS["onsets"]])
     runs = [test_methods.race(*setting) for setting in (("dop853", 1e-13), ("rodas5p", 1e-14), ("auto", 1e-13))]
-    yield (f"dry press, {len(exact)} onsets in .05 s, worst of dop853, rodas5p, auto (s)",
-           "hand-written equations in long double", max(float(abs(run.impacts["t_on"] - exact).max()) for run in runs),
-           "1e-10", "test_methods.py::test_every_onset_of_the_dry_press")  # fmt: skip
+    yield (
+        f"dry press, {len(exact)} onsets in .05 s, worst of dop853, rodas5p, auto (s)",
+        "hand-written equations in long double",
+        max(float(abs(run.impacts["t_on"] - exact).max()) for run in runs),
+        "1e-10",
+        "test_methods.py::test_every_onset_of_the_dry_press",
+    )
 
 
 def long_runs() -> Iterable[Row]:
     """Many digits, and many seconds."""
     andrews, known = test_methods.scene_of("andrews_squeezer"), "the same equations in 25 digits"
     runs = [andrews.simulate(0.03, output=1, method=m, rtol=r) for m, r in (("dop853", 1e-14), ("rodas5p", 1e-13))]
-    yield ("Andrews' squeezer, seven angles, worse of dop853, rodas5p (relative)", known,
-           10.0 ** -min(map(test_methods.digits, runs)), "1e-12",
-           "test_methods.py::test_andrews_in_twelve_digits")  # fmt: skip
+    yield (
+        "Andrews' squeezer, seven angles, worse of dop853, rodas5p (relative)",
+        known,
+        10.0 ** -min(map(test_methods.digits, runs)),
+        "1e-12",
+        "test_methods.py::test_andrews_in_twelve_digits",
+    )
     run = andrews.simulate(0.03, output=1, method="dop853", rtol=1e-10)
-    yield (f"the same: right-hand sides of dop853 for {test_methods.digits(run):.1f} digits", known,
-           run.diagnostics.right_hand_sides, "1600",
-           "test_methods.py::test_andrews_in_ten_digits_with_few_right_hand_sides")  # fmt: skip
-    yield ("pendulum after 2000 s: angle (rad)", "elliptic functions", float(abs(phase()).max()), "1e-6",
-           "test_methods.py::test_pendulum_keeps_its_phase_for_two_thousand_seconds")  # fmt: skip
+    yield (
+        f"the same: right-hand sides of dop853 for {test_methods.digits(run):.1f} digits",
+        known,
+        run.diagnostics.right_hand_sides,
+        "1600",
+        "test_methods.py::test_andrews_in_ten_digits_with_few_right_hand_sides",
+    )
+    yield (
+        "pendulum after 2000 s: angle (rad)",
+        "elliptic functions",
+        float(abs(phase()).max()),
+        "1e-6",
+        "test_methods.py::test_pendulum_keeps_its_phase_for_two_thousand_seconds",
+    )
     press = test_methods.scene_of(PRESS, "lubricated")
     run = press.simulate(100.0, output=1001, rtol=1e-5, parameters=test_methods.LUBRICATED)
     phi, rate = run.diagnostics.phi_max, run.diagnostics.phi_dot_max  # of the closures, at every step
@@ -163,12 +193,27 @@ def derivation() -> Iterable[Row]:
         a, _ = Reference(model, t, q, v, [math.nan, math.nan]).accelerations()
         got = press.rhs(t, np.concatenate([q, v]))[q.size :]
         emitted = max(emitted, float(abs(got - a).max() / abs(a).max()))
-    yield ("Φ_q in C (relative)", "differences of Φ", jacobian, "1e-7",
-           "test_derivation.py::test_jacobian_against_finite_differences")  # fmt: skip
-    yield ("γ in C (relative)", "d/dt of Φ_q q̇ − ν by complex steps", gamma, "1e-9",
-           "test_derivation.py::test_right_hand_sides_against_complex_steps")  # fmt: skip
-    yield ("q̈ in C (relative)", "the same equations in 30 digits", emitted, "1e-12",
-           "test_emitted.py::test_dynamics_against_thirty_digits")  # fmt: skip
+    yield (
+        "Φ_q in C (relative)",
+        "differences of Φ",
+        jacobian,
+        "1e-7",
+        "test_derivation.py::test_jacobian_against_finite_differences",
+    )
+    yield (
+        "γ in C (relative)",
+        "d/dt of Φ_q q̇ − ν by complex steps",
+        gamma,
+        "1e-9",
+        "test_derivation.py::test_right_hand_sides_against_complex_steps",
+    )
+    yield (
+        "q̈ in C (relative)",
+        "the same equations in 30 digits",
+        emitted,
+        "1e-12",
+        "test_emitted.py::test_dynamics_against_thirty_digits",
+    )
 
 
 def slopes() -> Iterable[Row]:
@@ -185,8 +230,13 @@ def slopes() -> Iterable[Row]:
             size = abs(want[block])
             scale = np.maximum(size.max(axis=0), max(1e-4 * size.max(), 1e-2))
             found = max(found, float((abs(J[block, : 2 * n] - want[block]).max(axis=0) / scale).max()))
-    yield ("∂ẏ/∂y in C, friction and film included (relative)", "complex steps of the model's equations", found,
-           "1e-10", "test_jacobian.py::test_every_shipped_scene")  # fmt: skip
+    yield (
+        "∂ẏ/∂y in C, friction and film included (relative)",
+        "complex steps of the model's equations",
+        found,
+        "1e-10",
+        "test_jacobian.py::test_every_shipped_scene",
+    )
     found = 0.0
     for name, scene, t in CASES:
         tree = Tree(gudgeon.load(name, scene=scene), t)
@@ -195,8 +245,13 @@ def slopes() -> Iterable[Row]:
         for eta in (1e-7, 1e-5, 1e-3, 1e-2):
             exact = np.linalg.solve(np.eye(len(tree.y)) / eta - J, r + 0.3 * f_t)
             found = max(found, float(abs(tree.solve(eta, 0.3, r) - exact).max() / abs(exact).max()))
-    yield ("Newton's solve in tree coordinates (relative)", "NumPy's with the whole matrix", found, "1e-8",
-           "test_tree_jacobian.py::test_newton_solves_with_it")  # fmt: skip
+    yield (
+        "Newton's solve in tree coordinates (relative)",
+        "NumPy's with the whole matrix",
+        found,
+        "1e-8",
+        "test_tree_jacobian.py::test_newton_solves_with_it",
+    )
 
 
 def reduction() -> Iterable[Row]:
@@ -217,19 +272,39 @@ def reduction() -> Iterable[Row]:
             rows = memory[None, : library.n_memory]
             want = library.evaluate([0.0], q[None], v[None], rows, simulation.p).a[0, index]
             found = max(found, worst(reduced.accelerations(0.0, *here, memory)[0], want))
-    yield ("q̈ of the reduced formulation (relative)", "the full formulation", found, "1e-9",
-           "test_reduction.py::test_shipped_mechanisms")  # fmt: skip
+    yield (
+        "q̈ of the reduced formulation (relative)",
+        "the full formulation",
+        found,
+        "1e-9",
+        "test_reduction.py::test_shipped_mechanisms",
+    )
 
 
 def restitution() -> Iterable[Row]:
     found = dry.delivered(dry.dissipation_factor(0.9))
-    yield ("restitution that Lankarani–Nikravesh delivers at c_e = .9", "a(1+e) = ln[(1+a)/(1−a e)]", found, ".91318",
-           "test_forces.py::test_restitution_of_the_normal_law")  # fmt: skip
+    yield (
+        "restitution that Lankarani–Nikravesh delivers at c_e = .9",
+        "a(1+e) = ln[(1+a)/(1−a e)]",
+        found,
+        ".91318",
+        "test_forces.py::test_restitution_of_the_normal_law",
+    )
 
 
 GROUPS: tuple[Callable[[], Iterable[Row]], ...] = (
-    ideal, lubricated, first_contacts, energy, onsets, order, long_runs, derivation, slopes, reduction, restitution,
-)  # fmt: skip
+    ideal,
+    lubricated,
+    first_contacts,
+    energy,
+    onsets,
+    order,
+    long_runs,
+    derivation,
+    slopes,
+    reduction,
+    restitution,
+)
 
 
 def main() -> None:

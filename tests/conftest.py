@@ -89,28 +89,50 @@ def make_source(scene: str) -> KernelSource:
     ]
     ideal_joint = JointInfo("A", "revolute", 0, 1, "S9.origin", (3, 4))
     guide = JointInfo("guide", "translational", -1, 1, "S9.origin", (1, 2))
-    rows = [RowInfo("crank.angle", "crank", "drive", "rad"), *(
-        RowInfo(f"guide.{name}", "guide", "joint", unit) for name, unit in (("offset", "m"), ("angle", "rad"))
-    )]  # fmt: skip
+    rows = [
+        RowInfo("crank.angle", "crank", "drive", "rad"),
+        *(RowInfo(f"guide.{name}", "guide", "joint", unit) for name, unit in (("offset", "m"), ("angle", "rad"))),
+    ]
     rows += [] if play else [RowInfo("A.x", "A", "joint", "m"), RowInfo("A.y", "A", "joint", "m")]
     return KernelSource(
-        mechanism="slider", scene=scene, title="A slider", sha256="0" * 64,
-        files={"slider.c": "/* δ̇⁻ */\n" * 9000}, main="slider.c", cdef="",
+        mechanism="slider",
+        scene=scene,
+        title="A slider",
+        sha256="0" * 64,
+        files={"slider.c": "/* δ̇⁻ */\n" * 9000},
+        main="slider.c",
+        cdef="",
         coordinates=tuple(f"{body}.{c}" for body in ("L1", "S9") for c in ("x", "y", "theta")),
         bodies=(BodyInfo("L1", 0), BodyInfo("S9", 3)),
         points=(
-            PointInfo("L1.head", 0, 3, -1), PointInfo("L1.tail", 0, 3, -1, sign_x=-1),
-            PointInfo("S9.origin", 1, -1, -1), PointInfo("ground.O1", -1, 1, -1),
+            PointInfo("L1.head", 0, 3, -1),
+            PointInfo("L1.tail", 0, 3, -1, sign_x=-1),
+            PointInfo("S9.origin", 1, -1, -1),
+            PointInfo("ground.O1", -1, 1, -1),
         ),
-        rows=tuple(rows), joints=(guide,) if play else (guide, ideal_joint), drives=(DriveInfo("crank", 0, "rad"),),
+        rows=tuple(rows),
+        joints=(guide,) if play else (guide, ideal_joint),
+        drives=(DriveInfo("crank", 0, "rad"),),
         clearances=(ClearanceInfo("A", 0, 1, "S9.origin", True, False, 2, {"K": 4}),) if play else (),
-        series=(), start_rows=(), start_guess=(), start_set=(), start_rates=(),
-        frictions=(), pivots=(), start_pivots=(),
-        rate_jumps=(), indeterminate=(), slots=tuple(slots),
-        derived=("half_L1", "A.K"), conditions=(),
+        series=(),
+        start_rows=(),
+        start_guess=(),
+        start_set=(),
+        start_rates=(),
+        frictions=(),
+        pivots=(),
+        start_pivots=(),
+        rate_jumps=(),
+        indeterminate=(),
+        slots=tuple(slots),
+        derived=("half_L1", "A.K"),
+        conditions=(),
         outputs={"lift": ["+", "S9.y", RADIUS], "speed": ["*", "omega", ["/", "bodies.L1.length", 2.0]]},
-        simulate={}, operations={"rhs": 100}, notes=("no gravity: no potential energy",), gravity=False,
-    )  # fmt: skip
+        simulate={},
+        operations={"rhs": 100},
+        notes=("no gravity: no potential energy",),
+        gravity=False,
+    )
 
 
 @dataclass
@@ -147,10 +169,15 @@ class FakeCompiled:
             clearance[:, k, 0], clearance[:, k, 1] = -force * np.cos(angle), -force * np.sin(angle)
             clearance[:, k, 2], clearance[:, k, 7], clearance[:, k, 8] = force, waves[:, 0], waves[:, 1]
         return FakeEvaluation(
-            np.zeros_like(q), waves[:, : len(s.rows)], waves[:, : 3 * len(s.joints)].reshape(n, len(s.joints), 3),
-            waves[:, : len(s.drives)], clearance, waves[:, :0], waves[:, :2] ** 2,
+            np.zeros_like(q),
+            waves[:, : len(s.rows)],
+            waves[:, : 3 * len(s.joints)].reshape(n, len(s.joints), 3),
+            waves[:, : len(s.drives)],
+            clearance,
+            waves[:, :0],
+            waves[:, :2] ** 2,
             1e-12 * waves[:, :2] ** 2,
-        )  # fmt: skip
+        )
 
 
 def make_run(scene: str = "dry", samples: int = 201, t_end: float = 1.0) -> Result:
@@ -175,15 +202,40 @@ def make_run(scene: str = "dry", samples: int = 201, t_end: float = 1.0) -> Resu
     state = np.where(np.sin(9 * t) > 0.86, CONTACT, FREE).astype(np.int8)[:, None][:, :play]
     peaks = (Peak("A", 40.0, 0.115, 1.1 * CLEARANCE, 0.11, 38.0),) if play else ()
     diagnostics = Diagnostics(
-        "rk4" if play else "kinematic", 1e-5 if play else np.nan, 100000 * play, 400000 * play, 2 * play, 1e-12,
-        1e-11, 3e-9, 0.4, np.nan, np.inf if play else np.nan, 0, peaks, 0.5, 0.5, False, ("a note",),
-    )  # fmt: skip
+        "rk4" if play else "kinematic",
+        1e-5 if play else np.nan,
+        100000 * play,
+        400000 * play,
+        2 * play,
+        1e-12,
+        1e-11,
+        3e-9,
+        0.4,
+        np.nan,
+        np.inf if play else np.nan,
+        0,
+        peaks,
+        0.5,
+        0.5,
+        False,
+        ("a note",),
+    )
     return Result(
         compiled=FakeCompiled(source),  # type: ignore[arg-type]
-        source=source, p=p, given=np.array([0.0, 0.0, CLEARANCE]), is_given=np.array([False, False, True]),
-        t=t, q=q, v=v, accelerations=a, state=state, memory=np.where(state > 0, 0.25, np.nan),
-        work=np.stack([t, 0 * t, -0.5 * t], 1), impacts=impacts, diagnostics=diagnostics,
-    )  # fmt: skip
+        source=source,
+        p=p,
+        given=np.array([0.0, 0.0, CLEARANCE]),
+        is_given=np.array([False, False, True]),
+        t=t,
+        q=q,
+        v=v,
+        accelerations=a,
+        state=state,
+        memory=np.where(state > 0, 0.25, np.nan),
+        work=np.stack([t, 0 * t, -0.5 * t], 1),
+        impacts=impacts,
+        diagnostics=diagnostics,
+    )
 
 
 @pytest.fixture

@@ -94,9 +94,11 @@ def measure(activity: Activity, moments: int, rng: np.random.Generator) -> bool:
         except AssertionError as error:
             wrong.append(f"{moment:.3f} s: {str(error).strip().splitlines()[0] if str(error) else 'assertion'}")
     late = sum(wait > BAR for wait in waits)
-    print(f"{activity.name:>12}{len(waits):>6} answered, longest {max(waits, default=0.0):6.3f} s, median"
-          f" {np.median(waits) if waits else 0.0:6.3f} s, {late} later than {BAR} s, {len(wrong)} wrong",
-          flush=True)  # fmt: skip
+    print(
+        f"{activity.name:>12}{len(waits):>6} answered, longest {max(waits, default=0.0):6.3f} s, median"
+        f" {np.median(waits) if waits else 0.0:6.3f} s, {late} later than {BAR} s, {len(wrong)} wrong",
+        flush=True,
+    )
     for told in wrong[:5]:
         print(f"{'':>14}{told}", flush=True)
     return not late and not wrong
@@ -181,17 +183,20 @@ def activities(folder: Path) -> list[Activity]:
 
     long.save(folder / "run.nc")
     return [
-        run_of("run auto", dry, 1.0, output=2000), run_of("run oil", oil, 0.05, output=300, method="rodas5p"),
+        run_of("run auto", dry, 1.0, output=2000),
+        run_of("run oil", oil, 0.05, output=300, method="rodas5p"),
         run_of("run rk4", dry, 0.5, output=500, method="rk4", step=1e-6),
-        run_of("run ideal", ideal, 20.0, output=100_000), run_of("run dense", bars, 20.0, output=200, rtol=1e-13),
+        run_of("run ideal", ideal, 20.0, output=100_000),
+        run_of("run dense", bars, 20.0, output=200, rtol=1e-13),
         run_of("run scipy", oil, 2e-3, output=50, method="scipy:DOP853"),
-        batch_of("batch auto", dry), batch_of("batch lanes", dry, method="rk4", step=2e-6),
+        batch_of("batch auto", dry),
+        batch_of("batch lanes", dry, method="rk4", step=2e-6),
         Activity("horizon", lambda: dry.simulate(0.3, output=300, horizon=True), lambda _: None),
         Activity("map", lambda: verdict_map(oil, t_long=0.05, quick=True), lambda _: None),
         Activity("start", start_again, lambda _: None),
         Activity("save", lambda: long.save(folder / "run.nc"), check_saved),
         Activity("compile", compile_cold, check_cache),
-    ]  # fmt: skip
+    ]
 
 
 def main() -> int:

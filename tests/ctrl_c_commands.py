@@ -67,10 +67,15 @@ def begin(folder: Path, words: str) -> subprocess.Popen[str]:
     code = "from gudgeon.entry import main; main()"
     environment = {**os.environ, "GUDGEON_CACHE": str(folder / "cache"), "MPLBACKEND": "agg", "GUDGEON_QUICK": "0"}
     return subprocess.Popen(
-        [sys.executable, "-c", code, *words.split()], cwd=folder / "here", env=environment, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        [sys.executable, "-c", code, *words.split()],
+        cwd=folder / "here",
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )  # fmt: skip
+    )
 
 
 def write_files(folder: Path, number: int) -> None:
@@ -156,8 +161,11 @@ def measure(name: str, folder: Path, moments: int, rng: np.random.Generator) -> 
     for number in (moments, 0):  # files that were interrupted, and the first: all goes well from here on
         lasts(folder, words, number)
     counts = ", ".join(f"{count} {what}" for what, count in found.counts.items() if count)
-    print(f"{name:>6}: {moments} moments within {cold:.1f} s cold and {warm:.1f} s warm: {counts}; at most"
-          f" {found.longest:.2f} s from signal to end; {len(found.wrong)} wrong", flush=True)  # fmt: skip
+    print(
+        f"{name:>6}: {moments} moments within {cold:.1f} s cold and {warm:.1f} s warm: {counts}; at most"
+        f" {found.longest:.2f} s from signal to end; {len(found.wrong)} wrong",
+        flush=True,
+    )
     for told in found.wrong[:8]:
         print(f"{'':>8}{told}", flush=True)
     return not found.wrong

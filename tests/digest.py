@@ -70,8 +70,9 @@ def _run(simulation: gudgeon.Simulation, method: str) -> Arrays:
 def _batch(simulation: gudgeon.Simulation, method: str) -> Arrays:
     """The first of the scene's numbers that is not zero, and two values beside it."""
     slot = next(slot for slot in simulation.compiled.source.slots if slot.default)
-    runs = simulation.simulate_many({slot.address: slot.default * np.array([1.0, 1.001, 1.002])},
-                                    **_options(simulation, method))  # fmt: skip
+    runs = simulation.simulate_many(
+        {slot.address: slot.default * np.array([1.0, 1.001, 1.002])}, **_options(simulation, method)
+    )
     counts = {name: np.asarray(runs.diagnostics[name]) for name in COUNTS if name in runs.diagnostics}
     return counts | {name: getattr(runs, name) for name in ("t", "q", "v", "work")}
 

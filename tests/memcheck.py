@@ -93,8 +93,12 @@ def main() -> int:
         return 1
     with tempfile.TemporaryDirectory() as folder:
         log, cache = Path(folder, "log"), str(Path(folder, "cache"))
-        environment = os.environ | {"CC": COMPILER, "GUDGEON_CACHE": cache, "GUDGEON_QUICK": "0",
-                                    "PYTHONMALLOC": "malloc"}  # fmt: skip
+        environment = os.environ | {
+            "CC": COMPILER,
+            "GUDGEON_CACHE": cache,
+            "GUDGEON_QUICK": "0",
+            "PYTHONMALLOC": "malloc",
+        }
         command = [sys.executable, "-m", "tests.memcheck", "--within", folder, *sys.argv[1:]]
         subprocess.run(command, env=environment, stdout=subprocess.DEVNULL)  # derived and compiled at full speed
         done = subprocess.run(["valgrind", *OPTIONS, f"--log-file={log}", *command], env=environment)

@@ -46,10 +46,16 @@ joints:
 start: {guess: {boom.theta: 20 deg, arm.theta: -90 deg}}
 """
 TURNS = (
-    "0.7 + w*t", "0.7 + 0.4*prof(w*t)", "0.7 + 0.5*smooth_step(t, 0.05 s, 0.2 s)", "0.7 + 0.6*ramp(t, 0.05 s, 0.1 s)",
-    "0.7 + 0.2*abs(sin(w*t))", "0.7 + min(w*t, 1.0 - w*t/3)", "0.7 + where(t > 0.1 s, 0.3*(t/(1 s) - 0.1)**2, 0)",
-    "0.7 + 0.1*prof(mod(2*w*t, 2*pi))", "0.7 + 0.3*max(0, sin(w*t))**2 + 0.1*prof(w*t + 1)",
-)  # fmt: skip
+    "0.7 + w*t",
+    "0.7 + 0.4*prof(w*t)",
+    "0.7 + 0.5*smooth_step(t, 0.05 s, 0.2 s)",
+    "0.7 + 0.6*ramp(t, 0.05 s, 0.1 s)",
+    "0.7 + 0.2*abs(sin(w*t))",
+    "0.7 + min(w*t, 1.0 - w*t/3)",
+    "0.7 + where(t > 0.1 s, 0.3*(t/(1 s) - 0.1)**2, 0)",
+    "0.7 + 0.1*prof(mod(2*w*t, 2*pi))",
+    "0.7 + 0.3*max(0, sin(w*t))**2 + 0.1*prof(w*t + 1)",
+)
 LENGTHS = tuple(f"0.55 m + 0.1 m*({turn.removeprefix('0.7 + ')})" for turn in TURNS)
 FORCES = (
     "f: {force: arm.head, value: ['pull*ramp(t, 0.05 s, 0.1 s)', 0 N]}",
@@ -58,9 +64,11 @@ FORCES = (
     "f: {force: arm.com, value: ['exp(-((t/(1 s) - 0.15)/0.02)**2)*1 N', 'where(arm.vy > 0 m/s, -1 N, 0 N)']}",
 )
 EVENTS = (
-    "e: {zero: arm.omega}", "e: {zero: 'sin(100/(1 s)*t)'}", "e: {zero: arm.theta + 90 deg, direction: rising}",
+    "e: {zero: arm.omega}",
+    "e: {zero: 'sin(100/(1 s)*t)'}",
+    "e: {zero: arm.theta + 90 deg, direction: rising}",
     "e: {zero: 't - 0.15 s'}, g: {zero: 'abs(arm.vx) - 0.1 m/s'}",
-)  # fmt: skip
+)
 LAWS = ("lankarani_nikravesh", "flores", "hunt_crossley")
 
 
@@ -77,11 +85,13 @@ def mixed_scene(seed: int) -> MixedScene:
     rng = random.Random(seed)
     block = rng.random() < 0.4
     numbers = {
-        "w": f"{rng.uniform(3.0, 30.0):.6g}", "law": rng.choice(LAWS), "value": f"'{rng.choice(TURNS)}'",
+        "w": f"{rng.uniform(3.0, 30.0):.6g}",
+        "law": rng.choice(LAWS),
+        "value": f"'{rng.choice(TURNS)}'",
         "length": f"'{rng.choice(LENGTHS)}'",
         "block": "  block: {mass: 1 kg, inertia: 1e-3 kg*m^2}\n" if block else "",
         "guide": "  guide: {translational: [ground.R, block.origin], axis: [1, 0]}\n" if block else "",
-    }  # fmt: skip
+    }
     text = (HEAD + rng.choice((CRANK, CYLINDER))) % numbers
     forces = [rng.choice(FORCES)] if rng.random() < 0.8 else []
     if block:

@@ -40,100 +40,151 @@ def _tests(folder: str, *names: str) -> tuple[str, ...]:
 GROUPS = {
     "constraints": (
         ("generator/equations/constraints.py", "generator/equations/geometry.py", "generator/kinds/joints/*.py"),
-        (*_tests("equations", "derivation", "random_linkages"), *_tests("reader", "fields", "read_kinds"),
-         *_tests("kernels", "pivots", "jacobian"), *_tests("equations", "forces", "events", "roots"),
-         *_tests("reader", "whole_format"), *_tests("reduction", "reduction"), *_tests("simulation", "massless"),
-         *_tests("integrators", "guide"), *_tests("results", "reactions")),
+        (
+            *_tests("equations", "derivation", "random_linkages"),
+            *_tests("reader", "fields", "read_kinds"),
+            *_tests("kernels", "pivots", "jacobian"),
+            *_tests("equations", "forces", "events", "roots"),
+            *_tests("reader", "whole_format"),
+            *_tests("reduction", "reduction"),
+            *_tests("simulation", "massless"),
+            *_tests("integrators", "guide"),
+            *_tests("results", "reactions"),
+        ),
     ),
     "dynamics": (
-        ("generator/kernels/dynamics.py", "generator/solvers/kkt.py", "generator/equations/loads.py",
-         "generator/equations/system.py"),
-        (*_tests("kernels", "pivots"), *_tests("equations", "random_linkages", "forces", "events", "mixed"),
-         *_tests("reduction", "reduction", "redundancy"),
-         *_tests("kernels", "jacobian", "finite_drives", "finite_slopes", "far_quotients", "complex_parts", "parts",
-                 "wholes", "jacobian_contacts"),
-         *_tests("integrators", "friction", "newton_restitution", "guide")),
+        (
+            "generator/kernels/dynamics.py",
+            "generator/solvers/kkt.py",
+            "generator/equations/loads.py",
+            "generator/equations/system.py",
+        ),
+        (
+            *_tests("kernels", "pivots"),
+            *_tests("equations", "random_linkages", "forces", "events", "mixed"),
+            *_tests("reduction", "reduction", "redundancy"),
+            *_tests(
+                "kernels",
+                "jacobian",
+                "finite_drives",
+                "finite_slopes",
+                "far_quotients",
+                "complex_parts",
+                "parts",
+                "wholes",
+                "jacobian_contacts",
+            ),
+            *_tests("integrators", "friction", "newton_restitution", "guide"),
+        ),
     ),
     "laws": (
         ("generator/kinds/laws/*.py",),
-        (*_tests("reader", "fields"), *_tests("equations", "every_law", "friction_laws", "cylinders", "mixed",
-                                              "short_film", "expression_law"),
-         *_tests("reynolds", "finite_length", "closed_forms", "deviations", "frames"), *_tests("kinds", "own_laws"),
-         *_tests("integrators", "impact", "film_settles", "newton_restitution"), *_tests("assembly", "journals")),
+        (
+            *_tests("reader", "fields"),
+            *_tests("equations", "every_law", "friction_laws", "cylinders", "mixed", "short_film", "expression_law"),
+            *_tests("reynolds", "finite_length", "closed_forms", "deviations", "frames"),
+            *_tests("kinds", "own_laws"),
+            *_tests("integrators", "impact", "film_settles", "newton_restitution"),
+            *_tests("assembly", "journals"),
+        ),
     ),
     "reduction": (
         ("generator/reduction/*.py",),
-        (*_tests("reduction", "reduction", "redundancy", "driven_chains", "reduced_hard", "story"),
-         *_tests("kernels", "tree_jacobian", "finite_drives", "far_quotients", "finite_slopes", "complex_parts",
-                 "parts", "wholes")),
+        (
+            *_tests("reduction", "reduction", "redundancy", "driven_chains", "reduced_hard", "story"),
+            *_tests(
+                "kernels",
+                "tree_jacobian",
+                "finite_drives",
+                "far_quotients",
+                "finite_slopes",
+                "complex_parts",
+                "parts",
+                "wholes",
+            ),
+        ),
     ),
     "methods": (
         ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
         _tests("integrators", "tables", "radau", "methods"),
     ),
     "starts": (
-        ("runtime/assembly/closure.py", "runtime/assembly/followed.py", "runtime/assembly/mobility.py",
-         "runtime/assembly/journals.py", "runtime/assembly/rank.py"),
-        (*_tests("assembly", "start", "journals", "assemblies", "far_starts", "large"),
-         *_tests("simulation", "many_starts", "massless", "restart"), *_tests("integrators", "guide")),
+        (
+            "runtime/assembly/closure.py",
+            "runtime/assembly/followed.py",
+            "runtime/assembly/mobility.py",
+            "runtime/assembly/journals.py",
+            "runtime/assembly/rank.py",
+        ),
+        (
+            *_tests("assembly", "start", "journals", "assemblies", "far_starts", "large"),
+            *_tests("simulation", "many_starts", "massless", "restart"),
+            *_tests("integrators", "guide"),
+        ),
     ),
     "results": (
-        ("runtime/results/series.py", "runtime/results/peaks.py", "runtime/results/wear.py",
-         "runtime/results/motion.py", "runtime/results/samples.py", "runtime/model/arrays.py"),
-        (*_tests("results", "results", "reactions", "at_events", "motion", "batch_series", "drift"),
-         *_tests("model", "arrays", "array_forms"), *_tests("simulation", "peaks", "wear", "wear_loop")),
+        (
+            "runtime/results/series.py",
+            "runtime/results/peaks.py",
+            "runtime/results/wear.py",
+            "runtime/results/motion.py",
+            "runtime/results/samples.py",
+            "runtime/model/arrays.py",
+        ),
+        (
+            *_tests("results", "results", "reactions", "at_events", "motion", "batch_series", "drift"),
+            *_tests("model", "arrays", "array_forms"),
+            *_tests("simulation", "peaks", "wear", "wear_loop"),
+        ),
     ),
-}  # fmt: skip
-SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
-         "and": "or", "or": "and", "True": "False", "False": "True", "not": ""}  # fmt: skip
+}
+SWAPS = {
+    "+": "-",
+    "-": "+",
+    "*": "/",
+    "/": "*",
+    "<": "<=",
+    "<=": "<",
+    ">": ">=",
+    ">=": ">",
+    "==": "!=",
+    "!=": "==",
+    "and": "or",
+    "or": "and",
+    "True": "False",
+    "False": "True",
+    "not": "",
+}
 # As they are told, but for the line's number: why no number can differ
 MEANS_NOTHING = {
-    "generator/equations/geometry.py:39: '1' -> '2': ZERO, ONE = sp.Integer(0), sp.Integer(1)":
-        "masses in place of none: another metric, in which a linkage without freedom closes to the same position",
+    "generator/equations/geometry.py:39: '1' -> '2': ZERO, ONE = sp.Integer(0), sp.Integer(1)": "masses in place of none: another metric, in which a linkage without freedom closes to the same position",
     "generator/equations/geometry.py:35: '0' -> '1': if twin is not None and s[0].could_extract_minus_sign():  # a "
-    "bar's tail is its head turned over":
-        "which of two opposite arms has symbols, the other being their negatives",
-    "generator/equations/geometry.py:40: '+' -> '-': number = 1 if point else 1 + sum(1 for _ in before)":
-        "how documents number the arms of a body",
-    "generator/solvers/kkt.py:32: '0' -> '1': share = max(shares[0], EARLY) if early else shares[0]":
-        "EARLY is more than either share",
+    "bar's tail is its head turned over": "which of two opposite arms has symbols, the other being their negatives",
+    "generator/equations/geometry.py:40: '+' -> '-': number = 1 if point else 1 + sum(1 for _ in before)": "how documents number the arms of a body",
+    "generator/solvers/kkt.py:32: '0' -> '1': share = max(shares[0], EARLY) if early else shares[0]": "EARLY is more than either share",
     "generator/solvers/kkt.py:93: 'and' -> 'or': if row.owner == other.owner and r not in pairs and pattern[r] == "
-    "pattern[r + 1] and len(pattern[r]) > 2:":
-        "which rows are eliminated two by two: an order, what it costs",
-    "generator/reduction/geometry.py:16: 'not' -> '': if not self.is_short(rates[i]):":
-        "what is short gets a name of its own, and the same value",
-    "runtime/assembly/closure.py:66: '4' -> '5': for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):":
-        "how many starts are tried",
+    "pattern[r + 1] and len(pattern[r]) > 2:": "which rows are eliminated two by two: an order, what it costs",
+    "generator/reduction/geometry.py:16: 'not' -> '': if not self.is_short(rates[i]):": "what is short gets a name of its own, and the same value",
+    "runtime/assembly/closure.py:66: '4' -> '5': for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):": "how many starts are tried",
     "generator/kernels/dynamics.py:73: '0' -> '1': b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != "
-    "0}":
-        "a force that is 0 is written as 0",
+    "0}": "a force that is 0 is written as 0",
     "generator/reduction/geometry.py:99: '1' -> '2': parent, child, sign = (first, second, 1) if second.body == body "
-    "else (second, first, -1)":
-        "a slide's coordinate in another unit: the same motion",
-    "generator/reduction/tree.py:46: '+' -> '-': placed[other] = placed[body] + 1":
-        "where chains are cut, so which trees are among the candidates",
-    "runtime/assembly/followed.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away":
-        "the same remainder",
+    "else (second, first, -1)": "a slide's coordinate in another unit: the same motion",
+    "generator/reduction/tree.py:46: '+' -> '-': placed[other] = placed[body] + 1": "where chains are cut, so which trees are among the candidates",
+    "runtime/assembly/followed.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away": "the same remainder",
     "runtime/model/arrays.py:91: 'not' -> '': elif type(values) is np.ndarray and values.dtype is dtype and "
-    "values.size <= most and not values.flags.c_contiguous:":
-        "which of two ways an array is copied on",
-    "generator/reduction/shared_points.py:63: '1' -> '2': crossing[other.name] = 1 if one in side else -1":
-        "of a share only the sign is printed",
+    "values.size <= most and not values.flags.c_contiguous:": "which of two ways an array is copied on",
+    "generator/reduction/shared_points.py:63: '1' -> '2': crossing[other.name] = 1 if one in side else -1": "of a share only the sign is printed",
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "
-    "improved by exchanges":
-        "which tree is taken: every tree has the same motion",
-    "generator/reduction/tree.py:48: '1' -> '2': placed[other] = placed[body] + 1":
-        "where chains are cut, so which trees are among the candidates",
+    "improved by exchanges": "which tree is taken: every tree has the same motion",
+    "generator/reduction/tree.py:48: '1' -> '2': placed[other] = placed[body] + 1": "where chains are cut, so which trees are among the candidates",
     "generator/reduction/geometry.py:37: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
-    "value.is_Number)":
-        "what is short gets a name of its own, and the same value",
+    "value.is_Number)": "what is short gets a name of its own, and the same value",
     "generator/reduction/geometry.py:59: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
-    "value.is_Number)":
-        "the same",
+    "value.is_Number)": "the same",
     "generator/reduction/geometry.py:60: '+' -> '-': rates[i] = self.motions.named_rate(names[2 + i], rates[i], "
-    "moving)":
-        "only a name",
-}  # fmt: skip
+    "moving)": "only a name",
+}
 COEFFICIENT = re.compile(r"\d\.\d{12,}")
 
 
@@ -217,8 +268,14 @@ def failed(group: str, folder: Path, processes: int) -> bool:
         command += ["-n", str(processes), "--dist", "loadfile", "--no-loadscope-reorder"]
     environment = os.environ | {"GUDGEON_CACHE": str(folder / "build/mutants")}
     try:
-        done = subprocess.run([*command, *GROUPS[group][1]], cwd=folder, env=environment, timeout=SECONDS,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+        done = subprocess.run(
+            [*command, *GROUPS[group][1]],
+            cwd=folder,
+            env=environment,
+            timeout=SECONDS,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
     except subprocess.TimeoutExpired:
         return True
     if done.returncode in (pytest.ExitCode.USAGE_ERROR, pytest.ExitCode.NO_TESTS_COLLECTED):

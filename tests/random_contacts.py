@@ -106,17 +106,25 @@ KINDS = {"cam": (CAM, 3), "slider_crank": (SLIDER_CRANK, 3), "four_bar": (FOUR_B
 CLASSES = tuple(
     (kind, joints, law)
     for kind, joints, law in (
-        ("slider_crank", "crankpin", "flores"), ("slider_crank", "wristpin", "lankarani_nikravesh"),
-        ("slider_crank", "crankpin wristpin", "hunt_crossley"), ("slider_crank", "O crankpin wristpin", "flores"),
-        ("slider_crank", "cylinder", "flores"), ("slider_crank", "crankpin cylinder", "flores"),
-        ("four_bar", "crankpin", "flores"), ("four_bar", "B", "lankarani_nikravesh"),
-        ("four_bar", "crankpin B C", "flores"), ("four_bar", "O crankpin B C", "hunt_crossley"),
+        ("slider_crank", "crankpin", "flores"),
+        ("slider_crank", "wristpin", "lankarani_nikravesh"),
+        ("slider_crank", "crankpin wristpin", "hunt_crossley"),
+        ("slider_crank", "O crankpin wristpin", "flores"),
+        ("slider_crank", "cylinder", "flores"),
+        ("slider_crank", "crankpin cylinder", "flores"),
+        ("four_bar", "crankpin", "flores"),
+        ("four_bar", "B", "lankarani_nikravesh"),
+        ("four_bar", "crankpin B C", "flores"),
+        ("four_bar", "O crankpin B C", "hunt_crossley"),
         ("cam", "crankpin", "flores"),
-        ("six_bar", "crankpin", "flores"), ("six_bar", "B", "flores"), ("six_bar", "P wristpin", "flores"),
-        ("slider_crank", "crankpin", "flores film"), ("four_bar", "crankpin B", "flores film"),
+        ("six_bar", "crankpin", "flores"),
+        ("six_bar", "B", "flores"),
+        ("six_bar", "P wristpin", "flores"),
+        ("slider_crank", "crankpin", "flores film"),
+        ("four_bar", "crankpin B", "flores film"),
         ("six_bar", "wristpin", "lankarani_nikravesh film"),
     )
-)  # fmt: skip
+)
 FILM = """
     film: {law: pinkus_sternlicht, viscosity: eta}
     transition: 0.02*c"""
@@ -162,8 +170,14 @@ def drawn(kind: str, rng: np.random.Generator, method: str = "", film: bool = Fa
     rpm, r = log(100.0, 6000.0), log(0.02, 0.06)
     L = r * rng.uniform(2.2, 5.0)
     omega = rpm * 2.0 * np.pi / 60.0
-    out = {"omega": omega, "c": log(2e-5, 1e-3), "ce": float(rng.choice([0.3, 0.5, 0.7, 0.9])),
-           "mu": float(rng.choice([0.0, 0.03, 0.1])), "r": r, "L": L}  # fmt: skip
+    out = {
+        "omega": omega,
+        "c": log(2e-5, 1e-3),
+        "ce": float(rng.choice([0.3, 0.5, 0.7, 0.9])),
+        "mu": float(rng.choice([0.0, 0.03, 0.1])),
+        "r": r,
+        "L": L,
+    }
     if kind == "cam":
         out["omega"] = omega = min(omega, 80.0)
     if kind in ("four_bar", "six_bar"):

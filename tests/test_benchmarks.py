@@ -172,6 +172,11 @@ def test_a_law_is_timed_by_itself(tmp_path: Path) -> None:
 
 def test_the_widest_vectors_of_a_processor_are_told() -> None:
     """By whole flags of Linux; "" where none is known."""
-    told = {"sse2 avx": "AVX", "sse2 avx avx2 fma": "AVX2", "avx2 avx512f avx512bw": "AVX-512", "asimd": "Neon",
-            "avx512_fp16 sse2x": ""}  # fmt: skip
+    told = {
+        "sse2 avx": "AVX",
+        "sse2 avx avx2 fma": "AVX2",
+        "avx2 avx512f avx512bw": "AVX-512",
+        "asimd": "Neon",
+        "avx512_fp16 sse2x": "",
+    }
     assert {flags: rhs.widest(flags.split()) for flags in told} == told

@@ -54,15 +54,22 @@ def test_counts_come_first_and_are_in_no_digest() -> None:
     assert differences(run(), earlier) == []
 
 
-@pytest.mark.parametrize(("name", "place", "value", "told"), [
-    ("state", (1, 0), 1, "1 instead of 0 from 0.25 s on"),
-    ("memory", (3, 0), 2.0, "2.0 instead of nan from 0.75 s on"),
-    ("impacts", 1, (0, 0.6, 0.62, -2.0, 77.0, 0.6),
-     "joint 0 instead of 1 from 0.6 s on, F_peak by 1.0e-01 of scale from 0.6 s on"),
-    ("events", 0, (0, 0.55), "t by 1.0e-01 of scale from 0.55 s on"),
-    ("trace.t", 2, 0.88, "by 1.0e-01 of scale from 0.88 s on"),
-    ("q", (0, 0), -0.0, "signs of zeros or bits of NaN"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "place", "value", "told"),
+    [
+        ("state", (1, 0), 1, "1 instead of 0 from 0.25 s on"),
+        ("memory", (3, 0), 2.0, "2.0 instead of nan from 0.75 s on"),
+        (
+            "impacts",
+            1,
+            (0, 0.6, 0.62, -2.0, 77.0, 0.6),
+            "joint 0 instead of 1 from 0.6 s on, F_peak by 1.0e-01 of scale from 0.6 s on",
+        ),
+        ("events", 0, (0, 0.55), "t by 1.0e-01 of scale from 0.55 s on"),
+        ("trace.t", 2, 0.88, "by 1.0e-01 of scale from 0.88 s on"),
+        ("q", (0, 0), -0.0, "signs of zeros or bits of NaN"),
+    ],
+)
 def test_each_array_is_told_by_its_kind(name: str, place: Any, value: Any, told: str) -> None:
     assert differences(changed(run(), name, place, value), run()) == [f"{name}: {told}"]
 

@@ -19,9 +19,13 @@ from gudgeon.loading.shipped import committed, generated
 ROOT = Path(__file__).parents[1]
 MAX_LINES = 20_000
 STRANGE = {
-    "LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "TZ": "Pacific/Auckland",
-    "SOURCE_DATE_EPOCH": "315532800", "HOME": "/nowhere",
-}  # fmt: skip
+    "LC_ALL": "POSIX",
+    "PYTHONUTF8": "0",
+    "PYTHONCOERCECLOCALE": "0",
+    "TZ": "Pacific/Auckland",
+    "SOURCE_DATE_EPOCH": "315532800",
+    "HOME": "/nowhere",
+}
 
 
 def files(folder: Path) -> list[Path]:
@@ -37,14 +41,16 @@ def contents(folder: Path) -> dict[str, bytes]:
 @pytest.mark.parametrize("seed", ["1", *(pytest.param(seed, marks=pytest.mark.slow) for seed in ("0", "20231"))])
 def test_generating_again_gives_the_committed_bytes(tmp_path: Path, seed: str) -> None:
     """In a process to which umask, locale, time zone, home, clock and the folder's name are strange."""
-    folder = tmp_path / "Käse & \"mein's\" {x} %s"
+    folder = tmp_path / 'Käse & "mein\'s" {x} %s'
     folder.mkdir()
     subprocess.run(
         [sys.executable, str(ROOT / "tools" / "regenerate.py"), str(folder)],
-        env={**os.environ, **STRANGE, "PYTHONHASHSEED": seed}, cwd=folder, umask=0o077,
+        env={**os.environ, **STRANGE, "PYTHONHASHSEED": seed},
+        cwd=folder,
+        umask=0o077,
         check=True,
         capture_output=True,
-    )  # fmt: skip
+    )
     kept, now = contents(ROOT / "generated"), contents(folder)
     assert sorted(kept) == sorted(now), "run `make generated`"
     assert [name for name in kept if kept[name] != now[name]] == [], "run `make generated`"

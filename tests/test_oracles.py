@@ -170,10 +170,13 @@ def test_dense_press_against_the_general_oracle() -> None:
         q, v = y[:24], y[24:]
         drives = tuple(
             replace(d, law=Wave(a, w))
-            for d, a, w in zip((d for d in full.drives if isinstance(d, Drive)),
-                               (press.geometry.theta1, press.geometry.theta4),
-                               (press.geometry.omega1, press.geometry.omega4), strict=True)
-        )  # fmt: skip
+            for d, a, w in zip(
+                (d for d in full.drives if isinstance(d, Drive)),
+                (press.geometry.theta1, press.geometry.theta4),
+                (press.geometry.omega1, press.geometry.omega4),
+                strict=True,
+            )
+        )
         open_joints = Linkage(full.bodies, full.joints[2:], drives, (), full.gravity)
         r = numpy_linkage.rows(open_joints, 0.0, q, v)
         g = numpy_linkage.forces(open_joints, q, v)

@@ -36,8 +36,10 @@ def pins() -> dict[str, str]:
 
 def test_every_folder_with_python_is_a_package() -> None:
     """Without an __init__.py it would be missing from the wheel."""
-    python = {place: {name for name in names if name.endswith(".py")}
-              for place, _, names in os.walk(ROOT / "src", followlinks=True)}  # fmt: skip
+    python = {
+        place: {name for name in names if name.endswith(".py")}
+        for place, _, names in os.walk(ROOT / "src", followlinks=True)
+    }
     assert len(python) > 40
     assert [place for place, names in python.items() if names and "__init__.py" not in names] == []
 

@@ -110,9 +110,9 @@ def test_a_slider_has_play_as_it_says(tmp_path: Path) -> None:
     (tmp_path / "engine.yaml").write_text(ENGINE.split("bearings:")[0] + blocks("yaml")[4], encoding="utf-8")
     run = gudgeon.load(tmp_path / "engine.yaml", "worn").simulate(10e-3, output=10)
     assert len(run.impacts) and run["piston.y"].max() < 0.11e-3 and "cylinder.front_upper.Fn" in run
-    assert run["cylinder.Fy"] == pytest.approx(sum(
-        run[f"cylinder.{end}_{wall}.Fy"] for end in ("front", "rear") for wall in ("upper", "lower")
-    ), abs=1e-12)  # fmt: skip
+    assert run["cylinder.Fy"] == pytest.approx(
+        sum(run[f"cylinder.{end}_{wall}.Fy"] for end in ("front", "rear") for wall in ("upper", "lower")), abs=1e-12
+    )
 
 
 @needs_compiler

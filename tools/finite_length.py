@@ -76,10 +76,12 @@ def main() -> None:
     force = solved()
     weight, numbers = weights(force)[..., None], np.array([*G0, *G1, G3, REST])
     for power in (1.0, 2.0):  # of the differences: the second fit lowers the largest ones
+
         def off(numbers: np.ndarray, power: float = power) -> np.ndarray:
             each = ((fitted(numbers) - force) * weight).ravel()
             pulls = 300.0 * np.maximum(MARGIN - least(numbers), 0.0).ravel()
             return np.concatenate([np.sign(each) * np.abs(20.0 * each) ** power, pulls])
+
         numbers = least_squares(off, numbers, max_nfev=300).x
     numbers = np.round(numbers, 4)
     for name, some in zip(("G0", "G1", "G3", "REST"), np.split(numbers, CUTS), strict=True):

@@ -70,15 +70,28 @@ def found(case: Case) -> Found:
     for k, began in enumerate(second.onsets):
         onset[k, : len(began)] = began
     data = xr.Dataset(
-        {"e": (("time", "joint", "axis"), e, {"units": "m", "long_name": "journal's centre from the bearing's"}),
-         "force": (("time", "joint", "axis"), force, {"units": "N", "long_name": "force on the journal"}),
-         "difference": ("time", difference, {"units": "1", "long_name": "largest difference of e by both codes, by c"}),
-         "onset": (("joint", "contact"), onset, {"units": "s", "long_name": "contacts begin"})},
+        {
+            "e": (("time", "joint", "axis"), e, {"units": "m", "long_name": "journal's centre from the bearing's"}),
+            "force": (("time", "joint", "axis"), force, {"units": "N", "long_name": "force on the journal"}),
+            "difference": (
+                "time",
+                difference,
+                {"units": "1", "long_name": "largest difference of e by both codes, by c"},
+            ),
+            "onset": (("joint", "contact"), onset, {"units": "s", "long_name": "contacts begin"}),
+        },
         {"time": ("time", times, {"units": "s"}), "joint": list(case.joints), "axis": ["x", "y"]},
-        {"format": FORMAT, "title": case.title, "source": case.source, "horizon": horizon,
-         "clearance": case.clearance if len(set(case.clearances)) == 1 else case.clearances,
-         "mechanism": Path(case.file).name.removesuffix(".yaml"), "scene": case.scene, "parameters": told(case)},
-    )  # fmt: skip
+        {
+            "format": FORMAT,
+            "title": case.title,
+            "source": case.source,
+            "horizon": horizon,
+            "clearance": case.clearance if len(set(case.clearances)) == 1 else case.clearances,
+            "mechanism": Path(case.file).name.removesuffix(".yaml"),
+            "scene": case.scene,
+            "parameters": told(case),
+        },
+    )
     return Found(case, data, peaks(case, simulation, method), told_beside(case, simulation) if case.rows else "")
 
 

@@ -110,8 +110,11 @@ def whirls_from(film: drawn.Film, times: np.ndarray, **how: Any) -> float:
 
 
 def rotor_rigid() -> Iterator[Figure]:
-    yield Figure("Nowald's film and a quadrature, of the force, ε 0.01 to 0.95", "3e-8",
-                 max(map(film_apart, (0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95))))  # fmt: skip
+    yield Figure(
+        "Nowald's film and a quadrature, of the force, ε 0.01 to 0.95",
+        "3e-8",
+        max(map(film_apart, (0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95))),
+    )
     times, e = kept("rotor_rigid")
     early = times <= 0.3
     y = found(drawn.rigid_rotor, np.zeros(4), times[early], rtol=1e-10)
@@ -161,16 +164,23 @@ def engine_bearing() -> Iterator[Figure]:
     gas, c, times = rotors.engine_bearing()[0].linkage.loads[0], 35.56e-6, np.linspace(0.0, 0.12, 1201)
     begun, second = 0.1 * np.array([math.cos(1.5), math.sin(1.5)]), times >= 0.06
     orbits = {
-        share: found(drawn.mobility(lambda t: gas.forces(t, np.zeros(3), np.zeros(3))[0], share), begun, times,
-                     method="Radau", rtol=1e-8, atol=1e-10)[:, second].T
+        share: found(
+            drawn.mobility(lambda t: gas.forces(t, np.zeros(3), np.zeros(3))[0], share),
+            begun,
+            times,
+            method="Radau",
+            rtol=1e-8,
+            atol=1e-10,
+        )[:, second].T
         for share in (0.5, 1.0)
-    }  # fmt: skip
+    }
     runs = [ours("engine_bearing", times, mass=mass) for mass in (1.0, 0.1)]
     heavy, light = (np.stack([run["main.ex"], run["main.ey"]], -1)[second] / c for run in runs)
     for who, orbit, eps, thin in (
-        ("mobility, half the crank's speed", orbits[0.5], "0.821", "6.38"), ("these equations", heavy, "0.819", "6.45"),
+        ("mobility, half the crank's speed", orbits[0.5], "0.821", "6.38"),
+        ("these equations", heavy, "0.819", "6.45"),
         ("mobility, the whole speed", orbits[1.0], "0.745", "9.08"),
-    ):  # fmt: skip
+    ):
         largest = float(np.hypot(*orbit.T).max())
         yield Figure(f"{who}: largest ε of the second period", eps, largest)
         yield Figure(f"{who}: least film, µm", thin, 1e6 * c * (1.0 - largest))
@@ -200,8 +210,16 @@ def whirling(collar: drawn.Collar, times: np.ndarray) -> tuple[np.ndarray, float
     y, t, touches, pieces, first = collar.start(), 0.0, False, [], math.inf
     while t < times[-1]:
         event = ending(lambda t, y: y[0] - collar.gap, -1.0 if touches else 1.0)
-        run = solve_ivp(collar.rates(touches), (t, float(times[-1])), y, "DOP853", events=event, rtol=1e-13, atol=1e-16,
-                        t_eval=times[times >= t])  # fmt: skip
+        run = solve_ivp(
+            collar.rates(touches),
+            (t, float(times[-1])),
+            y,
+            "DOP853",
+            events=event,
+            rtol=1e-13,
+            atol=1e-16,
+            t_eval=times[times >= t],
+        )
         if len(run.t):
             pieces.append(run.y.T[:, :2])
         if not run.t_events[0].size:

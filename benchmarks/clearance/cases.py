@@ -101,56 +101,142 @@ def cases() -> dict[str, Case]:
         second, guess = press(speed * math.pi, c, young, 0.1 if scene == "lubricated" else 0.0)
         title = f"nine-bar press, {scene}, {speed:g}π rad/s, c {1e3 * c:g} mm, E {1e-9 * young:g} GPa"
         steel = {f"bearings.pin.{part}_material": "steel_45" for part in ("bearing", "journal")} if young > 1e11 else {}
-        found[name] = Case(title, CHEN, "nine_bar_press", scene, ("A", "B"), t_end, guess, second, peaks,
-                           {"omega": speed * math.pi, "c": c, **steel})  # fmt: skip
+        found[name] = Case(
+            title,
+            CHEN,
+            "nine_bar_press",
+            scene,
+            ("A", "B"),
+            t_end,
+            guess,
+            second,
+            peaks,
+            {"omega": speed * math.pi, "c": c, **steel},
+        )
     for scene, sign in (("internal", -1), ("external", 1)):
         law = Pin(radius=0.01, clearance=0.5e-3, width=0.02, young=207e9, sign=sign, mu=0.03, v0=1e-3, v1=1e-2)
         drive = Wave(0.0, 5000.0 * math.pi / 30.0)
         second, guess = slider_crank((0.3, 0.21, 0.14), (1e-4, 2.5e-4, 1e-4), law, drive)
         title = f"slider-crank, 5000 rpm, c 0.5 mm, K of {scene} spheres"
-        found[f"slider_crank_{scene}"] = Case(title, FLORES, "flores_slider_crank", scene, ("wristpin",), 2e-3, guess,
-                                              second)  # fmt: skip
+        found[f"slider_crank_{scene}"] = Case(
+            title, FLORES, "flores_slider_crank", scene, ("wristpin",), 2e-3, guess, second
+        )
     law = Pin(radius=0.01, clearance=0.2e-3, width=0.04, viscosity=0.4)
     second, guess = slider_crank((0.3, 0.21, 0.14), (1e-4, 2.5e-4, 1e-4), law, Wave(0.0, 5000.0 * math.pi / 30.0))
-    found["slider_crank_lubricated"] = Case("slider-crank, 5000 rpm, c 0.2 mm, a film of 400 cP", FLORES_FILM,
-                                            str(HERE / "slider_crank_lubricated.yaml"), "lubricated", ("wristpin",),
-                                            24e-3, guess, second)  # fmt: skip
-    law = Pin(radius=0.01, clearance=0.05e-3, width=0.015, mu=0.02, v0=1e-3, v1=5e-2, exponent=2.0,
-              stiffness=2.31797e10)  # fmt: skip
+    found["slider_crank_lubricated"] = Case(
+        "slider-crank, 5000 rpm, c 0.2 mm, a film of 400 cP",
+        FLORES_FILM,
+        str(HERE / "slider_crank_lubricated.yaml"),
+        "lubricated",
+        ("wristpin",),
+        24e-3,
+        guess,
+        second,
+    )
+    law = Pin(
+        radius=0.01, clearance=0.05e-3, width=0.015, mu=0.02, v0=1e-3, v1=5e-2, exponent=2.0, stiffness=2.31797e10
+    )
     second, guess = slider_crank((0.3, 0.087, 0.14), (1e-5, 4.8037e-4, 1e-2), law, Wave(math.pi / 6.0, math.pi))
-    found["slider_crank_worn"] = Case("slider-crank, 30 rpm, c 0.05 mm, K and exponent given", WORN,
-                                      str(HERE / "slider_crank_worn.yaml"), "worn", ("wristpin",), 0.2, guess,
-                                      second)  # fmt: skip
+    found["slider_crank_worn"] = Case(
+        "slider-crank, 30 rpm, c 0.05 mm, K and exponent given",
+        WORN,
+        str(HERE / "slider_crank_worn.yaml"),
+        "worn",
+        ("wristpin",),
+        0.2,
+        guess,
+        second,
+    )
     second, guess = landing_gear()
-    found["landing_gear"] = Case("landing-gear retraction, c 0.05 mm in two pins", GEAR, "landing_gear", "worn",
-                                 ("A", "B"), 20e-3, guess, second)  # fmt: skip
+    found["landing_gear"] = Case(
+        "landing-gear retraction, c 0.05 mm in two pins", GEAR, "landing_gear", "worn", ("A", "B"), 20e-3, guess, second
+    )
     for name, joints in (("one", ("X1",)), ("two", ("X1", "X2"))):
         second, guess = jansen(len(joints))
         title = f"Jansen's leg, 60 rpm, c 0.2 mm in {name} of the crank's pins"
-        found[f"jansen_leg_{name}"] = Case(title, JANSEN, str(STUDIES / "jansen_leg_play.yaml"), name, joints, 40e-3,
-                                           guess, second)  # fmt: skip
+        found[f"jansen_leg_{name}"] = Case(
+            title, JANSEN, str(STUDIES / "jansen_leg_play.yaml"), name, joints, 40e-3, guess, second
+        )
     rigid, guess = four_bar()
-    found["four_bar_tracking"] = Case("four-bar led by a torque, rigid, c 5 mm in three joints", SICONOS,
-                                      str(HERE / "four_bar_tracking.yaml"), "tracking", ("J1", "J2", "J3"), 1.0, guess,
-                                      rigid, rows="four_bar_tracking.csv")  # fmt: skip
+    found["four_bar_tracking"] = Case(
+        "four-bar led by a torque, rigid, c 5 mm in three joints",
+        SICONOS,
+        str(HERE / "four_bar_tracking.yaml"),
+        "tracking",
+        ("J1", "J2", "J3"),
+        1.0,
+        guess,
+        rigid,
+        rows="four_bar_tracking.csv",
+    )
     for name, title, source, scene, joints, t_end, (second, guess) in (
-        ("rotor_rigid", "rigid rotor in short journal bearings, run up by 700 Hz/s", NOWALD, "film", ("bearings",), 0.7,
-         rotors.rigid_rotor()),
-        ("rotor_elastic", "Jeffcott's rotor in short journal bearings, run up by 500 Hz/s", NOWALD, "film",
-         ("bearings",), 0.5, rotors.elastic_rotor()),
-        ("rotor_floating_ring", "Jeffcott's rotor in floating-ring bearings, run up by 300 Hz/s", NOWALD, "films",
-         ("outer", "inner"), 1.0, rotors.floating_ring()),
-        ("engine_bearing", "engine's main bearing, 2000 rpm, under its load", MOBILITY, "film", ("main",), 0.12,
-         rotors.engine_bearing()),
-        ("rotor_stator", "unbalanced rotor against an elastic stator", STATOR, "rub", ("stator",), 40e-3,
-         rotors.rotor_and_stator()),
-        ("drill_collar", "drill collar in its borehole, 105 rpm, 135 kN on the bit", LOBO, "whirl", ("borehole",), 6.0,
-         rotors.drill_collar()),
-    ):  # fmt: skip
+        (
+            "rotor_rigid",
+            "rigid rotor in short journal bearings, run up by 700 Hz/s",
+            NOWALD,
+            "film",
+            ("bearings",),
+            0.7,
+            rotors.rigid_rotor(),
+        ),
+        (
+            "rotor_elastic",
+            "Jeffcott's rotor in short journal bearings, run up by 500 Hz/s",
+            NOWALD,
+            "film",
+            ("bearings",),
+            0.5,
+            rotors.elastic_rotor(),
+        ),
+        (
+            "rotor_floating_ring",
+            "Jeffcott's rotor in floating-ring bearings, run up by 300 Hz/s",
+            NOWALD,
+            "films",
+            ("outer", "inner"),
+            1.0,
+            rotors.floating_ring(),
+        ),
+        (
+            "engine_bearing",
+            "engine's main bearing, 2000 rpm, under its load",
+            MOBILITY,
+            "film",
+            ("main",),
+            0.12,
+            rotors.engine_bearing(),
+        ),
+        (
+            "rotor_stator",
+            "unbalanced rotor against an elastic stator",
+            STATOR,
+            "rub",
+            ("stator",),
+            40e-3,
+            rotors.rotor_and_stator(),
+        ),
+        (
+            "drill_collar",
+            "drill collar in its borehole, 105 rpm, 135 kN on the bit",
+            LOBO,
+            "whirl",
+            ("borehole",),
+            6.0,
+            rotors.drill_collar(),
+        ),
+    ):
         found[name] = Case(title, source, str(HERE / f"{name}.yaml"), scene, joints, t_end, guess, second)
     guided, guess = slider_in_guide()
     corners = tuple(f"guide.{end}_{wall}" for end in ("front", "rear") for wall in ("upper", "lower"))
-    found["slider_crank_guide"] = Case("slider-crank let go, rigid, 1 mm beside the slider in its guide", GUIDE,
-                                       str(HERE / "slider_crank_guide.yaml"), "free", corners, 0.2, guess,
-                                       guided, rows="slider_crank_guide.csv")  # fmt: skip
+    found["slider_crank_guide"] = Case(
+        "slider-crank let go, rigid, 1 mm beside the slider in its guide",
+        GUIDE,
+        str(HERE / "slider_crank_guide.yaml"),
+        "free",
+        corners,
+        0.2,
+        guess,
+        guided,
+        rows="slider_crank_guide.csv",
+    )
     return found

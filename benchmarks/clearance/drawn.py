@@ -96,10 +96,17 @@ def floating_ring(t: float, y: np.ndarray) -> np.ndarray:
     inside = 2.0 * INNER.force(journal - ring, v_j - v_r, speed + turns)
     outside = 2.0 * OUTER.force(ring, v_r, turns)
     torque = 2.0 * (OUTER.torque(ring, turns) - INNER.torque(journal - ring, speed - turns))
-    return np.concatenate([
-        v_j, v_d, v_r, (inside + shaft) / m_j + DOWN, (unbalance(t, 3e-6 * m, alpha) - shaft) / m + DOWN,
-        (outside - inside) / m_r + DOWN, [torque / inertia],
-    ])  # fmt: skip
+    return np.concatenate(
+        [
+            v_j,
+            v_d,
+            v_r,
+            (inside + shaft) / m_j + DOWN,
+            (unbalance(t, 3e-6 * m, alpha) - shaft) / m + DOWN,
+            (outside - inside) / m_r + DOWN,
+            [torque / inertia],
+        ]
+    )
 
 
 def mobility(load: Callable[[float], float], share: float) -> Rates:

@@ -61,28 +61,42 @@ class Guided(Rigid):
         back = {k: self.restitution * gaps[k].rate for k in near}
         left = {k: -x if gaps[k].rate > RESTING and x > self.threshold else 0.0 for k, x in back.items()}
         pressed, smooth = next(
-            (held, w) for held in subsets(near)
+            (held, w)
+            for held in subsets(near)
             for w, normal, _ in [self._bounce(t, q, v, gaps, held, {}, left)]
             if min(normal, default=0.0) >= 0.0 and all(gaps[k].row @ w < left[k] + RESTING for k in near)
-        )  # fmt: skip
+        )
         ratio = {k: abs(self.friction(k, float(gaps[k].slip_row @ smooth))) for k in pressed}
         for way in product((0.0, *SLIDES), repeat=len(pressed)):  # 0: it sticks
             if way.count(0.0) > 1:  # corners of one slider slip alike: that more than one sticks is no other motion
                 continue
-            w, normal, along = self._bounce(t, q, v, gaps, pressed, {
-                k: None if sign == 0.0 else -sign * ratio[k] for k, sign in zip(pressed, way, strict=True)
-            }, left)  # fmt: skip
-            slides = all(sign == 0.0 or sign * (gaps[k].slip_row @ w) > 0.0
-                         for k, sign in zip(pressed, way, strict=True))  # fmt: skip
+            w, normal, along = self._bounce(
+                t,
+                q,
+                v,
+                gaps,
+                pressed,
+                {k: None if sign == 0.0 else -sign * ratio[k] for k, sign in zip(pressed, way, strict=True)},
+                left,
+            )
+            slides = all(
+                sign == 0.0 or sign * (gaps[k].slip_row @ w) > 0.0 for k, sign in zip(pressed, way, strict=True)
+            )
             sticks = all(abs(P) <= ratio[k] * N for k, N, P in zip(pressed, normal, along, strict=True))
             if min(normal) >= 0.0 and slides and (sticks or 0.0 not in way):
                 return w
         raise ValueError("no impulses fit")
 
     def _bounce(
-        self, t: float, q: np.ndarray, v: np.ndarray, gaps: list[Gap], held: tuple[int, ...],
-        along: dict[int, float | None], left: dict[int, float],
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
+        self,
+        t: float,
+        q: np.ndarray,
+        v: np.ndarray,
+        gaps: list[Gap],
+        held: tuple[int, ...],
+        along: dict[int, float | None],
+        left: dict[int, float],
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """As `_jump`, of rates that are left."""
         r = rows(self.linkage, t, q, v)
         phi_q = np.vstack([r.phi_q, *(gaps[k].row for k in held)])
@@ -97,5 +111,4 @@ class Guided(Rigid):
         x = np.linalg.solve(matrix, np.concatenate([diagonal * v, rates]))
         normal = x[n + r.nu.size :][: len(held)]
         stopping = dict(zip(stuck, x[n + r.nu.size + len(held) :], strict=True))
-        return x[:n], normal, np.array([stopping.get(k, (along.get(k) or 0.0) * normal[i])
-                                        for i, k in enumerate(held)])  # fmt: skip
+        return x[:n], normal, np.array([stopping.get(k, (along.get(k) or 0.0) * normal[i]) for i, k in enumerate(held)])

@@ -49,12 +49,16 @@ def press(speed: float, clearance: float, young: float, viscosity: float) -> tup
     links = Chain(dict(enumerate((g.l1, g.l2, g.l3, g.l4, g.l6, g.l7, g.l8))))
     slider = End(7, (0.0, 0.0))
     joints = (
-        pin((0.0, 0.0), links.tail(0)), pin((0.0, -g.l5), links.tail(3)), pin((g.hx, g.hy), links.tail(4)),
-        Revolute(links.head(1), links.tail(5)), Revolute(links.head(2), links.tail(5)),
-        Revolute(links.head(5), links.head(4)), Revolute(links.head(5), links.tail(6)),
+        pin((0.0, 0.0), links.tail(0)),
+        pin((0.0, -g.l5), links.tail(3)),
+        pin((g.hx, g.hy), links.tail(4)),
+        Revolute(links.head(1), links.tail(5)),
+        Revolute(links.head(2), links.tail(5)),
+        Revolute(links.head(5), links.head(4)),
+        Revolute(links.head(5), links.tail(6)),
         Revolute(links.head(6), slider),
         Translational(End(GROUND, (g.hx, g.hy)), slider, (0.0, 1.0), math.pi / 2.0),
-    )  # fmt: skip
+    )
     drives = (Drive(0, GROUND, Wave(g.theta1, g.omega1)), Drive(3, GROUND, Wave(g.theta4, g.omega4)))
     bodies = tuple(Body(m, j) for m, j in zip(data.mass, data.inertia, strict=True))
     linkage = Linkage(bodies, joints, drives, (), (0.0, -data.gravity))
@@ -62,11 +66,17 @@ def press(speed: float, clearance: float, young: float, viscosity: float) -> tup
     ends = ((links.head(0), links.tail(1)), (links.head(3), links.tail(2)))
     plays = [Joint(Play(one, two, law), law) for one, two in ends]
     guess = [
-        *links.middle(0, (0.0, 0.0), -39.52), *links.middle(1, (0.06, -0.05), -39.5),
-        *links.middle(2, (-0.075, -0.327), 19.5), *links.middle(3, (0.0, -0.3), 199.47),
-        *links.middle(4, (0.5, 0.0), -90.0), *links.middle(5, (0.254, -0.21), 7.0),
-        *links.middle(6, (0.5, -0.18), -90.0), 0.5, -0.48, 90.0 * DEGREE,
-    ]  # fmt: skip
+        *links.middle(0, (0.0, 0.0), -39.52),
+        *links.middle(1, (0.06, -0.05), -39.5),
+        *links.middle(2, (-0.075, -0.327), 19.5),
+        *links.middle(3, (0.0, -0.3), 199.47),
+        *links.middle(4, (0.5, 0.0), -90.0),
+        *links.middle(5, (0.254, -0.21), 7.0),
+        *links.middle(6, (0.5, -0.18), -90.0),
+        0.5,
+        -0.48,
+        90.0 * DEGREE,
+    ]
     return Second(linkage, plays), guess
 
 
@@ -76,16 +86,22 @@ def slider_crank(
     """Crank of 50 mm, rod of 120 mm, slider; play between rod and slider."""
     links, slider = Chain({0: 0.05, 1: 0.12}), End(2, (0.0, 0.0))
     joints = (
-        pin((0.0, 0.0), links.tail(0)), Revolute(links.head(0), links.tail(1)),
+        pin((0.0, 0.0), links.tail(0)),
+        Revolute(links.head(0), links.tail(1)),
         Translational(End(GROUND, (0.0, 0.0)), slider, (1.0, 0.0), 0.0),
-    )  # fmt: skip
+    )
     bodies = tuple(Body(m, j) for m, j in zip(masses, inertias, strict=True))
     linkage = Linkage(bodies, joints, (Drive(0, GROUND, drive),), (), (0.0, -gravity))
     angle = drive.a
     across = -math.asin(5.0 / 12.0 * math.sin(angle))
     tip = (0.05 * math.cos(angle), 0.05 * math.sin(angle))
-    guess = [*links.middle(0, (0.0, 0.0), angle / DEGREE), *links.middle(1, tip, across / DEGREE),
-             tip[0] + 0.12 * math.cos(across), 0.0, 0.0]  # fmt: skip
+    guess = [
+        *links.middle(0, (0.0, 0.0), angle / DEGREE),
+        *links.middle(1, tip, across / DEGREE),
+        tip[0] + 0.12 * math.cos(across),
+        0.0,
+        0.0,
+    ]
     return Second(linkage, [Joint(Play(links.head(1), slider, law), law)]), guess
 
 
@@ -112,10 +128,12 @@ def landing_gear() -> tuple[Second, list[float]]:
     links = Chain({1: 0.7, 3: 1.08, 4: 1.2})
     crosshead, brace_on_leg = End(0, (0.0, 0.0)), End(4, (0.36 - 0.6, 0.0))
     joints = (
-        Translational(End(GROUND, (0.0, 1.5)), crosshead, (0.0, 1.0), 0.0), Revolute(crosshead, links.tail(1)),
-        Revolute(links.head(1), End(2, (0.0, -0.514))), pin((1.0, 1.85), End(2, (0.0, 0.49))),
+        Translational(End(GROUND, (0.0, 1.5)), crosshead, (0.0, 1.0), 0.0),
+        Revolute(crosshead, links.tail(1)),
+        Revolute(links.head(1), End(2, (0.0, -0.514))),
+        pin((1.0, 1.85), End(2, (0.0, 0.49))),
         pin((1.45, 1.05), links.tail(4)),
-    )  # fmt: skip
+    )
     bodies = (Body(7.66, 2.422e-2), Body(23.51, 1.137), Body(147.94, 12.98), Body(39.16, 4.291), Body(140.77, 10.76))
     drives = (CoordinateDrive(0, 1, Cosine(1.5, 0.3, math.pi)),)
     linkage = Linkage(bodies, joints, drives, (), (0.0, -9.8))
@@ -124,8 +142,16 @@ def landing_gear() -> tuple[Second, list[float]]:
     turned = -128.0 * DEGREE
     plate = (1.0 + 0.49 * math.sin(turned), 1.85 - 0.49 * math.cos(turned))
     at = (plate[0] + 0.723 * math.cos(turned), plate[1] + 0.723 * math.sin(turned))
-    guess = [0.0, 1.8, 0.0, *links.middle(1, (0.0, 1.8), 73.0), *plate, turned, *links.middle(3, at, -31.0),
-             *links.middle(4, (1.45, 1.05), -175.0)]  # fmt: skip
+    guess = [
+        0.0,
+        1.8,
+        0.0,
+        *links.middle(1, (0.0, 1.8), 73.0),
+        *plate,
+        turned,
+        *links.middle(3, at, -31.0),
+        *links.middle(4, (1.45, 1.05), -175.0),
+    ]
     return Second(linkage, [Joint(Play(one, two, law), law) for one, two in ends]), guess
 
 
@@ -147,15 +173,19 @@ def jansen(pins: int) -> tuple[Second, list[float]]:
     inertia |= {3: 2.0 * of_upper / 36.0, 6: 2.0 * of_lower / 36.0}
     y = (-0.38, -0.078)
     joints = (
-        pin((0.0, 0.0), links.tail(0)), pin(y, End(3, upper[0])), Revolute(links.head(1), End(3, upper[1])),
-        pin(y, links.tail(4)), Revolute(links.head(2), links.head(4)), Revolute(End(3, upper[2]), links.tail(5)),
-        Revolute(links.head(5), End(6, lower[0])), Revolute(End(6, lower[1]), links.head(4)),
-    )  # fmt: skip
+        pin((0.0, 0.0), links.tail(0)),
+        pin(y, End(3, upper[0])),
+        Revolute(links.head(1), End(3, upper[1])),
+        pin(y, links.tail(4)),
+        Revolute(links.head(2), links.head(4)),
+        Revolute(End(3, upper[2]), links.tail(5)),
+        Revolute(links.head(5), End(6, lower[0])),
+        Revolute(End(6, lower[1]), links.head(4)),
+    )
     drives = (Drive(0, GROUND, Wave(0.0, 2.0 * math.pi)),)
     linkage = Linkage(tuple(Body(mass[k], inertia[k]) for k in range(7)), joints, drives, (), (0.0, -9.81))
     stiffness = dry.stiffness(0.01, 0.01 - 0.2e-3, (110e9, 207e9), (0.34, 0.3))  # steel in bronze
-    law = Pin(radius=0.01, clearance=0.2e-3, width=0.02, restitution=0.8, mu=0.1, v0=1e-3, v1=1e-2,
-              stiffness=stiffness)  # fmt: skip
+    law = Pin(radius=0.01, clearance=0.2e-3, width=0.02, restitution=0.8, mu=0.1, v0=1e-3, v1=1e-2, stiffness=stiffness)
     linkage = replace(linkage, joints=(*joints, *(Revolute(links.head(0), links.tail(k)) for k in (1, 2)[pins:])))
     plays = [Joint(Play(links.head(0), links.tail(k), law), law) for k in (1, 2)[:pins]]
     return Second(linkage, plays), _jansen_guess(links, upper, lower, y)
@@ -183,10 +213,20 @@ def _jansen_guess(
     u = meet(fixed, 0.401, w, 0.558, 1)
     t = meet(u, 0.394, v, 0.367, -1)
     return [
-        0.075, 0.0, 0.0, *((x + w) / 2.0), angle(x, w), *((x + v) / 2.0), angle(x, v),
-        *triangle(fixed, angle(fixed, w), upper), *((fixed + v) / 2.0), angle(fixed, v),
-        *((u + t) / 2.0), angle(u, t), *triangle(t, angle(t, v), lower),
-    ]  # fmt: skip
+        0.075,
+        0.0,
+        0.0,
+        *((x + w) / 2.0),
+        angle(x, w),
+        *((x + v) / 2.0),
+        angle(x, v),
+        *triangle(fixed, angle(fixed, w), upper),
+        *((fixed + v) / 2.0),
+        angle(fixed, v),
+        *((u + t) / 2.0),
+        angle(u, t),
+        *triangle(t, angle(t, v), lower),
+    ]
 
 
 @dataclass(frozen=True)
@@ -234,8 +274,9 @@ class Led:
         return (
             inertia * (-self.reach * w**2 * math.sin(angle) - self.rate * rate)
             + curving * omega * (omega - self.rate * e)
-            - self.gain * (rate + self.rate * e) + self.mass * self.gravity * weights
-        )  # fmt: skip
+            - self.gain * (rate + self.rate * e)
+            + self.mass * self.gravity * weights
+        )
 
     def forces(self, t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         g = np.zeros(q.size)
@@ -253,8 +294,17 @@ def four_bar() -> tuple[Rigid, list[float]]:
     bodies = tuple(Body(1.0, length**2 / 12.0) for length in lengths[1:])
     linkage = Linkage(bodies, (pin((0.0, 0.0), links.tail(0)),), gravity=(0.0, -9.81), loads=(led,))
     theta = 1.570823772407980
-    guess = [0.5 * math.cos(theta), 0.5 * math.sin(theta), theta, 1.876454585097650, 1.691962091335582,
-             0.3532842020624460, 3.0 + 0.3764686197082958, 1.191962183453451, 1.264872058968431]  # fmt: skip
+    guess = [
+        0.5 * math.cos(theta),
+        0.5 * math.sin(theta),
+        theta,
+        1.876454585097650,
+        1.691962091335582,
+        0.3532842020624460,
+        3.0 + 0.3764686197082958,
+        1.191962183453451,
+        1.264872058968431,
+    ]
     return Rigid(linkage, [Joint(Play(one, two, law), law) for one, two in ends]), guess
 
 
@@ -267,8 +317,10 @@ def slider_in_guide() -> tuple[Guided, list[float]]:
     linkage = Linkage(bodies, joints, gravity=(0.0, -9.81))
     law = Pin(radius=0.026, clearance=1e-3, mu=0.01, v0=1e-3)
     corners = [(front, upper) for front in (1, -1) for upper in (1, -1)]
-    plays = [Joint(Play(End(GROUND, (0.0, 0.0)), End(2, (0.05 * front, 0.025 * upper)), law), law)
-             for front, upper in corners]  # fmt: skip
+    plays = [
+        Joint(Play(End(GROUND, (0.0, 0.0)), End(2, (0.05 * front, 0.025 * upper)), law), law)
+        for front, upper in corners
+    ]
     start = [0.0765, 0.0, 0.0, 0.306, 0.0, 0.0, 0.459, 0.0, 0.0]
     rates = [0.0, 0.0765 * speed, speed, 0.0, 0.0765 * speed, -0.5 * speed, 0.0, 0.0, 0.0]
     upper = tuple(side for _, side in corners)

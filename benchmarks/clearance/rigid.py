@@ -53,8 +53,10 @@ class Rigid(Second):
         size = float(np.hypot(*e))
         n = e / size
         row, slip_row = n @ e_q, (TURN @ n) @ e_q
-        for end, arm in ((joint.play.second, joint.law.radius - joint.law.clearance),
-                         (joint.play.first, -joint.law.radius)):  # fmt: skip
+        for end, arm in (
+            (joint.play.second, joint.law.radius - joint.law.clearance),
+            (joint.play.first, -joint.law.radius),
+        ):
             if end.body != GROUND:
                 slip_row[3 * end.body + 2] += arm
         along = float(n @ rate)
@@ -71,8 +73,9 @@ class Rigid(Second):
         r, found, held = rows(self.linkage, t, q, v), self.gaps(q, v), list(held)
         gaps = [found[k] for k in held]
         phi_q = np.vstack([r.phi_q, *(gap.row for gap in gaps)])
-        push = np.vstack([r.phi_q, *(gap.row + self.friction(k, gap.slip) * gap.slip_row
-                                     for k, gap in zip(held, gaps, strict=True))])  # fmt: skip
+        push = np.vstack(
+            [r.phi_q, *(gap.row + self.friction(k, gap.slip) * gap.slip_row for k, gap in zip(held, gaps, strict=True))]
+        )
         gamma = [r.gamma - 2.0 * STABLE * (r.phi_q @ v - r.nu) - STABLE**2 * r.phi]
         gamma += [np.array([-g.gamma - 2.0 * STABLE * g.rate - STABLE**2 * g.delta]) for g in gaps]
         n, m = q.size, phi_q.shape[0]
@@ -114,26 +117,38 @@ class Rigid(Second):
         """Velocities behind it: normal impulses without friction first, then what friction changes."""
         gaps = self.gaps(q, v)
         pressed, smooth = next(
-            (held, w) for held in subsets(touching)
+            (held, w)
+            for held in subsets(touching)
             for w, normal, _ in [self._jump(t, q, v, gaps, held, {})]
             if min(normal, default=0.0) >= 0.0 and all(gaps[k].row @ w < RESTING for k in touching)
-        )  # fmt: skip
+        )
         ratio = {k: abs(self.friction(k, float(gaps[k].slip_row @ smooth))) for k in pressed}
         for way in product((0.0, *SLIDES), repeat=len(pressed)):  # 0: it sticks
-            w, normal, along = self._jump(t, q, v, gaps, pressed, {
-                k: None if sign == 0.0 else -sign * ratio[k] for k, sign in zip(pressed, way, strict=True)
-            })  # fmt: skip
-            slides = all(sign == 0.0 or sign * (gaps[k].slip_row @ w) > 0.0
-                         for k, sign in zip(pressed, way, strict=True))  # fmt: skip
+            w, normal, along = self._jump(
+                t,
+                q,
+                v,
+                gaps,
+                pressed,
+                {k: None if sign == 0.0 else -sign * ratio[k] for k, sign in zip(pressed, way, strict=True)},
+            )
+            slides = all(
+                sign == 0.0 or sign * (gaps[k].slip_row @ w) > 0.0 for k, sign in zip(pressed, way, strict=True)
+            )
             sticks = all(abs(P) <= ratio[k] * N for k, N, P in zip(pressed, normal, along, strict=True))
             if min(normal) >= 0.0 and slides and (sticks or 0.0 not in way):
                 return w
         raise ValueError("no impulses fit")
 
     def _jump(
-        self, t: float, q: np.ndarray, v: np.ndarray, gaps: list[Gap], held: Iterable[int],
+        self,
+        t: float,
+        q: np.ndarray,
+        v: np.ndarray,
+        gaps: list[Gap],
+        held: Iterable[int],
         along: dict[int, float | None],
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """q̇⁺, Λ and P (N s) where δ̇⁺ = 0 of all held; of `along` P is so much of Λ, or stops the slip (None)."""
         r, held = rows(self.linkage, t, q, v), list(held)
         phi_q = np.vstack([r.phi_q, *(gaps[k].row for k in held)])
@@ -147,8 +162,7 @@ class Rigid(Second):
         x = np.linalg.solve(matrix, np.concatenate([diagonal * v, r.nu, np.zeros(m - r.nu.size)]))
         normal = x[n + r.nu.size :][: len(held)]
         stopping = dict(zip(stuck, x[n + r.nu.size + len(held) :], strict=True))
-        return x[:n], normal, np.array([stopping.get(k, (along.get(k) or 0.0) * normal[i])
-                                        for i, k in enumerate(held)])  # fmt: skip
+        return x[:n], normal, np.array([stopping.get(k, (along.get(k) or 0.0) * normal[i]) for i, k in enumerate(held)])
 
     def settle(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> None:
         """Of what touches and does not part that is closed which has to push: λ ≥ 0, δ̈ ≤ 0."""

@@ -157,9 +157,13 @@ class String:
 
 
 def begun(
-    bodies: Sequence[Body], drives: Sequence[Drive], loads: Sequence[Load], plays: Sequence[Play], weight: float = 0.0,
+    bodies: Sequence[Body],
+    drives: Sequence[Drive],
+    loads: Sequence[Load],
+    plays: Sequence[Play],
+    weight: float = 0.0,
     method: str = "DOP853",
-) -> Begun:  # fmt: skip
+) -> Begun:
     """A machine without joints but those with play, under gravity (m/s²)."""
     linkage = Linkage(tuple(bodies), (), tuple(drives), gravity=(0.0, -weight), loads=tuple(loads))
     joints = [Joint(play, play.law) for play in plays]  # type: ignore[arg-type]
@@ -204,17 +208,51 @@ def floating_ring() -> tuple[Begun, list[float]]:
 
 def engine_bearing() -> tuple[Begun, list[float]]:
     """Crank angles (degrees) and loads (kN), closed to a period."""
-    loads = [(-0.570621, -2.012326), (15.768046, -1.595861), (34.544827, -1.365927), (51.431137, -1.182637),
-             (68.188551, -1.204212), (87.101887, -1.020913), (104.527875, -0.809306), (120.872984, -0.604367),
-             (139.924246, -0.512673), (156.677399, -0.394341), (173.557215, 0.00214), (192.464921, 0.370316),
-             (209.346919, 0.695178), (226.090992, 1.111646), (244.595321, 1.413198), (261.887695, 1.574837),
-             (278.912488, 1.6482), (297.704183, 1.38846), (314.605203, 1.088737), (331.368349, 0.878955),
-             (350.292845, 0.695831), (367.055839, 0.491044), (386.113492, 0.372878), (403.005533, 0.367959),
-             (419.900923, 0.253114), (438.686784, 0.184913), (455.442879, 0.206643), (472.470614, 0.183404),
-             (491.525375, 0.160174), (508.148313, 0.116946), (525.18665, -0.254394), (544.253434, -0.672362),
-             (560.621675, -1.226917), (577.93155, -1.639896), (596.452872, -1.896306), (613.759501, -2.202689),
-             (630.659151, -2.457441), (649.570865, -2.220844), (666.186194, -2.014238), (683.213269, -2.015825),
-             (701.726729, -2.014074), (718.618619, -2.013995), (719.429379, -2.012326)]  # fmt: skip
+    loads = [
+        (-0.570621, -2.012326),
+        (15.768046, -1.595861),
+        (34.544827, -1.365927),
+        (51.431137, -1.182637),
+        (68.188551, -1.204212),
+        (87.101887, -1.020913),
+        (104.527875, -0.809306),
+        (120.872984, -0.604367),
+        (139.924246, -0.512673),
+        (156.677399, -0.394341),
+        (173.557215, 0.00214),
+        (192.464921, 0.370316),
+        (209.346919, 0.695178),
+        (226.090992, 1.111646),
+        (244.595321, 1.413198),
+        (261.887695, 1.574837),
+        (278.912488, 1.6482),
+        (297.704183, 1.38846),
+        (314.605203, 1.088737),
+        (331.368349, 0.878955),
+        (350.292845, 0.695831),
+        (367.055839, 0.491044),
+        (386.113492, 0.372878),
+        (403.005533, 0.367959),
+        (419.900923, 0.253114),
+        (438.686784, 0.184913),
+        (455.442879, 0.206643),
+        (472.470614, 0.183404),
+        (491.525375, 0.160174),
+        (508.148313, 0.116946),
+        (525.18665, -0.254394),
+        (544.253434, -0.672362),
+        (560.621675, -1.226917),
+        (577.93155, -1.639896),
+        (596.452872, -1.896306),
+        (613.759501, -2.202689),
+        (630.659151, -2.457441),
+        (649.570865, -2.220844),
+        (666.186194, -2.014238),
+        (683.213269, -2.015825),
+        (701.726729, -2.014074),
+        (718.618619, -2.013995),
+        (719.429379, -2.012326),
+    ]
     angle, load = np.array(loads).T
     speed, c = 2000.0 / 60.0 * 2.0 * math.pi, 35.56e-6
     law = Short(radius=31.75e-3 + c, clearance=c, width=25.4e-3, viscosity=4.16e-3)
@@ -246,14 +284,30 @@ def drill_collar() -> tuple[Begun, list[float]]:
     total = m + math.pi * mud * (collar[1] ** 2 + 1.7 * collar[0] ** 2) * L / 8.0
     axial = weight - steel * 9.81 * area * (length["last"] + L / 2.0)
     k = math.pi**4 * young * math.pi * fourth["collar"] / 64.0 / (2.0 * L**3) - axial * math.pi**2 / (2.0 * L)
-    J = steel * math.pi / 32.0 * (
-        fourth["pipe"] * length["pipe"] / 3.0 + fourth["first"] * length["first"]
-        + fourth["collar"] * (length["second"] + L + length["last"])
-    )  # fmt: skip
+    J = (
+        steel
+        * math.pi
+        / 32.0
+        * (
+            fourth["pipe"] * length["pipe"] / 3.0
+            + fourth["first"] * length["first"]
+            + fourth["collar"] * (length["second"] + L + length["last"])
+        )
+    )
     k_t = shear * math.pi * fourth["pipe"] / 32.0 / length["pipe"]
-    string = String(e, k, math.pi**3 / (2.0 * L**2), 2.0 * mud * collar[0] * L / (3.0 * math.pi), k_t,
-                    0.35 * J + 0.06 * k_t, speed, weight * 0.0239, (1.91, 8.5, 5.47))  # fmt: skip
-    law = Elastic(radius=0.108, clearance=0.0225, width=L, stiffness=1e9, mu=0.35, v0=math.inf, v1=math.inf,
-                  sliding=1e-3)  # fmt: skip
+    string = String(
+        e,
+        k,
+        math.pi**3 / (2.0 * L**2),
+        2.0 * mud * collar[0] * L / (3.0 * math.pi),
+        k_t,
+        0.35 * J + 0.06 * k_t,
+        speed,
+        weight * 0.0239,
+        (1.91, 8.5, 5.47),
+    )
+    law = Elastic(
+        radius=0.108, clearance=0.0225, width=L, stiffness=1e9, mu=0.35, v0=math.inf, v1=math.inf, sliding=1e-3
+    )
     second = begun([Body(total, J)], (), (string,), [bearing(0, law, (-e, 0.0))])
     return second, [m * 9.81 * 1e-7 / k + e, *[0.0] * 5]

@@ -155,8 +155,15 @@ class Second:
         n = y.size // 2
         what = list(self._events(n))
         end = min(end, t + self._stride(y))
-        found = solve_ivp(self, (t, end), y, self.method, events=[event for event, _ in what], rtol=self.rtol,
-                          atol=self.rtol * self._sizes(y))  # fmt: skip
+        found = solve_ivp(
+            self,
+            (t, end),
+            y,
+            self.method,
+            events=[event for event, _ in what],
+            rtol=self.rtol,
+            atol=self.rtol * self._sizes(y),
+        )
         if found.status < 0:
             raise ValueError(found.message)
         t, y = float(found.t[-1]), found.y[:, -1]
@@ -199,9 +206,13 @@ class Second:
                     return joint.slip(y[:n], y[n:]) - corner
 
                 def cross(
-                    t: float, q: np.ndarray, v: np.ndarray, joint: Joint = joint, corner: float = corner,
+                    t: float,
+                    q: np.ndarray,
+                    v: np.ndarray,
+                    joint: Joint = joint,
+                    corner: float = corner,
                     direction: float = direction,
-                ) -> None:  # fmt: skip
+                ) -> None:
                     corners = [-math.inf, -joint.law.v1, -joint.law.v0, joint.law.v0, joint.law.v1, math.inf]
                     at = corners.index(corner)
                     joint.sector = (corner, corners[at + 1]) if direction > 0.0 else (corners[at - 1], corner)

@@ -23,9 +23,14 @@ from numpy.typing import ArrayLike
 T_END = 0.03
 ANSWERS = Path(__file__).resolve().parents[2] / "tests" / "data" / "reference_problems.json"
 START = (
-    -0.0617138900142764496358948458001, 0.0, 0.455279819163070380255912382449, 0.222668390165885884674473185609,
-    0.487364979543842550225598953530, -0.222668390165885884674473185609, 1.23054744454982119249735015568,
-)  # fmt: skip
+    -0.0617138900142764496358948458001,
+    0.0,
+    0.455279819163070380255912382449,
+    0.222668390165885884674473185609,
+    0.487364979543842550225598953530,
+    -0.222668390165885884674473185609,
+    1.23054744454982119249735015568,
+)
 M1, M2, M3, M4, M5, M6, M7 = 0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498
 I1, I2, I3, I4, I5, I6, I7 = 2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5
 XA, YA, XB, YB, XC, YC = -0.06934, -0.00227, -0.03635, 0.03273, 0.014, 0.072
@@ -122,10 +127,13 @@ def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any]) 
     G[4][5], G[5][5] = step(ZF * s["oe"]), step(-ZF * c["oe"])
     G[4][6], G[5][6] = step(-U * c["e"] + ZF * s["oe"]), step(-U * s["e"] - ZF * c["oe"])
     curve = [  # Ġ q̇
-        bias[0] + SS * s["g"] * vg**2, bias[1] - SS * c["g"] * vg**2,
-        bias[0] + ZT * c["d"] * vd**2 + E * s["pd"] * wp, bias[1] + ZT * s["d"] * vd**2 - E * c["pd"] * wp,
-        bias[0] + U * s["e"] * ve**2 + ZF * c["oe"] * wo, bias[1] - U * c["e"] * ve**2 + ZF * s["oe"] * wo,
-    ]  # fmt: skip
+        bias[0] + SS * s["g"] * vg**2,
+        bias[1] - SS * c["g"] * vg**2,
+        bias[0] + ZT * c["d"] * vd**2 + E * s["pd"] * wp,
+        bias[1] + ZT * s["d"] * vd**2 - E * c["pd"] * wp,
+        bias[0] + U * s["e"] * ve**2 + ZF * c["oe"] * wo,
+        bias[1] - U * c["e"] * ve**2 + ZF * s["oe"] * wo,
+    ]
     return Parts(blocks, M3 * (SA**2 + SB**2) + I3, G, [step(x) for x in f], curve)
 
 

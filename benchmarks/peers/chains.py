@@ -135,13 +135,22 @@ def written(n: int) -> str:
     joints = ["ground.O", *(f"{name}.head" for name in names)]
     angles = ", ".join(f"{name}.theta: {value!r}" for name, value in zip(names, starts(n)[:n, 0].tolist(), strict=True))
     rates = ", ".join(f"{name}.omega: 0" for name in names)
-    return "\n".join([
-        "format: gudgeon/1", f"name: links_{n}", f"gravity: [0, -{G} m/s^2]", "bodies:",
-        *(f"  {name}: {{length: {L} m, mass: {M} kg, inertia: {J} kg*m^2}}" for name in names),
-        "ground: {O: [0, 0]}", "joints:",
-        *(f"  J{k}: {{revolute: [{joints[k]}, {name}.tail]}}" for k, name in enumerate(names)),
-        "start:", f"  set: {{{angles}}}", f"  rates: {{{rates}}}", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            "format: gudgeon/1",
+            f"name: links_{n}",
+            f"gravity: [0, -{G} m/s^2]",
+            "bodies:",
+            *(f"  {name}: {{length: {L} m, mass: {M} kg, inertia: {J} kg*m^2}}" for name in names),
+            "ground: {O: [0, 0]}",
+            "joints:",
+            *(f"  J{k}: {{revolute: [{joints[k]}, {name}.tail]}}" for k, name in enumerate(names)),
+            "start:",
+            f"  set: {{{angles}}}",
+            f"  rates: {{{rates}}}",
+            "",
+        ]
+    )
 
 
 @cache
@@ -178,7 +187,7 @@ def own_batch(n: int, method: str, rtol: float) -> Measured:
     with followed_by(10**9):  # its library is worth being compiled
         batch = loaded(n)["taylor" if method == "taylor" else "dop853"].simulate_many(
             {}, T_END[n], start=states(n), output=1, method=method, rtol=rtol, threads=1
-        )  # fmt: skip
+        )
     error = float(np.abs(batch.q[:, -1, 2::3].T - reference(n, RUNS)).max())
     found = batch.diagnostics
     return error, float(found["seconds"].mean()), round(float(found["right_hand_sides"].mean()))

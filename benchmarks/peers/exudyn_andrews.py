@@ -26,10 +26,17 @@ BODIES: dict[str, tuple[float, float, dict[str, tuple[float, float]]]] = {
 GROUND = {"O": (0.0, 0.0), "A": (a.XA, a.YA), "B": (a.XB, a.YB), "C": (a.XC, a.YC)}
 # each body hangs on the one before it: (body, its point, the other body or ground, the point there)
 JOINTS = (
-    ("OF", "O", "", "O"), ("FE", "F", "OF", "F"), ("BDE", "B", "", "B"), ("AG", "A", "", "A"), ("AH", "A", "", "A"),
-    ("EG", "G", "AG", "G"), ("HE", "H", "AH", "H"), ("BDE", "E", "FE", "E"),
-    ("EG", "E", "FE", "E"), ("HE", "E", "FE", "E"),
-)  # fmt: skip
+    ("OF", "O", "", "O"),
+    ("FE", "F", "OF", "F"),
+    ("BDE", "B", "", "B"),
+    ("AG", "A", "", "A"),
+    ("AH", "A", "", "A"),
+    ("EG", "G", "AG", "G"),
+    ("HE", "H", "AH", "H"),
+    ("BDE", "E", "FE", "E"),
+    ("EG", "E", "FE", "E"),
+    ("HE", "E", "FE", "E"),
+)
 
 
 def placements() -> dict[str, tuple[float, float, float]]:
@@ -105,7 +112,12 @@ def run(step: float) -> a.Measured:
     start = {k: p[2] for k, p in placements().items()}
     now = {k: start[k] + angle[k] for k in angle}
     y = [
-        now["OF"], now["FE"] - now["OF"], now["BDE"], now["EG"] - now["AG"], now["AG"],
-        now["HE"] - now["AH"], now["AH"],
-    ]  # fmt: skip
+        now["OF"],
+        now["FE"] - now["OF"],
+        now["BDE"],
+        now["EG"] - now["AG"],
+        now["AG"],
+        now["HE"] - now["AH"],
+        now["AH"],
+    ]
     return a.error(y), seconds, -1

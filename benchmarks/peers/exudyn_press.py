@@ -19,9 +19,14 @@ from tests.oracles import ideal_press, press_dense
 
 # pairs of (body, end): −1 tail, +1 head; by number of the body, "" the ground's point
 JOINTS = (
-    ((0, 1), (1, -1)), ((3, 1), (2, -1)), ((1, 1), (5, -1)), ((2, 1), (5, -1)),
-    ((5, 1), (4, 1)), ((5, 1), (6, -1)), ((6, 1), (7, 0)),
-)  # fmt: skip
+    ((0, 1), (1, -1)),
+    ((3, 1), (2, -1)),
+    ((1, 1), (5, -1)),
+    ((2, 1), (5, -1)),
+    ((5, 1), (4, 1)),
+    ((5, 1), (6, -1)),
+    ((6, 1), (7, 0)),
+)
 
 
 def build() -> tuple[Any, int]:
@@ -52,9 +57,10 @@ def build() -> tuple[Any, int]:
 
     pins = [(end(*a), end(*b)) for a, b in JOINTS]
     pins += [
-        (marker(ground, [0.0, 0.0]), end(0, -1)), (marker(ground, [0.0, -geometry.l5]), end(3, -1)),
+        (marker(ground, [0.0, 0.0]), end(0, -1)),
+        (marker(ground, [0.0, -geometry.l5]), end(3, -1)),
         (marker(ground, [geometry.hx, geometry.hy]), end(4, -1)),
-    ]  # fmt: skip
+    ]
     for pair in pins:
         system.AddObject(item.ObjectJointRevolute2D(markerNumbers=list(pair)))
     _hold(system, item, nodes, geometry)
@@ -70,8 +76,11 @@ def _hold(system: Any, item: Any, nodes: list[int], geometry: ideal_press.PressD
     fixed = system.AddNode(item.NodePointGround())
     zero = system.AddMarker(item.MarkerNodeCoordinate(nodeNumber=fixed, coordinate=0))
     for node, coordinate, speed in (
-        (nodes[0], 2, geometry.omega1), (nodes[3], 2, geometry.omega4), (nodes[7], 0, None), (nodes[7], 2, None),
-    ):  # fmt: skip
+        (nodes[0], 2, geometry.omega1),
+        (nodes[3], 2, geometry.omega4),
+        (nodes[7], 0, None),
+        (nodes[7], 2, None),
+    ):
         own = system.AddMarker(item.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
         rate = {} if speed is None else {"velocityLevel": True, "offset": speed}
         system.AddObject(item.ObjectConnectorCoordinate(markerNumbers=[zero, own], **rate))

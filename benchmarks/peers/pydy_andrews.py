@@ -37,9 +37,14 @@ def compiled() -> Any:
     force = sp.Matrix([found.f[0] - andrews.TORQUE + torque, *found.f[1:], *(-x for x in found.curve)])
     speeds = [*v, *m]
     built = generator(
-        force, [*q, *_unused()], speeds, [torque], mass_matrix=mass,
-        coordinate_derivatives=sp.Matrix([*v, *[0] * 6]), constants_arg_type="array",
-    )  # fmt: skip
+        force,
+        [*q, *_unused()],
+        speeds,
+        [torque],
+        mass_matrix=mass,
+        coordinate_derivatives=sp.Matrix([*v, *[0] * 6]),
+        constants_arg_type="array",
+    )
     return built.generate()
 
 
@@ -65,9 +70,14 @@ def run(rtol: float) -> andrews.Measured:
     torque = np.array([andrews.TORQUE])
     begin = perf_counter()
     s = solve_ivp(  # PyDy answers in one array, over and over, and solve_ivp keeps what it is given: hence the copy
-        lambda t, y: f(y, t, torque).copy(), (0.0, andrews.T_END), y0, t_eval=[andrews.T_END],
-        method="DOP853", rtol=rtol, atol=atol,
-    )  # fmt: skip
+        lambda t, y: f(y, t, torque).copy(),
+        (0.0, andrews.T_END),
+        y0,
+        t_eval=[andrews.T_END],
+        method="DOP853",
+        rtol=rtol,
+        atol=atol,
+    )
     return andrews.error(s.y[:7, -1]), perf_counter() - begin, int(s.nfev)
 
 

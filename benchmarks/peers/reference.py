@@ -37,9 +37,15 @@ def run(name: str = "dry", steps: int = STEPS) -> tuple[np.ndarray, np.ndarray]:
     y0, rows, onsets = press_dense.start(work.press), np.empty((press.OUTPUTS, 48)), np.empty((MOST, 3))
     cast = ffi.from_buffer
     count = c.reference_run(
-        cast("double[]", data), cast("double[]", y0), work.t_end, press.OUTPUTS, steps,
-        cast("double[]", rows), cast("double[]", onsets), MOST,
-    )  # fmt: skip
+        cast("double[]", data),
+        cast("double[]", y0),
+        work.t_end,
+        press.OUTPUTS,
+        steps,
+        cast("double[]", rows),
+        cast("double[]", onsets),
+        MOST,
+    )
     if count < 0:
         raise FloatingPointError("reference: no pivot")
     return rows, onsets[:count]

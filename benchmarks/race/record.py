@@ -115,8 +115,13 @@ def read(path: Path) -> Record:
         errors = {m: float(cells[m]) for m in MEASURES[cells["work"]]}
         rows.append(
             Row(
-                cells["work"], cells["entry"], cells["own"] == "1", float(cells["control"]), float(cells["seconds"]),
-                int(cells["right_hand_sides"]), errors,
+                cells["work"],
+                cells["entry"],
+                cells["own"] == "1",
+                float(cells["control"]),
+                float(cells["seconds"]),
+                int(cells["right_hand_sides"]),
+                errors,
             )
-        )  # fmt: skip
+        )
     return Record(facts, tuple(rows))

@@ -90,8 +90,10 @@ class Constraints(Freezable):
         span = (second.x - first.x, second.y - first.y)
         x, y = (define(f"{name}_span_{axis}", value, None, "span") for axis, value in zip("xy", span, strict=True))
         length = define(f"{name}_length", sp.sqrt(x**2 + y**2), None, "its length")
-        u_x, u_y = (define(f"{name}_along_{axis}", value / length, None, "its direction")
-                    for axis, value in zip("xy", (x, y), strict=True))  # fmt: skip
+        u_x, u_y = (
+            define(f"{name}_along_{axis}", value / length, None, "its direction")
+            for axis, value in zip("xy", (x, y), strict=True)
+        )
         rules[length], rules[u_x], rules[u_y] = {}, {}, {}
         for q in [*(q for q, _ in self._pairs(self._bodies(first, second))), self.t]:
             dx, dy = (self.symbols.diff(value, q) for value in span)

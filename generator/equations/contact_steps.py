@@ -37,9 +37,7 @@ epsilon, w_n, w_t, share = map(_symbol, ("epsilon", "w_n", "w_t", "share"))
 F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
 
 # Of a bearing with a contour, which has a depth more than its circle at each angle:
-theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
-    _symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
-)  # fmt: skip
+theta_i, beta_i, u_x, u_y, worn, worn_slope = map(_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope"))
 beta_rate, slant, steep, F_N = map(_symbol, ("beta_rate", "slant", "steep", "F_N"))
 along = _symbol("along")  # of a slider's corner: where it is along its guide
 de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e

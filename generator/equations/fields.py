@@ -31,8 +31,12 @@ class JointFields:
     def angle_of(self, name: str) -> sp.Expr:
         """The angle of a vector field in its body's frame (rad)."""
         x, y = self.direction(name)
-        return self._slots.derive(f"{self._joint.name}_{name}_angle", sp.atan2(y, x), "direction of the axis",
-                                  of=Owned(self._joint.name, f"{name}_angle"))  # fmt: skip
+        return self._slots.derive(
+            f"{self._joint.name}_{name}_angle",
+            sp.atan2(y, x),
+            "direction of the axis",
+            of=Owned(self._joint.name, f"{name}_angle"),
+        )
 
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
         """A number field, or `default` where the user gave none."""
@@ -79,8 +83,9 @@ class JointFields:
 
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
         """A number that is computed once a run."""
-        return self._slots.derive(f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}",
-                                  of=Owned(self._joint.name, name))  # fmt: skip
+        return self._slots.derive(
+            f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}", of=Owned(self._joint.name, name)
+        )
 
     def at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
         """`expression` of angles at the start's guess or set values (0 where there are none)."""

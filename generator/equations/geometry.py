@@ -148,9 +148,11 @@ class Geometry(Freezable):
         s = self._in_body(body, point, com)
         x, y = (
             self.slots.derive_signed(
-                f"{body.name}_{point}_{axis}", value - origin, "point from the centre of mass",
+                f"{body.name}_{point}_{axis}",
+                value - origin,
+                "point from the centre of mass",
                 f"{body.name}_{point}_s_{axis}",
-            )  # fmt: skip
+            )
             for axis, value, origin in zip("xy", s, com, strict=True)
         )
         return x, y

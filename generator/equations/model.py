@@ -89,11 +89,15 @@ def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
     signs = [-1 if model.all_rows[k].owner in slides else 1 for k, _, _ in apart]
     return {
         "guess": [(quantity, 1) for quantity in start.guess.values()],
-        "set": [*((quantity, 1) for quantity in start.set.values()),
-                *((e, sign) for (_, e, _), sign in zip(apart, signs, strict=True))],
-        "rates": [*((quantity, 1) for quantity in start.rates.values()),
-                  *((rate, sign) for (_, _, rate), sign in zip(apart, signs, strict=True))],
-    }  # fmt: skip
+        "set": [
+            *((quantity, 1) for quantity in start.set.values()),
+            *((e, sign) for (_, e, _), sign in zip(apart, signs, strict=True)),
+        ],
+        "rates": [
+            *((quantity, 1) for quantity in start.rates.values()),
+            *((rate, sign) for (_, _, rate), sign in zip(apart, signs, strict=True)),
+        ],
+    }
 
 
 def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
@@ -338,9 +342,21 @@ def make_model(scene: Scene) -> Model:
         refuse_constant(scene.events[event.name], event, geometry, constraints.t)
     offer_materials(scene, slots)
     model = Model(
-        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, frictions,
-        Redundancy(), gravity, baumgarte, events,
-    )  # fmt: skip
+        scene,
+        symbols,
+        slots,
+        geometry,
+        constraints,
+        tuple(rows),
+        kept,
+        tuple(clearances),
+        elements,
+        frictions,
+        Redundancy(),
+        gravity,
+        baumgarte,
+        events,
+    )
     offer_further(model)
     model.freeze()
     return model

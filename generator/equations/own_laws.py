@@ -71,8 +71,13 @@ def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: Slots) -> sp
 def _look(force: Quantity, most: float, slots: Slots) -> None:
     """Raise BadValueError where the force is no number or negative, with the scene's own numbers."""
     depths = np.union1d(np.geomspace(_SMALLEST * most, most, LOOKS // 2), np.linspace(0.0, most, LOOKS // 2)[1:])
-    found = np.broadcast_to(evaluate(force.value, lambda path: depths if path == "delta" else np.float64(
-        slots.entries[f"parameters.{path}"].default)), depths.shape)  # fmt: skip
+    found = np.broadcast_to(
+        evaluate(
+            force.value,
+            lambda path: depths if path == "delta" else np.float64(slots.entries[f"parameters.{path}"].default),
+        ),
+        depths.shape,
+    )
     if len(wrong := np.flatnonzero(~(np.isfinite(found) & (found >= 0.0)))):
         depth, load = depths[wrong[0]], found[wrong[0]]
         hint = "expected a force that is not negative up to the clearance, or to the key 'deepest'"
@@ -89,11 +94,22 @@ def _look_at_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: Slo
 
 
 _VARIABLES: Mapping[str, Dimension] = {
-    "delta": LENGTH, "ratio": DIMENSIONLESS, "deltadot": VELOCITY, "F_n": FORCE, "v_t": VELOCITY,
-    "epsilon": DIMENSIONLESS, "w_n": RATE, "w_t": RATE,
-}  # fmt: skip
-_RESULTS: Mapping[str, Dimension] = {"F_n": FORCE, "F_t": FORCE, "F_r": FORCE, "T0": TORQUE * TIME,
-                                    "share": DIMENSIONLESS}  # fmt: skip
+    "delta": LENGTH,
+    "ratio": DIMENSIONLESS,
+    "deltadot": VELOCITY,
+    "F_n": FORCE,
+    "v_t": VELOCITY,
+    "epsilon": DIMENSIONLESS,
+    "w_n": RATE,
+    "w_t": RATE,
+}
+_RESULTS: Mapping[str, Dimension] = {
+    "F_n": FORCE,
+    "F_t": FORCE,
+    "F_r": FORCE,
+    "T0": TORQUE * TIME,
+    "share": DIMENSIONLESS,
+}
 _PAIR: Mapping[str, Dimension] = {"E_i": PRESSURE, "E_j": PRESSURE, "nu_i": DIMENSIONLESS, "nu_j": DIMENSIONLESS}
 _SAME = classes_where(lambda f: f.units is Units.SAME)
 _RATIO = classes_where(lambda f: f.units is Units.RATIO)
@@ -204,10 +220,15 @@ def _shown(e: sp.Expr) -> sp.Expr:
 
 # Where forces are looked at: δ (m), ratios, δ̇ (m/s); F_n (N), slip (m/s); ε, 1/s. A state is a deflection (m).
 _LOOKS: Mapping[str, tuple[float, ...]] = {
-    "delta": (0.0, 1e-9, 1e-6, 1e-4), "ratio": (1.0, 0.3, 0.0, -0.4, -1.0), "deltadot": (1.0, 1e-3, 0.0, -1e-3, -1.0),
-    "F_n": (0.0, 1.0, 1e3), "v_t": (-1.0, -1e-4, 0.0, 1e-4, 1.0),
-    "epsilon": (0.0, 0.5, 0.9999), "w_n": (-10.0, 0.0, 10.0), "w_t": (-10.0, 0.0, 10.0),
-}  # fmt: skip
+    "delta": (0.0, 1e-9, 1e-6, 1e-4),
+    "ratio": (1.0, 0.3, 0.0, -0.4, -1.0),
+    "deltadot": (1.0, 1e-3, 0.0, -1e-3, -1.0),
+    "F_n": (0.0, 1.0, 1e3),
+    "v_t": (-1.0, -1e-4, 0.0, 1e-4, 1.0),
+    "epsilon": (0.0, 0.5, 0.9999),
+    "w_n": (-10.0, 0.0, 10.0),
+    "w_t": (-10.0, 0.0, 10.0),
+}
 _STATE = (0.0, 1e-6, -1e-6)
 _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s", "w_t": "1/s"}
 
@@ -276,8 +297,9 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
                     told = f"{_whose(law)}{name} cannot be computed: {type(error).__name__}: {error}"
                     raise LawError(told, hint="expected a finite real number for every δ > 0") from error
             if not math.isfinite(values[-1]):
-                at = ", ".join(f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip()
-                               for s, x in zip(variables, state, strict=True))  # fmt: skip
+                at = ", ".join(
+                    f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip() for s, x in zip(variables, state, strict=True)
+                )
                 told = f"{_whose(law)}{name} is {values[-1]:g} at {at}"
                 raise LawError(f"{told}, with the file's numbers", hint="expected a finite real number there")
             if name == "share" and not (0.0 <= values[-1] <= 1.0 and (state[0] > 0.0 or values[-1] == 0.0)):

@@ -99,6 +99,7 @@ def _axis_in_slider(fields: JointFields, slots: Slots, joint: str) -> tuple[sp.E
     turned = fields.quantity("angle", along)
     if turned == along:
         return sp.Integer(1), sp.Integer(0)
-    cos, sin = (slots.derive(f"{f.__name__}_slider_{joint}", f(along - turned), "axis in the slider")
-                for f in (sp.cos, sp.sin))  # fmt: skip
+    cos, sin = (
+        slots.derive(f"{f.__name__}_slider_{joint}", f(along - turned), "axis in the slider") for f in (sp.cos, sp.sin)
+    )
     return cos, sin

@@ -174,9 +174,22 @@ def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearanc
     transition = slots.use(contact.transition) if contact.transition is not None else None
     constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
     return Clearance(
-        place.name, place.label, joint, place.first, place.second,
-        pair, normal, friction, film, transition, mixed, floor, contact.clip_ratio, constants, wall=place.wall,
-    )  # fmt: skip
+        place.name,
+        place.label,
+        joint,
+        place.first,
+        place.second,
+        pair,
+        normal,
+        friction,
+        film,
+        transition,
+        mixed,
+        floor,
+        contact.clip_ratio,
+        constants,
+        wall=place.wall,
+    )
 
 
 def _contour(joint: Joint, play: Play, slots: Slots) -> Contour | None:
@@ -221,7 +234,9 @@ def letter_of(law: Law, name: str) -> str:
 def _with_its_names(equations: LawEquations) -> LawEquations:
     """Return the equations of a user-defined law with its abbreviations and states under names of their own."""
     law = equations.law
-    symbols = {sp.Symbol(name, real=True): sp.Symbol(letter_of(law, name), real=True)
-               for name in (*equations.steps, *(state.name for state in law.states))}  # fmt: skip
+    symbols = {
+        sp.Symbol(name, real=True): sp.Symbol(letter_of(law, name), real=True)
+        for name in (*equations.steps, *(state.name for state in law.states))
+    }
     steps = {letter_of(law, name): value.xreplace(symbols) for name, value in equations.steps.items()}
     return replace(equations, variables=tuple(symbols.get(s, s) for s in equations.variables), steps=steps)

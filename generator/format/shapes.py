@@ -36,9 +36,17 @@ ANY_NAME = "*"  # left out is a section whose names nobody knows
 
 Path = tuple[str | int, ...]
 _SECTIONS = {  # what others call a section
-    "links": "bodies", "parts": "bodies", "constraints": "joints", "connections": "joints", "motors": "drives",
-    "actuators": "drives", "springs": "forces", "loads": "forces", "initial": "start", "variables": "parameters",
-}  # fmt: skip
+    "links": "bodies",
+    "parts": "bodies",
+    "constraints": "joints",
+    "connections": "joints",
+    "motors": "drives",
+    "actuators": "drives",
+    "springs": "forces",
+    "loads": "forces",
+    "initial": "start",
+    "variables": "parameters",
+}
 _OPTIONS = ("method", "rtol", "formulation")  # of a run, no part of a file
 
 

@@ -47,9 +47,12 @@ class _Twin:
         )
         arguments = tuple(a for each in self.source.arguments for a in self._argument(each))
         twin = replace(
-            self.source, name=f"{self.source.name}{SUFFIX}", arguments=arguments, sections=sections,
+            self.source,
+            name=f"{self.source.name}{SUFFIX}",
+            arguments=arguments,
+            sections=sections,
             doc=(*self.source.doc, "At complex eta: real and imaginary parts one behind the other."),
-        )  # fmt: skip
+        )
         return without_unused(twin)
 
     def _argument(self, argument: Argument) -> list[Argument]:

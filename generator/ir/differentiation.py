@@ -34,9 +34,13 @@ class Tangents:
     """
 
     def __init__(
-        self, symbols: Symbols, build: KernelBuilder, bases: Iterable[sp.Symbol], owner: str = "",
+        self,
+        symbols: Symbols,
+        build: KernelBuilder,
+        bases: Iterable[sp.Symbol],
+        owner: str = "",
         share_powers: bool = False,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._symbols, self._build, self._owner, self._share_powers = symbols, build, owner, share_powers
         self._sides: dict[sp.Symbol, sp.Expr] = {}
         self._renamed: Mapping[sp.Symbol, sp.Symbol] = {}

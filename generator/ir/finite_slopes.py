@@ -103,10 +103,14 @@ def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
 def has_distance(expression: sp.Expr, by: sp.Symbol) -> bool:
     """Whether a root of a sum of squares is in it, a distance or speed: at 0 its slope is 0/0, of products mostly 0."""
     return any(
-        power.exp.is_number and power.exp > 0 and not power.exp.is_integer and power.base.is_Add
-        and by in power.base.free_symbols and all(map(_is_square, power.base.args))
+        power.exp.is_number
+        and power.exp > 0
+        and not power.exp.is_integer
+        and power.base.is_Add
+        and by in power.base.free_symbols
+        and all(map(_is_square, power.base.args))
         for power in expression.atoms(sp.Pow)
-    )  # fmt: skip
+    )
 
 
 def _is_square(term: sp.Expr) -> bool:

@@ -176,9 +176,14 @@ class KernelBuilder:
         self._sections[-1][1].append(Statement(target, value, comment))
 
     def build(
-        self, arguments: Sequence[Argument], status: bool = False, inline: bool = False, owner: str | None = None,
-        prune: bool = False, only_known: bool = False,
-    ) -> Kernel:  # fmt: skip
+        self,
+        arguments: Sequence[Argument],
+        status: bool = False,
+        inline: bool = False,
+        owner: str | None = None,
+        prune: bool = False,
+        only_known: bool = False,
+    ) -> Kernel:
         """The kernel, with its inputs and definitions in front.
 
         With an `owner` ("": the scene) corners are sides of switches, or only_known ones: the function then reads

@@ -264,8 +264,10 @@ class _Series(Rules):
             products = [product for product in self.products.values() if Place(SUMS)[product.name] in read]
         kept = tuple(sorted(x.member for x in read if isinstance(x, Place) and x.base == VALUES))
         inverses = {name: 1 / b for name, b in self.inverses.items()}
-        keeps = [("values that higher orders read",
-                  Statement(Place(VALUES)[x], inverses.get(x, sp.Symbol(x, real=True)))) for x in kept]  # fmt: skip
+        keeps = [
+            ("values that higher orders read", Statement(Place(VALUES)[x], inverses.get(x, sp.Symbol(x, real=True))))
+            for x in kept
+        ]
         values = _pruned([*self._values, *keeps])
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)

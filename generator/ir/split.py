@@ -258,10 +258,14 @@ class _Cut:
                 within.append(replace(self.store(item.defines), title=item.title))
         end = [Item("", Return(), frozenset(), False)] if tested else []
         return Kernel(
-            name, (f"A part of `{self.kernel.name}`, which calls it.",),
-            (*self.kernel.arguments, result(self.passed)), _sections([*within, *end]),
-            tested, attribute="noinline", names=self.kernel.names,
-        )  # fmt: skip
+            name,
+            (f"A part of `{self.kernel.name}`, which calls it.",),
+            (*self.kernel.arguments, result(self.passed)),
+            _sections([*within, *end]),
+            tested,
+            attribute="noinline",
+            names=self.kernel.names,
+        )
 
     def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
         """The call, what the function itself reads of the part, and what is done where a test failed."""
@@ -277,9 +281,10 @@ class _Cut:
             lines, after = [Passed(call, status)], [Ended(status, jumps)]
         title = piece[0].title
         return [
-            *(Item(title, line, frozenset(), False) for line in lines), *loads,
+            *(Item(title, line, frozenset(), False) for line in lines),
+            *loads,
             *(Item("what comes back", line, frozenset(), False) for line in after),
-        ]  # fmt: skip
+        ]
 
 
 def _sections(items: Sequence[Item]) -> tuple[Section, ...]:

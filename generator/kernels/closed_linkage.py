@@ -32,7 +32,7 @@ def prepare_kernel(model: Model) -> Kernel:
         ("Every number of a run: slots given or by default, then what follows from them.",),
         (source("given"), source("is_given", Number.BYTE), result(PARAMETERS.name, PARAMETERS.type)),
         (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
-    )  # fmt: skip
+    )
 
 
 def mass_kernel(model: Model) -> Kernel:
@@ -46,9 +46,7 @@ def mass_kernel(model: Model) -> Kernel:
 def row_kernels(model: Model) -> list[Kernel]:
     """Φ, Φ_q (dense, row by row), ν and γ of the closed linkage."""
 
-    def kernel(
-        name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr], per: str = ""
-    ) -> Kernel:
+    def kernel(name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr], per: str = "") -> Kernel:
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):

@@ -46,8 +46,13 @@ class ChainKernels:
         self.square = SquareRows(own, ["." in name for name in chain.names])
         self.first = len(system.q)  # of the chains' coordinates in q and v
         raw = [side_by_side(without_unused(kernel)) for kernel in self._all()]
-        sides = [s.value for kernel in raw for section in kernel.sections for s in section.statements
-                 if isinstance(s, Statement) and isinstance(s.value, SideOf)]  # fmt: skip
+        sides = [
+            s.value
+            for kernel in raw
+            for section in kernel.sections
+            for s in section.statements
+            if isinstance(s, Statement) and isinstance(s.value, SideOf)
+        ]
         self.corners = self._corners(sides) if sides else None
         self.kernels = [*map(with_sides, raw), *([self.corners] if self.corners else [])]
         self.size = self._extent() if any("." in name for name in chain.names) else ZERO
@@ -57,9 +62,13 @@ class ChainKernels:
 
     def _directions(self) -> Kernel:
         """Cosines and sines, which all other kernels read."""
-        build = KernelBuilder(self.symbols, DIRECTIONS, [
-            "Cosines and sines of all angles in the chains' closures, behind the coordinates in q.",
-        ])  # fmt: skip
+        build = KernelBuilder(
+            self.symbols,
+            DIRECTIONS,
+            [
+                "Cosines and sines of all angles in the chains' closures, behind the coordinates in q.",
+            ],
+        )
         build.section("directions")
         first = self.first + len(self.chain.names)
         symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
@@ -76,11 +85,17 @@ class ChainKernels:
 
     def _step(self) -> Kernel:
         """A step towards the closures at a position."""
-        build = KernelBuilder(self.symbols, STEP, [
-            "Newton's step of the driven chains' coordinates, Phi_c newton = Phi, and with it Chebyshev's of order 3,",
-            "step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with",
-            "the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
-        ])  # fmt: skip
+        build = KernelBuilder(
+            self.symbols,
+            STEP,
+            [
+                "Newton's step of the driven chains' coordinates, Phi_c newton = Phi, and with it Chebyshev's of order "
+                "3,",
+                "step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row "
+                "with",
+                "the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
+            ],
+        )
         build.section("closures of the chains")
         named = zip(self.square.names, self.chain.rows, strict=True)
         phi = [build.local(f"phi_{name}", row.phi) for name, row in named]
@@ -106,11 +121,16 @@ class ChainKernels:
 
     def _rates(self) -> Kernel:
         """First and second rates at a position that closes the chains."""
-        build = KernelBuilder(self.symbols, RATES, [
-            "First and second rates of the driven chains' coordinates, where these close their loops: Phi_c c' = nu,",
-            "Phi_c c'' = gamma. They go behind those of the other coordinates in v.",
-            "Returns 0, or the number of a row that depends on others here.",
-        ])  # fmt: skip
+        build = KernelBuilder(
+            self.symbols,
+            RATES,
+            [
+                "First and second rates of the driven chains' coordinates, where these close their loops: "
+                "Phi_c c' = nu,",
+                "Phi_c c'' = gamma. They go behind those of the other coordinates in v.",
+                "Returns 0, or the number of a row that depends on others here.",
+            ],
+        )
         known, rows = self.chain.known, self.chain.rows
         solvers = self.square.factorize(build)
         build.section("rates")
@@ -130,10 +150,14 @@ class ChainKernels:
 
     def _third(self) -> Kernel:
         """Third rates, forwards: d/dt of γ − Φ_c c̈ at the same c̈."""
-        build = KernelBuilder(self.symbols, THIRD, [
-            "Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.",
-            "Returns 0, or the number of a row that depends on others here.",
-        ])  # fmt: skip
+        build = KernelBuilder(
+            self.symbols,
+            THIRD,
+            [
+                "Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.",
+                "Returns 0, or the number of a row that depends on others here.",
+            ],
+        )
         known, t = self.chain.known, self.system.model.t
         solvers = self.square.factorize(build)
         build.section("third rates")

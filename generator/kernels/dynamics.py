@@ -30,9 +30,13 @@ OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
 
 def dynamics_kernel(
-    system: System, kkt: KKT, name: str = "dynamics", doc: Sequence[str] = _DOC, stabilised: bool = True,
+    system: System,
+    kkt: KKT,
+    name: str = "dynamics",
+    doc: Sequence[str] = _DOC,
+    stabilised: bool = True,
     rescue: OnDependence | None = None,
-) -> Kernel:  # fmt: skip
+) -> Kernel:
     """q̈ and λ at a state, forces of joints with play included.
 
     Without stabilisation the rows are γ alone and Φ, Φ̇ are not computed: for methods that project.
@@ -206,8 +210,9 @@ def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> 
         drives += given.rate * (needed - on_given.get(given.name, ZERO))
     clearances = tuple(ASIDE["clearance"][i]["power"] for i in range(len(model.clearances)))
     build.out(ASIDE["power"][0], drives)
-    rubs = [[PlaceSymbol(ASIDE["friction"][r][what]) for what in ("force", "v", "speed")]
-            for r in range(len(kkt.frictions))]  # fmt: skip
+    rubs = [
+        [PlaceSymbol(ASIDE["friction"][r][what]) for what in ("force", "v", "speed")] for r in range(len(kkt.frictions))
+    ]
     friction = sp.Add(*(force * (v + speed) for force, v, speed in rubs))
     build.out(ASIDE["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
     build.out(ASIDE["power"][2], Sum(clearances) if clearances else ZERO)

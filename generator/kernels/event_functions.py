@@ -31,7 +31,7 @@ from gudgeon.generator.symbols.wholes import Whole
 WATCHED, _RANGES = "watched_functions", "watched_ranges"
 _WATCHED_DOC = (
     "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
-)  # fmt: skip
+)
 _RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
 _KNOWN_LATE = ASIDE.name  # what reads this is known only once forces or accelerations are
 
@@ -45,10 +45,15 @@ def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None 
     if not corners and not model.events:
         return None
     every = _merge_sections(chain_corners, dynamics)
-    outs = {s: out for section in every for s in section.statements
-            if isinstance(s, Statement) and (out := _out(s, corners))}  # fmt: skip
-    by_target = {s.defines: s for section in every for s in section.statements
-                 if isinstance(s, Statement) and s.defines}  # fmt: skip
+    outs = {
+        s: out
+        for section in every
+        for s in section.statements
+        if isinstance(s, Statement) and (out := _out(s, corners))
+    }
+    by_target = {
+        s.defines: s for section in every for s in section.statements if isinstance(s, Statement) and s.defines
+    }
     read: set[Statement] = set()
     waiting = list(outs.values())
     while waiting:
@@ -287,4 +292,3 @@ def _unheld(statement: Statement) -> Statement:
 
 
 _JUMPS_DOC = ("Switching functions that hang on time alone.",)
-

@@ -19,10 +19,14 @@ def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
 
 
 def _close_step(system: System, rows: SquareRows) -> Kernel:
-    build = KernelBuilder(system.model.symbols, "close_step", [
-        "Newton's step and the rates of the tree's coordinates q: Phi_q step = Phi, Phi_q rates = nu.",
-        "`worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        system.model.symbols,
+        "close_step",
+        [
+            "Newton's step and the rates of the tree's coordinates q: Phi_q step = Phi, Phi_q rates = nu.",
+            "`worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
+        ],
+    )
     build.section("closures")
     phi = [build.local(f"phi_{name}", row.phi) for name, row in zip(rows.names, system.rows, strict=True)]
     solvers = rows.factorize(build)
@@ -41,11 +45,15 @@ def _close_step(system: System, rows: SquareRows) -> Kernel:
 
 
 def _arrive(system: System, rows: SquareRows) -> Kernel:
-    build = KernelBuilder(system.model.symbols, "arrive", [
-        "Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:",
-        "all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.",
-        "Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        system.model.symbols,
+        "arrive",
+        [
+            "Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:",
+            "all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.",
+            "Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.",
+        ],
+    )
     bodies = system.model.bodies
     build.section("positions and velocities of the bodies")
     for body in bodies:

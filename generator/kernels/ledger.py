@@ -46,9 +46,12 @@ def _unknowns(model: Model, system: System) -> tuple[str, ...]:
 def _solve(kkt: KKT) -> Solve:
     elimination = kkt.elimination
     return Solve(
-        kkt.n, len(elimination.order) - kkt.n, kkt.n + 2 * len(kkt.entry),
-        sum(map(len, elimination.structure.values())), elimination.products,
-    )  # fmt: skip
+        kkt.n,
+        len(elimination.order) - kkt.n,
+        kkt.n + 2 * len(kkt.entry),
+        sum(map(len, elimination.structure.values())),
+        elimination.products,
+    )
 
 
 def _opened(model: Model) -> Iterator[Step]:
@@ -68,9 +71,12 @@ def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
     for kind in (told.HINGES, told.SLIDES):
         some = [link for link in links if link.slides == (kind == told.SLIDES)]
         yield Step(
-            kind, _owners(some), tuple(f"{link.body}.{axis}" for link in some for axis in "xy"),
-            tuple(name for link in some for name in link.coordinates), tuple(row for link in some for row in link.rows),
-        )  # fmt: skip
+            kind,
+            _owners(some),
+            tuple(f"{link.body}.{axis}" for link in some for axis in "xy"),
+            tuple(name for link in some for name in link.coordinates),
+            tuple(row for link in some for row in link.rows),
+        )
     if system.slides:
         by = dict.fromkeys(k for affine in system.slides.values() for k in affine if k != CONSTANT)
         yield Step(told.KNOWN, tuple(by) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
@@ -99,9 +105,11 @@ def _angles(model: Model, tree: Tree) -> Iterator[Step]:
         rows = {row: body for row, body in tree.solved.items() if kind(tree.angles[body]) == which}
         by = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
         yield Step(
-            which, tuple(by) or tuple(dict.fromkeys(owner[row] for row in rows)),
-            tuple(f"{body}.theta" for body in rows.values()), rows_gone=tuple(rows),
-        )  # fmt: skip
+            which,
+            tuple(by) or tuple(dict.fromkeys(owner[row] for row in rows)),
+            tuple(f"{body}.theta" for body in rows.values()),
+            rows_gone=tuple(rows),
+        )
 
 
 def _hubs(tree: Tree) -> Iterator[Step]:

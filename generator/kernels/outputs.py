@@ -16,10 +16,14 @@ from gudgeon.generator.symbols.storage import Place
 
 def outputs_kernel(model: Model) -> Kernel:
     """Reactions, drive torques and energies from q, q̇ and λ."""
-    build = KernelBuilder(model.symbols, "outputs", [
-        "Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),",
-        "drive torques on the driven body, kinetic and potential energy.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        model.symbols,
+        "outputs",
+        [
+            "Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),",
+            "drive torques on the driven body, kinetic and potential energy.",
+        ],
+    )
     multiplier: dict[str, sp.Expr] = {}
     build.section("multipliers")
     for r, row in enumerate(model.rows):

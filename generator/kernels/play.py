@@ -79,9 +79,12 @@ def law_doc(equations: LawEquations) -> list[str]:
         if value == equations.options.get(option.name) != usual[option.name]
     ]
     return [
-        f"{law.title}.", f"Source: {law.source}.", f"Valid: {law.validity}.",
-        *([f"Options: {', '.join(chosen)}."] if chosen else []), *whose,
-    ]  # fmt: skip
+        f"{law.title}.",
+        f"Source: {law.source}.",
+        f"Valid: {law.validity}.",
+        *([f"Options: {', '.join(chosen)}."] if chosen else []),
+        *whose,
+    ]
 
 
 Statements = tuple[Statement, ...]
@@ -167,9 +170,7 @@ def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, C
     return _GUARDED_OF_CONTOUR | n
 
 
-def _statements(
-    model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]
-) -> Statements:
+def _statements(model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]) -> Statements:
     """Steps with parameters read in place and corners as sides of switches."""
     statements = []
     for step in steps:
@@ -190,8 +191,10 @@ def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> d
     if len(own) == 2:
         own["share"] = share_slope(model, clearance)
     numbers = joint_numbers(model, clearance)
-    return {part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.label)
-            for part, kernel in own.items()}  # fmt: skip
+    return {
+        part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.label)
+        for part, kernel in own.items()
+    }
 
 
 def _slope_name(clearance: Clearance, part: str) -> str:

@@ -188,9 +188,11 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     kkt = KKT(system)
     dynamics = dynamics_kernel(system, kkt)
     closed = (
-        closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model), closed_linkage.start_kernel(model),
+        closed_linkage.mass_kernel(model),
+        *closed_linkage.row_kernels(model),
+        closed_linkage.start_kernel(model),
         outputs.outputs_kernel(model),
-    )  # fmt: skip
+    )
     laws = SharedFunctions()
     pins = tuple(make_pin(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _tree(model, kkt.pivots) if not full else (None, None)
@@ -199,11 +201,20 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     plain = Integrated(system, kkt, angles, False, watched, kkt.pivots)
     integrated = in_tree or plain
     program = Program(
-        model, "full" if full else "reduced", kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree,
-        integrated, time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
+        model,
+        "full" if full else "reduced",
+        kkt,
+        closed,
+        dynamics,
+        watched,
+        tuple(laws.kernels),
+        pins,
+        tree,
+        integrated,
+        time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
         methods=_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         course=None if integrates else _course(model, kkt, integrated),
-    )  # fmt: skip
+    )
     if formulation == TAYLOR:
         program = replace(program, series=taylor_series(program))
     for owner in (model, integrated.system.model):

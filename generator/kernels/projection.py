@@ -23,11 +23,15 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
     """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
     system = with_least_masses(system)
     model, kkt = system.model, KKT(system, rows)
-    build = KernelBuilder(model.symbols, name, [
-        "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
-        "the closed linkage, redundant ones are not looked at.",
-        "Returns 0, or the number of the pivot that vanished.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        model.symbols,
+        name,
+        [
+            "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
+            "the closed linkage, redundant ones are not looked at.",
+            "Returns 0, or the number of the pivot that vanished.",
+        ],
+    )
     build.section("right-hand side")
     place = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
@@ -89,11 +93,15 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     weighed = with_least_masses(system)
     kkt = KKT(with_film_masses(weighed), system.rows)
     held = [] if kkt.system is weighed else ["M has 1e6 times the mass of all bodies for motions that squeeze a film."]
-    build = KernelBuilder(system.model.symbols, name, [
-        "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
-        *held,
-        "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        system.model.symbols,
+        name,
+        [
+            "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
+            *held,
+            "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
+        ],
+    )
     build.section("Phi and Phi_dot")
     phi, phi_dot = {}, {}
     for r, row in enumerate(kkt.rows):

@@ -68,9 +68,13 @@ def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
 
 def _expand(system: TreeSystem) -> Kernel:
     """Absolute coordinates and velocities of a state of the tree."""
-    build = KernelBuilder(system.model.symbols, "expand", [
-        "Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        system.model.symbols,
+        "expand",
+        [
+            "Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.",
+        ],
+    )
     build.section("bodies")
     for body in system.model.bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
@@ -86,9 +90,13 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
     names = (*system.unknowns, *(system.chain.names if system.chain else ()))
     positions = _tree_coordinates(model, system, names)
     rates = [sp.Add(*(diff(s, q) * v for q, v in pairs)) for s in positions]
-    state = KernelBuilder(model.symbols, "reduce_state", [
-        "Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.",
-    ])  # fmt: skip
+    state = KernelBuilder(
+        model.symbols,
+        "reduce_state",
+        [
+            "Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.",
+        ],
+    )
     state.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         state.out(Place("s")[k], position, names[k])

@@ -44,7 +44,7 @@ class SharedFunctions:
 
     def call(
         self, kernel: Kernel, numbers: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
-    ) -> SharedCall:  # fmt: skip
+    ) -> SharedCall:
         """The call of a joint's own function: `numbers` are what parameters (`p.pin_radius`) are called in it (`R_i`).
 
         `meanings` of numbers by these names go to its doc comment.
@@ -57,9 +57,13 @@ class SharedFunctions:
         meant = [f"{name}: {meanings[name]}" for name in names if name in meanings]
         doc = (*kernel.doc, *textwrap.wrap("; ".join(meant) + ".", 110)) if meant else kernel.doc
         shared = replace(
-            kernel, doc=doc, arguments=_arguments(kernel, names, first is not None),
-            sections=_without_numbers(kernel), names={**kernel.names, **called}, first_corner=first,
-        )  # fmt: skip
+            kernel,
+            doc=doc,
+            arguments=_arguments(kernel, names, first is not None),
+            sections=_without_numbers(kernel),
+            names={**kernel.names, **called},
+            first_corner=first,
+        )
         key = (kernel.name, shared.arguments, *_contents(shared))
         if key not in self._known:
             taken = any(other.name == kernel.name for other in self.kernels)

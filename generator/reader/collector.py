@@ -82,8 +82,9 @@ class Reader:
         self.refused: set[str] = set()  # names of parameters, curves and expressions that cannot be
         self.texts: list[Text] = []  # expressions
         self.scopes: dict[str, ResultDimension] = {  # of names that are no parameters, by what a field `varies` with
-            OF_PENETRATION: Penetration(self.parameters), OF_CAM_ANGLE: CamAngle(self.parameters),
-        }  # fmt: skip
+            OF_PENETRATION: Penetration(self.parameters),
+            OF_CAM_ANGLE: CamAngle(self.parameters),
+        }
 
     def check_shape(self, root: Map) -> Map:
         """The file without the entries whose shape is wrong: these are told, and not missed."""

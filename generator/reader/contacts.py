@@ -24,9 +24,7 @@ from gudgeon.language.parser import at
 from gudgeon.language.tree import Number, names
 
 
-def parents_first(
-    reader: Reader, what: str, section: Map, known: Iterable[str] = ()
-) -> Iterator[tuple[Text, Map]]:
+def parents_first(reader: Reader, what: str, section: Map, known: Iterable[str] = ()) -> Iterator[tuple[Text, Map]]:
     """The entries of a section, each behind the one that it extends.
 
     What extends an unknown name or itself is told and left out; `known` are parents outside the section.
@@ -95,9 +93,7 @@ def _measured(
             yield str(name), own, pair
 
 
-def _materials(
-    reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials
-) -> list[Material]:  # fmt: skip
+def _materials(reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials) -> list[Material]:
     """Those of both parts, as far as they are known."""
     pair = []
     for role in roles:

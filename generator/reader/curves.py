@@ -144,10 +144,19 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve | None:
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
     return Curve(
-        str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None,
-        of.dimension if of else None, _si_of(of), str(node["x"]) if over else "",
-        str(node["table"]) if "table" in node else "", interpolation, len(x),
-    )  # fmt: skip
+        str(name),
+        knots,
+        coefficients,
+        ends,
+        extrapolate,
+        over.dimension if over else None,
+        of.dimension if of else None,
+        _si_of(of),
+        str(node["x"]) if over else "",
+        str(node["table"]) if "table" in node else "",
+        interpolation,
+        len(x),
+    )
 
 
 def _unit(node: Map, key: str, owner: str) -> Unit | None:

@@ -61,9 +61,10 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive
         return None
     if "sign" in functions(value.value):
         raise BadValueError(
-            f"{owner}.value jumps where the argument of sign changes its sign", value.where,
+            f"{owner}.value jumps where the argument of sign changes its sign",
+            value.where,
             "a drive moves without jumps: abs, min, max, ramp, smooth_step and a where whose branches meet have none",
-        )  # fmt: skip
+        )
     drive = Drive(
         str(name), str(kind), target.body, target.reference, value, name.where, target.coordinate, target.points
     )

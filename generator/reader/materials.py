@@ -53,9 +53,7 @@ class Materials:
         numbers = self._named(text, needs).numbers
         if len(self._fitting(needs)) < 2:
             return {what: numbers[what] for what in needs}
-        own = {
-            what: self._reader.keep(following(f"{address}.{what}", numbers[what], text.where)) for what in needs
-        }
+        own = {what: self._reader.keep(following(f"{address}.{what}", numbers[what], text.where)) for what in needs}
         for field in MATERIAL.fields:
             for bound in field.bounds if field.name in own else ():
                 self._reader.require(own[field.name], bound.relation, float(bound.limit), bound.why)

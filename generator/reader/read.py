@@ -79,15 +79,19 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         joints=joints,
         drives=drives,
         start=start,
-        scenes=scenes, outputs=outputs,
+        scenes=scenes,
+        outputs=outputs,
         conditions=tuple(reader.conditions),
         file=reader.file,
         sha256=sha256,
         forces=forces,
         freedoms=_read_freedoms(reader, root),
-        curves=curves, expressions=expressions,
-        materials=materials.known, choices=materials.choices,
-        tables=reader.tables, laws=reader.laws,
+        curves=curves,
+        expressions=expressions,
+        materials=materials.known,
+        choices=materials.choices,
+        tables=reader.tables,
+        laws=reader.laws,
     )
 
 

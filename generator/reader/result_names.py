@@ -29,14 +29,28 @@ from gudgeon.language.units import (
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
 
 _POINT: Mapping[str, Dimension] = {
-    "x": LENGTH, "y": LENGTH, "vx": VELOCITY, "vy": VELOCITY, "ax": ACCELERATION, "ay": ACCELERATION,
-}  # fmt: skip
+    "x": LENGTH,
+    "y": LENGTH,
+    "vx": VELOCITY,
+    "vy": VELOCITY,
+    "ax": ACCELERATION,
+    "ay": ACCELERATION,
+}
 _BODY: Mapping[str, Dimension] = {**_POINT, "theta": DIMENSIONLESS, "omega": RATE, "alpha": ANGULAR_ACCELERATION}
 _JOINT: Mapping[str, Dimension] = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "M": TORQUE}
 _PLAY: Mapping[str, Dimension] = {
-    "Fn": FORCE, "Ft": FORCE, "e": LENGTH, "ex": LENGTH, "ey": LENGTH, "delta": LENGTH, "eps": DIMENSIONLESS,
-    "deltadot": VELOCITY, "vt": VELOCITY, "state": DIMENSIONLESS, "deltadot_minus": VELOCITY,
-}  # fmt: skip
+    "Fn": FORCE,
+    "Ft": FORCE,
+    "e": LENGTH,
+    "ex": LENGTH,
+    "ey": LENGTH,
+    "delta": LENGTH,
+    "eps": DIMENSIONLESS,
+    "deltadot": VELOCITY,
+    "vt": VELOCITY,
+    "state": DIMENSIONLESS,
+    "deltadot_minus": VELOCITY,
+}
 _ALWAYS = ("Fx", "Fy", "F")  # of a joint, with play or without
 _OF_CORNER: Mapping[str, Dimension] = {**{name: FORCE for name in _ALWAYS}, **_PLAY}
 _RESULTS_OF_PLAY = f"expected one of: {', '.join((*_ALWAYS, *_PLAY))}"

@@ -89,10 +89,13 @@ def _draft(parent: _Draft, scene: Map, events: Mapping[str, EventSpec]) -> _Draf
         return Map.make({**above, **scene.part(key)}, scene.where)
 
     return _Draft(
-        merged(parent.play, "play"), merged(parent.parameters, "parameters"), merged(parent.simulate, "simulate"),
-        merged(parent.materials, "materials"), {**parent.events, **events},
+        merged(parent.play, "play"),
+        merged(parent.parameters, "parameters"),
+        merged(parent.simulate, "simulate"),
+        merged(parent.materials, "materials"),
+        {**parent.events, **events},
         (*parent.peaks, *_listed(scene.get("peaks", ()))),
-    )  # fmt: skip
+    )
 
 
 def _listed(node: Any) -> tuple[Text, ...]:
@@ -270,4 +273,3 @@ def _varies(expr: Expr) -> bool:
     """Whether a name in it stands for time or motion; points of the ground rest."""
     paths = [name.path for name in names(expr)]
     return any(path == "t" or "." in path and path.partition(".")[0] != GROUND for path in paths)
-

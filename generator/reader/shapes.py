@@ -23,9 +23,11 @@ from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
 from gudgeon.language.units import INERTIA, LENGTH, MASS, Dimension
 
 _KINDS = {
-    "bar": Kind("a bar with a width", ()), "rectangle": Kind("a rectangle", (), also=("plate", "square")),
-    "disc": Kind("a disc", (), also=("circle", "disk")), "triangle": Kind("a triangle", ()),
-}  # fmt: skip
+    "bar": Kind("a bar with a width", ()),
+    "rectangle": Kind("a rectangle", (), also=("plate", "square")),
+    "disc": Kind("a disc", (), also=("circle", "disk")),
+    "triangle": Kind("a triangle", ()),
+}
 _AUTO = "m * l**2 / 12"
 _AREA = "abs((qx - px) * (ry - py) - (rx - px) * (qy - py)) / 2"
 _SPREAD = "((qx - px)**2 + (qy - py)**2 + (rx - qx)**2 + (ry - qy)**2 + (px - rx)**2 + (py - ry)**2) / 36"
@@ -170,10 +172,14 @@ class Weighed:
             of |= {f"{letter}{axis}": x for axis, x in zip("xy", points[name], strict=True)}
         middle = [
             follows(
-                self._reader, f"(p{axis} + q{axis} + r{axis}) / 3", {k: x for k, x in of.items() if k[1] == axis},
-                f"{self._address}.com.{axis}", LENGTH, kind.where,
+                self._reader,
+                f"(p{axis} + q{axis} + r{axis}) / 3",
+                {k: x for k, x in of.items() if k[1] == axis},
+                f"{self._address}.com.{axis}",
+                LENGTH,
+                kind.where,
             )
             for axis in "xy"
-        ]  # fmt: skip
+        ]
         self.com = (middle[0], middle[1])
         return _AREA, _SPREAD, of

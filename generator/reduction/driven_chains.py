@@ -165,10 +165,18 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
     model = replace(system.model, rows=others, all_rows=others, frictions=frictions)
     motions = {body: _motion(motion, place, columns, known) for body, motion in system.motions.items()}
     reduced = replace(
-        system, model=model, q=tuple(system.q[k] for k in kept), v=tuple(system.v[k] for k in kept), motions=motions,
+        system,
+        model=model,
+        q=tuple(system.q[k] for k in kept),
+        v=tuple(system.v[k] for k in kept),
+        motions=motions,
         mass={(place[k], place[j]): m for (k, j), m in system.mass.items() if k in place and j in place},
-        applied=tuple(applied(k) for k in kept), given=given, rows=others, frictions=frictions, known=known,
-    )  # fmt: skip
+        applied=tuple(applied(k) for k in kept),
+        given=given,
+        rows=others,
+        frictions=frictions,
+        known=known,
+    )
     return reduced, Chain(tuple(names[c] for c in columns), known, tuple(system.rows[r] for r in rows))
 
 
@@ -199,18 +207,18 @@ def _given(given: Given, place: Mapping[int, int], columns: Sequence[int], known
     return replace(given, mass=own, applied=sp.Add(given.applied, *pushed))
 
 
-def _row(
-    row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System
-) -> Row:  # fmt: skip
+def _row(row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System) -> Row:
     """Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈."""
     rate_of = dict(zip(system.q, system.v, strict=True))
     own = {q: entry for q, entry in row.phi_q.items() if q not in rates}
     moved = {q: entry for q, entry in row.phi_q.items() if q in rates}
     return replace(
-        row, phi_q=own, phi_q_v=sp.Add(*(entry * rate_of[q] for q, entry in own.items())),
+        row,
+        phi_q=own,
+        phi_q_v=sp.Add(*(entry * rate_of[q] for q, entry in own.items())),
         nu=sp.Add(row.nu, *(-entry * rates[q] for q, entry in moved.items())),
         gamma=sp.Add(row.gamma, *(-entry * second[q] for q, entry in moved.items())),
-    )  # fmt: skip
+    )
 
 
 def _friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) -> Friction:

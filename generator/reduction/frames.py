@@ -143,8 +143,9 @@ class Motions:
     def constant_vector(self, wanted: str, w: Pair, shown: str = "") -> Pair:
         """Both components as numbers of `prepare`."""
         x, y = (
-            self.slots.derive_signed(f"{wanted}_{axis}", sp.expand(part), "vector in its frame",
-                                     f"{shown}_{axis}" if shown else "")
+            self.slots.derive_signed(
+                f"{wanted}_{axis}", sp.expand(part), "vector in its frame", f"{shown}_{axis}" if shown else ""
+            )
             for axis, part in zip("xy", w, strict=True)
-        )  # fmt: skip
+        )
         return x, y

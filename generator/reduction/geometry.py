@@ -162,8 +162,10 @@ class TreeGeometry(Geometry):
         u_x, u_y = self.motions.arm(frame, w, f"axis_{slide}")
         terms = self._sum(base.terms, {(frame.name, slide): w}, slide)
         place = base.x + value * u_x, base.y + value * u_y
-        speed = (base.velocity[0] + rate * u_x - frame.omega * value * u_y,
-                 base.velocity[1] + rate * u_y + frame.omega * value * u_x)  # fmt: skip
+        speed = (
+            base.velocity[0] + rate * u_x - frame.omega * value * u_y,
+            base.velocity[1] + rate * u_y + frame.omega * value * u_x,
+        )
         return TreePoint(self, None, (ZERO, ZERO), terms, place, speed)
 
     def value(self, slide: str) -> sp.Expr:
@@ -250,14 +252,26 @@ class TreeGeometry(Geometry):
             name = motions.named_rate if rate else motions.named
             return value if value.is_Symbol else name(wanted, value, columns)
 
-        x, y = (symbol(f"{body}_{c}", v, {k: w[i] for k, w in at.columns.items()})
-                for i, (c, v) in enumerate(zip("xy", at.place, strict=True)))  # fmt: skip
-        vx, vy = (symbol(f"{body}_v{c}", v, {k: w[i] for k, w in at.columns.items()}, True)
-                  for i, (c, v) in enumerate(zip("xy", at.speed, strict=True)))  # fmt: skip
+        x, y = (
+            symbol(f"{body}_{c}", v, {k: w[i] for k, w in at.columns.items()})
+            for i, (c, v) in enumerate(zip("xy", at.place, strict=True))
+        )
+        vx, vy = (
+            symbol(f"{body}_v{c}", v, {k: w[i] for k, w in at.columns.items()}, True)
+            for i, (c, v) in enumerate(zip("xy", at.speed, strict=True))
+        )
         self.bodies[body] = BodySymbols(
-            body, of.index, x, y, symbol(f"{body}_theta", theta, frame.turns), vx, vy,
-            symbol(f"{body}_omega", omega, frame.turns, True), of.mass, of.inertia,
-        )  # fmt: skip
+            body,
+            of.index,
+            x,
+            y,
+            symbol(f"{body}_theta", theta, frame.turns),
+            vx,
+            vy,
+            symbol(f"{body}_omega", omega, frame.turns, True),
+            of.mass,
+            of.inertia,
+        )
         self._coms[body] = replace(at, body=self.bodies[body])
 
     def com(self, body: str) -> TreePoint:

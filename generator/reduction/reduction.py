@@ -89,8 +89,9 @@ class TreeConstraints(Constraints):
     def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
         geometry = self.geometry
         names = {k for body in bodies for k in (*geometry.com(body.name).columns, *geometry.frame_of[body.name].turns)}
-        return [(c.q, c.v) for name, c in geometry.motions.coordinates.items()
-                if name in names and c.acceleration is None]  # fmt: skip
+        return [
+            (c.q, c.v) for name, c in geometry.motions.coordinates.items() if name in names and c.acceleration is None
+        ]
 
 
 def reduce(model: Model) -> TreeSystem:
@@ -184,9 +185,13 @@ def _known_slide(
 
 
 def _system(
-    model: Model, tree: Tree, slides: tuple[Mapping[str, Affine], tuple[str, ...]], geometry: TreeGeometry,
-    constraints: TreeConstraints, rows: tuple[Row, ...],
-) -> TreeSystem:  # fmt: skip
+    model: Model,
+    tree: Tree,
+    slides: tuple[Mapping[str, Affine], tuple[str, ...]],
+    geometry: TreeGeometry,
+    constraints: TreeConstraints,
+    rows: tuple[Row, ...],
+) -> TreeSystem:
     """Everything else on the tree: clearances, force elements, M and what acts besides."""
     reduced = _model(model, geometry, constraints, rows)
     coordinates = geometry.motions.coordinates
@@ -200,8 +205,11 @@ def _system(
         pushed = sum((inertia.mass.get((name, k), ZERO) * c.acceleration for k, c in given.items()), ZERO)
         return weights.get(name, ZERO) - h.get(name, ZERO) - pushed
 
-    mass = {(place[k], place[j]): value for (k, j), value in inertia.mass.items()
-            if k in place and j in place and place[k] >= place[j]}  # fmt: skip
+    mass = {
+        (place[k], place[j]): value
+        for (k, j), value in inertia.mass.items()
+        if k in place and j in place and place[k] >= place[j]
+    }
     drives = tuple(
         Given(
             name, c.v, {place[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass}, applied(name)
@@ -209,10 +217,19 @@ def _system(
         for name, c in given.items()
     )
     return TreeSystem(
-        reduced, tuple(c.q for c in unknowns.values()), tuple(c.v for c in unknowns.values()),
-        {body: _motion(geometry, body, place) for body in model.geometry.bodies}, mass,
-        tuple(applied(name) for name in unknowns), drives, rows, reduced.frictions, tree, tuple(unknowns), *slides,
-    )  # fmt: skip
+        reduced,
+        tuple(c.q for c in unknowns.values()),
+        tuple(c.v for c in unknowns.values()),
+        {body: _motion(geometry, body, place) for body in model.geometry.bodies},
+        mass,
+        tuple(applied(name) for name in unknowns),
+        drives,
+        rows,
+        reduced.frictions,
+        tree,
+        tuple(unknowns),
+        *slides,
+    )
 
 
 def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: tuple[Row, ...]) -> Model:
@@ -233,9 +250,18 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
     geometry.bodies.clear()
     geometry.bodies.update(bodies)  # in the order of the file again
     return replace(
-        model, symbols=symbols, slots=geometry.slots, geometry=geometry, constraints=constraints, all_rows=rows,
-        rows=rows, clearances=clearances, elements=elements, frictions=frictions, events=events,
-    )  # fmt: skip
+        model,
+        symbols=symbols,
+        slots=geometry.slots,
+        geometry=geometry,
+        constraints=constraints,
+        all_rows=rows,
+        rows=rows,
+        clearances=clearances,
+        elements=elements,
+        frictions=frictions,
+        events=events,
+    )
 
 
 def _motion(geometry: TreeGeometry, body: str, place: Mapping[str, int]) -> Motion:

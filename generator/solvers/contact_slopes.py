@@ -25,8 +25,15 @@ from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
-OF_CONTOUR = (contact.e, contact.de_n, contact.across, contact.omega_i, contact.omega_j, contact.worn,
-              contact.worn_slope)  # fmt: skip
+OF_CONTOUR = (
+    contact.e,
+    contact.de_n,
+    contact.across,
+    contact.omega_i,
+    contact.omega_j,
+    contact.worn,
+    contact.worn_slope,
+)
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
 DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
@@ -53,11 +60,15 @@ class _Slopes:
         self.model, self.clearance, self.part = model, clearance, part
         by = "de_n, across" if clearance.contour else "deltadot, de_t"
         also = ", depth and slope of the contour" * bool(clearance.contour)
-        self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.label}_", [
-            f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
-            f"omega_j{also} (forward differentiation of the same steps).",
-            *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
-        ])  # fmt: skip
+        self.build = KernelBuilder(
+            model.symbols,
+            f"{part}_slopes_{clearance.label}_",
+            [
+                f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
+                f"omega_j{also} (forward differentiation of the same steps).",
+                *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
+            ],
+        )
         self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))
         self.inputs = (*inputs(clearance), *self.states)
         self.tangents = Tangents(model.symbols, self.build, self.inputs, clearance.name, share_powers=True)
@@ -165,9 +176,13 @@ def in_place(model: Model, value: sp.Expr) -> sp.Expr:
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:
     """The share of the dry contact in the transition of a closed contact, and its derivative by e."""
-    build = KernelBuilder(model.symbols, f"share_slope_{clearance.label}_", [
-        "The share of the dry contact between film and contact, and its derivative by e.",
-    ])  # fmt: skip
+    build = KernelBuilder(
+        model.symbols,
+        f"share_slope_{clearance.label}_",
+        [
+            "The share of the dry contact between film and contact, and its derivative by e.",
+        ],
+    )
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)
     build.section("share")
     if clearance.mixed is not None:

@@ -94,8 +94,11 @@ class DependentCoordinates:
     def light_ends(self) -> set[tuple[str, str]]:
         """Bodies with the joint that places them: those that turn freely, carry no other, and are light about it."""
         joints, bodies = self.model.scene.mechanism.joints, self.model.bodies
-        placed = {(bodies[k // 3].name, owner) for (k, *_), r in self.groups
-                  if k % 3 < 2 and (owner := self.rows[r].owner) in joints}  # fmt: skip
+        placed = {
+            (bodies[k // 3].name, owner)
+            for (k, *_), r in self.groups
+            if k % 3 < 2 and (owner := self.rows[r].owner) in joints
+        }
         ends = [(body, joints[owner]) for body, owner in placed]
         carry = {joint.first.body if joint.second.body == body else joint.second.body for body, joint in ends}
         turned = {bodies[k // 3].name for own, _ in self.groups for k in own if k % 3 == 2}

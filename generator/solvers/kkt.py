@@ -124,9 +124,14 @@ class KKT:
         return Factor(L, inverse)
 
     def _pivots(
-        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failing: tuple[bool, int], shares: tuple[Threshold, Threshold],
-    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        self,
+        build: KernelBuilder,
+        block: Sequence[int],
+        earlier: Mapping[int, Sequence[int]],
+        made: tuple[Entries, Entries],
+        failing: tuple[bool, int],
+        shares: tuple[Threshold, Threshold],
+    ) -> dict[int, dict[int, sp.Expr]]:
         """D⁻¹ of a block; `made` are L and W, `failing` is whether that jumps and how many rows came before."""
         (L, W), (jumps, count) = made, failing
         if block[0] in self.first.partner:
@@ -139,9 +144,13 @@ class KKT:
         return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), shares[0])}}
 
     def _dependent(
-        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr],
-    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        self,
+        build: KernelBuilder,
+        block: Sequence[int],
+        earlier: Mapping[int, Sequence[int]],
+        L: Mapping[tuple[int, int], sp.Expr],
+        W: Mapping[tuple[int, int], sp.Expr],
+    ) -> dict[int, dict[int, sp.Expr]]:
         """D⁻¹ of a coordinate with its row: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c."""
         k, row = block
         entry = self.entry[row, k]
@@ -151,9 +160,14 @@ class KKT:
         return {k: {row: over}, row: {k: over, row: -mass if is_unit(entry) else -mass * over**2}}
 
     def _pair(
-        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failing: tuple[bool, int], shares: tuple[Threshold, Threshold],
-    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        self,
+        build: KernelBuilder,
+        block: Sequence[int],
+        earlier: Mapping[int, Sequence[int]],
+        made: tuple[Entries, Entries],
+        failing: tuple[bool, int],
+        shares: tuple[Threshold, Threshold],
+    ) -> dict[int, dict[int, sp.Expr]]:
         """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
         L, W = made
         first, second = block
@@ -205,9 +219,13 @@ class KKT:
         return build.local(f"size_{self.names[k]}", scale + own) if own != 0 else scale
 
     def _look_for_vanishing(
-        self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol],
-        found: tuple[sp.Expr, sp.Expr], failing: tuple[bool, int, Threshold],
-    ) -> None:  # fmt: skip
+        self,
+        build: KernelBuilder,
+        block: Sequence[int],
+        scale: Sequence[sp.Symbol],
+        found: tuple[sp.Expr, sp.Expr],
+        failing: tuple[bool, int, Threshold],
+    ) -> None:
         """The pivots of a joint's x and y, `found` and their determinant, against the sum of their scales.
 
         In a tree's angles one of these rows vanishes as a whole where links stand in one line, and is as large as
@@ -222,9 +240,14 @@ class KKT:
         build.line(pivot_guard(failed, 2, found[1], least, size, found[0]))
 
     def _coordinate_pivot(
-        self, build: KernelBuilder, k: int, earlier: Sequence[int],
-        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], jumps: bool,
-    ) -> sp.Expr:  # fmt: skip
+        self,
+        build: KernelBuilder,
+        k: int,
+        earlier: Sequence[int],
+        L: Mapping[tuple[int, int], sp.Expr],
+        W: Mapping[tuple[int, int], sp.Expr],
+        jumps: bool,
+    ) -> sp.Expr:
         """1/D of a coordinate: of a mass alone it is a number of `prepare`. One that is too light `jumps`."""
         mass = self.system.mass[k, k]
         if jumps and k in self.turning:
@@ -250,10 +273,15 @@ class KKT:
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
 
     def _row_pivot(
-        self, build: KernelBuilder, k: int, earlier: Sequence[int],
-        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], failed: tuple[bool, int],
+        self,
+        build: KernelBuilder,
+        k: int,
+        earlier: Sequence[int],
+        L: Mapping[tuple[int, int], sp.Expr],
+        W: Mapping[tuple[int, int], sp.Expr],
+        failed: tuple[bool, int],
         least: Threshold,
-    ) -> sp.Expr:  # fmt: skip
+    ) -> sp.Expr:
         """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison with the scale too."""
         name = self.names[k]
         own = sum((L[k, j] * W[k, j] for j in earlier if j < self.n), sp.Integer(0))

@@ -67,8 +67,9 @@ class Linearization:
         self.states = self.model.law_states  # of each joint with play, as in C
         self.z = {
             self._held(f"{c.label}_{state.name}", MEMORY["latch"][i]["state"][k]): i * self.states + k
-            for i, c in enumerate(self.model.clearances) for k, state in enumerate(c.states)
-        }  # fmt: skip
+            for i, c in enumerate(self.model.clearances)
+            for k, state in enumerate(c.states)
+        }
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
         for known in system.known:  # functions of t
             for symbol, rate in ((known.q, known.rate), (known.rate, known.second), (known.second, known.third)):
@@ -132,8 +133,10 @@ class Linearization:
             self.tangents.know(symbol, self.tangents.sum(pairs.items()))
             values.append(symbol)
         self.rates += values[4:]
-        moments = [x if end.body is not None else ZERO for x, end in zip(
-            values[2:4], (clearance.first, clearance.second), strict=True)]  # fmt: skip
+        moments = [
+            x if end.body is not None else ZERO
+            for x, end in zip(values[2:4], (clearance.first, clearance.second), strict=True)
+        ]
         self.powers[2] += clearance.power(values[:2], clearance.eccentricity_rate, moments)
         return clearance.on_points(values[:2], moments)
 

@@ -76,10 +76,14 @@ class Newton:
 
     def _linearize(self) -> Kernel:
         """All parts at a state, into `lin->value`; afterwards `self.parts` is in symbols that read them there."""
-        build = self._builder("linearize", [
-            "The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:",
-            "non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.",
-        ])  # fmt: skip
+        build = self._builder(
+            "linearize",
+            [
+                "The equations of motion linearized at a state, with the accelerations and multipliers that belong "
+                "to it:",
+                "non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.",
+            ],
+        )
         work = Linearization(self.system, build)
         parts = work.derive()
         build.section("results")
@@ -88,8 +92,13 @@ class Newton:
         self.tables = self._tables(build)
         build.out(self.lin[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
-            *STATE, MEMORY, PARAMETERS, source("a"), source(ASIDE.name, ASIDE.type), self._own_lin(),
-        )  # fmt: skip
+            *STATE,
+            MEMORY,
+            PARAMETERS,
+            source("a"),
+            source(ASIDE.name, ASIDE.type),
+            self._own_lin(),
+        )
         return with_sides(build.build(arguments, owner="", prune=True))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
@@ -106,14 +115,18 @@ class Newton:
         states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
         return Parts(
-            pooled("mass", parts.mass, self.names), pooled("phi", parts.phi_q, self.names),
-            pooled("by_q", parts.by_q, self.names), pooled("by_v", parts.by_v, self.names),
+            pooled("mass", parts.mass, self.names),
+            pooled("phi", parts.phi_q, self.names),
+            pooled("by_q", parts.by_q, self.names),
+            pooled("by_v", parts.by_v, self.names),
             pooled("by_z", parts.by_z, self.names, states),
             {k: keep(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
-            pooled("power_q", parts.power_q, works), pooled("power_v", parts.power_v, works),
-            pooled("power_z", parts.power_z, works, states), pooled("power", parts.power_row, works),
+            pooled("power_q", parts.power_q, works),
+            pooled("power_v", parts.power_v, works),
+            pooled("power_z", parts.power_z, works, states),
+            pooled("power", parts.power_row, works),
             {w: keep(x, f"power_t_{w}") for w, x in parts.power_t.items()},
-        )  # fmt: skip
+        )
 
     def _tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
         """Where each part is in `lin->value`: (row, column, index, sign); columns are those of y."""
@@ -174,17 +187,25 @@ class Newton:
         """L U of the matrix, L with unit diagonal; what is neither number nor known is stored in `lin->lu`."""
         states = range(self.first_state, self.nodes)
         more = ", inner states" if states else ""
-        build = self._builder("newton_factor", [
-            "L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the",
-            f"number of the node (coordinates, rows, sticks{more}; from 1) whose pivot vanished or is not finite.",
-        ])  # fmt: skip
+        build = self._builder(
+            "newton_factor",
+            [
+                "L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the",
+                f"number of the node (coordinates, rows, sticks{more}; from 1) whose pivot vanished or is not finite.",
+            ],
+        )
         entries = self._entries(build)
-        pattern = [{j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
-                   for i in range(self.nodes)]  # fmt: skip
+        pattern = [
+            {j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
+            for i in range(self.nodes)
+        ]
         self.elimination = choose_elimination(
-            tuple(map(frozenset, pattern)), self.n, self.n + self.m, first=(*states, *self.first.order),
+            tuple(map(frozenset, pattern)),
+            self.n,
+            self.n + self.m,
+            first=(*states, *self.first.order),
             partner=self.first.partner,
-        )  # fmt: skip
+        )
         build.section("L U")
         factors = Factors(self, build, entries)
         for k in self.elimination.order:
@@ -227,10 +248,13 @@ class Newton:
         """From r (2n + works + inner states) to u."""
         n, parts = self.n, self.parts
         states = range(self.first_state, self.nodes)
-        build = self._builder("newton_solve", [
-            "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works"
-            f"{', inner states' if states else ''}.",
-        ])  # fmt: skip
+        build = self._builder(
+            "newton_solve",
+            [
+                "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works"
+                f"{', inner states' if states else ''}.",
+            ],
+        )
         self._scales(build, {self._scale(node) for node in range(self.nodes)})
         build.section("right-hand side")
         build.line(Declare(Number.REAL, "x", (self.nodes,)))
@@ -328,8 +352,11 @@ class Factors:
         if not self._before[k] and own in newton.model.masses:
             return newton.model.slots.derive(f"inverse_{own}", 1 / own, "1/M")
         states = newton.first_state
-        first = [j for j in self._before[k]
-                 if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states]  # fmt: skip
+        first = [
+            j
+            for j in self._before[k]
+            if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states
+        ]
         others = [j for j in self._before[k] if j not in first]
         scale = build.local(f"scale_{name}", own - self._products(k, k, first))
         pivot = build.local(f"pivot_{name}", scale - self._products(k, k, others)) if others else scale

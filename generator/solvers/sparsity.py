@@ -39,9 +39,13 @@ class Elimination:
 
 
 def choose_elimination(
-    pattern: Pattern, coordinates: int, last: int | None = None, pairs: Mapping[int, int] = NO_PAIRS,
-    first: Sequence[int] = (), partner: Mapping[int, int] = NO_PAIRS,
-) -> Elimination:  # fmt: skip
+    pattern: Pattern,
+    coordinates: int,
+    last: int | None = None,
+    pairs: Mapping[int, int] = NO_PAIRS,
+    first: Sequence[int] = (),
+    partner: Mapping[int, int] = NO_PAIRS,
+) -> Elimination:
     """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows.
 
     Nodes from `last` on come after all the others. Rows in `pairs` (each with its partner, in the same
@@ -83,9 +87,14 @@ def choose_elimination(
 
 
 def _in_order(
-    first: Sequence[int], pattern: Pattern, coordinates: int, last: int | None, pairs: Mapping[int, int],
-    partner: Mapping[int, int], eager: bool,
-) -> Elimination:  # fmt: skip
+    first: Sequence[int],
+    pattern: Pattern,
+    coordinates: int,
+    last: int | None,
+    pairs: Mapping[int, int],
+    partner: Mapping[int, int],
+    eager: bool,
+) -> Elimination:
     """The nodes in `first` with their partners, then the others, whose graph is what those leave.
 
     `eager`: a coordinate that is in none of the partners any more follows at once: along a chain of bodies from its
@@ -104,10 +113,11 @@ def _in_order(
     left = [node for node in range(len(pattern)) if node not in columns]
     number = {node: k for k, node in enumerate(left)}
     rest = choose_elimination(
-        tuple(frozenset(number[k] for k in graph[node]) for node in left), sum(node < coordinates for node in left),
+        tuple(frozenset(number[k] for k in graph[node]) for node in left),
+        sum(node < coordinates for node in left),
         None if last is None else sum(node < last for node in left),
         {number[r]: number[other] for r, other in pairs.items() if r in number and other in number},
-    )  # fmt: skip
+    )
     order = (*columns, *(left[k] for k in rest.order))
     place = {node: k for k, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in columns}
@@ -131,9 +141,11 @@ def _take(node: int, partner: int | None, graph: Sequence[set[int]], columns: di
 
 
 def _eliminate(
-    pattern: Pattern, coordinates: int, key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
+    pattern: Pattern,
+    coordinates: int,
+    key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
     pairs: Mapping[int, int],
-) -> Elimination:  # fmt: skip
+) -> Elimination:
     graph = [set(near) for near in pattern]
     waiting = [sum(near < coordinates for near in pattern[n]) if n >= coordinates else 0 for n in range(len(pattern))]
     for n in pairs:

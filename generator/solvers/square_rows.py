@@ -138,7 +138,7 @@ class SquareRows:
 
     def _solve(
         self, build: KernelBuilder, solver: Solver, left: Sequence[sp.Expr], prefix: str
-    ) -> Sequence[sp.Expr | Place]:  # fmt: skip
+    ) -> Sequence[sp.Expr | Place]:
         if len(left) == 1:
             return [left[0] * solver.inverse]
         if len(left) == 2:

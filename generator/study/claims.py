@@ -30,8 +30,15 @@ KEYS = ("source", "numbers", "trends")
 NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
 TOLD = ("says", "figure", "note", "heading")  # of a trend, whatever it is judged by
 COMMON = ("measure", "part", "at")
-MORE = {"grows_along": ("by",), "alike_along": ("within",), "spreads_along": ("more_than",), "larger": ("than", "by"),
-        "most_lowered": ("from", "to"), "exceeds": ("by",), "near": ("within",)}  # fmt: skip
+MORE = {
+    "grows_along": ("by",),
+    "alike_along": ("within",),
+    "spreads_along": ("more_than",),
+    "larger": ("than", "by"),
+    "most_lowered": ("from", "to"),
+    "exceeds": ("by",),
+    "near": ("within",),
+}
 NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
 TRIAL = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
 TREND = (*TOLD, *TRIAL, "all", "not_computed")
@@ -173,22 +180,29 @@ def _trial(name: Text, node: Map, owner: str) -> Trial:
     if "measure" not in node:
         raise missing_key("measure", node.where, owner)
     measures = texts(node["measure"], f"{owner}.measure", node.key("measure"), "names of measures")
-    by = next((text(node[key], f"{owner}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node),
-              None)  # fmt: skip
+    by = next(
+        (text(node[key], f"{owner}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node), None
+    )
     if kind in BETWEEN:
         return _between(node, owner, kind, measures, base, by)
     of = text(node[kind], f"{owner}.{kind}", kind, "a dimension" if kind in ALONG else "a measure or a number")
-    others = texts(node["more_than"], f"{owner}.more_than", node.key("more_than"), "measures") if "more_than" in node \
-        else (of,) if kind in SAME else ()  # fmt: skip
+    others = (
+        texts(node["more_than"], f"{owner}.more_than", node.key("more_than"), "measures")
+        if "more_than" in node
+        else (of,)
+        if kind in SAME
+        else ()
+    )
     if kind == "spreads_along" and len(others) != len(measures):
-        raise BadValueError(f"{owner}.more_than has {counted(len(others), 'name')}", node.key("more_than").where,
-                            f"expected as many as measure: {len(measures)}")  # fmt: skip
+        raise BadValueError(
+            f"{owner}.more_than has {counted(len(others), 'name')}",
+            node.key("more_than").where,
+            f"expected as many as measure: {len(measures)}",
+        )
     return Trial(kind, measures, base, of, None, others, by)
 
 
-def _between(
-    node: Map, owner: str, kind: Text, measures: tuple[Text, ...], base: Selection, by: Text | None
-) -> Trial:
+def _between(node: Map, owner: str, kind: Text, measures: tuple[Text, ...], base: Selection, by: Text | None) -> Trial:
     if kind == "larger":
         return Trial(kind, measures, _other(node, kind, owner, base), kind, _other(node, "than", owner, base), (), by)
     if lacking := [key for key in ("from", "to") if key not in node]:

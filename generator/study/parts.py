@@ -69,8 +69,9 @@ def texts(node: Any, owner: str, where: Any, what: str) -> tuple[Text, ...]:
     if isinstance(node, Text):
         return (text(node, owner, where, what),)
     if not isinstance(node, Items) or not node:
-        raise BadValueError(f"{owner} is {'an empty list' if node == [] else kind_of(node)}", place_of(node, where),
-                            f"expected {what}")  # fmt: skip
+        raise BadValueError(
+            f"{owner} is {'an empty list' if node == [] else kind_of(node)}", place_of(node, where), f"expected {what}"
+        )
     return tuple(text(one, f"{owner}[{k}]", node, what) for k, one in enumerate(node))
 
 

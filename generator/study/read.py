@@ -104,10 +104,30 @@ def _place(where: Location) -> str:
 
 
 KEYS = (
-    "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
-    "step", "method", "rtol", "stop", "wear", "windows", "measures", "keep", "parts", "claims", "titles",
+    "format",
+    "title",
+    "mechanism",
+    "scenes",
+    "choices",
+    "parameters",
+    "zip",
+    "draw",
+    "starts",
+    "t_end",
+    "output",
+    "step",
+    "method",
+    "rtol",
+    "stop",
+    "wear",
+    "windows",
+    "measures",
+    "keep",
+    "parts",
+    "claims",
+    "titles",
     "about",
-)  # fmt: skip
+)
 WHOLE = ("format", "parts", "claims", "titles", "about")  # of a file, not of its parts
 PART = tuple(key for key in KEYS if key not in WHOLE)
 ALONE = ""  # the name of a study that is all of its file
@@ -203,11 +223,29 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
             raise MissingKeyError(f"{owner} measures nothing and keeps nothing", root.where, hint)
     found = StudyFile(
-        file, str(title), mechanism, scenes, one, tuple(choices), numbers.fixed, numbers.axes, numbers.draw, starts,
-        times["t_end"], times["output"], times["step"], windows, measures, keep, _method(reader, root),
-        _rtol(reader, root), _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))},
-        read_wear(reader, root), numbers.left_out,
-    )  # fmt: skip
+        file,
+        str(title),
+        mechanism,
+        scenes,
+        one,
+        tuple(choices),
+        numbers.fixed,
+        numbers.axes,
+        numbers.draw,
+        starts,
+        times["t_end"],
+        times["output"],
+        times["step"],
+        windows,
+        measures,
+        keep,
+        _method(reader, root),
+        _rtol(reader, root),
+        _stop(reader, root),
+        _said(root) | {"settings": dict(sorted(settings.items()))},
+        read_wear(reader, root),
+        numbers.left_out,
+    )
     check_names(reader, found, root)
     return found
 

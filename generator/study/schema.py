@@ -41,13 +41,23 @@ def schema() -> Json:
     own = {
         "title": {"type": "string", "maxLength": MAX_TITLE},
         "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
-        "scenes": names, "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
-        "parameters": _map(values), "zip": _map(_map(values)), "draw": _draw(), "starts": _starts(),
-        "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
-        "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
-        "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
-        "keep": names, "wear": _wear(),
-    }  # fmt: skip
+        "scenes": names,
+        "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
+        "parameters": _map(values),
+        "zip": _map(_map(values)),
+        "draw": _draw(),
+        "starts": _starts(),
+        "t_end": _NUMBER,
+        "output": _NUMBER,
+        "step": _NUMBER,
+        "method": {"enum": [*OFFERED, KINEMATIC]},
+        "rtol": _NUMBER,
+        "stop": {"enum": [True, False, "true", "false"]},
+        "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL),
+        "measures": _map(_measure(), LABEL),
+        "keep": names,
+        "wear": _wear(),
+    }
     parts = _map(_record(own), LABEL) | {"minProperties": 1}
     titles = _map(_TEXT | {"maxLength": MOST})
     whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims(), "titles": titles, "about": _about()}
@@ -106,8 +116,11 @@ def _claims() -> Json:
     at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
     told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in TOLD}
     number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure")
-    counts = {"type": "object", "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
-              "additionalProperties": False}  # fmt: skip
+    counts = {
+        "type": "object",
+        "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
+        "additionalProperties": False,
+    }
     own: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(("larger", "than", "from", "to", "at"), at)
     own |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
     several = {"all": {"type": "array", "items": _record(own), "minItems": 1}, "not_computed": _TEXT}

@@ -83,8 +83,10 @@ def varied(fixed: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, 
     found = {key: value for key, value in fixed.items() if short(key) not in given}
     found |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in own.items()}
     split = [(axis, {key: numbers for key, numbers in axis.columns.items() if short(key) in given}) for axis in axes]
-    kept = (replace(axis, columns={key: numbers for key, numbers in axis.columns.items() if key not in gone})
-            for axis, gone in split)  # fmt: skip
+    kept = (
+        replace(axis, columns={key: numbers for key, numbers in axis.columns.items() if key not in gone})
+        for axis, gone in split
+    )
     left_out = [replace(axis, columns=gone) for axis, gone in split if gone]
     if draw is not None and (drawn := {key: one for key, one in draw.numbers.items() if short(key) in given}):
         columns = {key: Numbers(spread.ends, draw.count) for key, spread in drawn.items()}

@@ -100,11 +100,25 @@ WEAR_LAWS = ("archard", "reye")
 WEAR = ("wear_depth", "wear_arc")  # of a joint with dry contact over all steps, of its bearing, for k/H = 1/Pa
 CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
 FOLLOWED = (
-    "lyapunov", "lyapunov_error", "lyapunov_per_return", "believable", "motion", "motion_confidence",
+    "lyapunov",
+    "lyapunov_error",
+    "lyapunov_per_return",
+    "believable",
+    "motion",
+    "motion_confidence",
 )  # of a neighbour of the run, or of its returns to a section, in a window
 STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS, *FOLLOWED)
 RESERVED = (
-    "run", "time", "t", "sample", "scene", "draw", "start", "ensemble", "failure", "t_last",
+    "run",
+    "time",
+    "t",
+    "sample",
+    "scene",
+    "draw",
+    "start",
+    "ensemble",
+    "failure",
+    "t_last",
 )  # what a dataset has of its own
 
 

@@ -60,8 +60,12 @@ def _exact(number: sp.Expr) -> sp.Expr:
 
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     **{function.name: kind for kind, function in CLASSES.items()},
-    "exp": exponential, "smooth_step": smooth_step, "ramp": ramp, "where": where, "mod": ModOf,
-}  # fmt: skip
+    "exp": exponential,
+    "smooth_step": smooth_step,
+    "ramp": ramp,
+    "where": where,
+    "mod": ModOf,
+}
 
 
 def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:

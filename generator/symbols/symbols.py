@@ -112,9 +112,11 @@ class Symbols(Freezable):
         for name in numbered:
             base = self._numbered[name]
             free = base not in taken and not self._is_member(base)
-            found[name] = base if free else next(
-                called for k in range(2, len(used) + 3) if (called := f"{base}{k}_") not in taken
-            )  # fmt: skip
+            found[name] = (
+                base
+                if free
+                else next(called for k in range(2, len(used) + 3) if (called := f"{base}{k}_") not in taken)
+            )
             taken.add(found[name])
         return {name: called for name, called in found.items() if name != called}
 
@@ -128,7 +130,7 @@ class Symbols(Freezable):
 
     def new(
         self, wanted: str, home: Place | None = None, meaning: str = "", unit: str = "", shown: str = ""
-    ) -> sp.Symbol:  # fmt: skip
+    ) -> sp.Symbol:
         """A new real symbol; with OWN_FIELD for its home the field is called `shown`, or as the symbol.
 
         Its own name is what terms are put in order by.
@@ -152,9 +154,14 @@ class Symbols(Freezable):
         return name
 
     def define(
-        self, wanted: str, expression: sp.Expr, home: Place | None = None, meaning: str = "", unit: str = "",
+        self,
+        wanted: str,
+        expression: sp.Expr,
+        home: Place | None = None,
+        meaning: str = "",
+        unit: str = "",
         shown: str = "",
-    ) -> sp.Symbol:  # fmt: skip
+    ) -> sp.Symbol:
         """A new symbol that stands for `expression`."""
         symbol = self.new(wanted, home, meaning, unit, shown)
         self.definitions[symbol] = expression

@@ -79,8 +79,11 @@ def _of_bodies(kind: str, keys: Mapping[str, object]) -> Json:
 
 def _object(properties: Mapping[str, Any], required: Sequence[str] = ()) -> Json:
     return {
-        "type": "object", "properties": dict(properties), "required": list(required), "additionalProperties": False,
-    }  # fmt: skip
+        "type": "object",
+        "properties": dict(properties),
+        "required": list(required),
+        "additionalProperties": False,
+    }
 
 
 def _required(fields: Sequence[Field]) -> list[str]:

@@ -74,8 +74,10 @@ def _between(closure: Closure, x: Array, y: Array) -> Array:
 
 def guesses_apart(closure: Closure, x: Array, y: Array) -> float:
     """By how much two configurations differ in what is guessed, at most: rad, or shares of the size."""
-    points = [closure.off_point(x, point, np.zeros(2)) - closure.off_point(y, point, np.zeros(2))
-              for point, _ in closure.points]  # fmt: skip
+    points = [
+        closure.off_point(x, point, np.zeros(2)) - closure.off_point(y, point, np.zeros(2))
+        for point, _ in closure.points
+    ]
     far = [float(np.linalg.norm(away)) / closure.size for away in points]
     return max([*far, *_between(closure, x, y)[closure.guessed].tolist()], default=0.0)
 

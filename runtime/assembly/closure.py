@@ -58,8 +58,9 @@ class Closure:
         self.guessed = [self.place[name] for name in self.guess]
         self.points = [
             (point, np.array([told[f"{point.name}.x"], told[f"{point.name}.y"]]))
-            for point in source.points if f"{point.name}.x" in told
-        ]  # fmt: skip
+            for point in source.points
+            if f"{point.name}.x" in told
+        ]
         self.wanted = np.zeros(len(self.place))  # what is guessed, as the rows let it be
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 

@@ -105,8 +105,9 @@ def _lengths(closure: Closure, q: Array) -> str:
     found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
     told = [
         f"{one.told} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
-        f" {lengths_text(abs(one.missing))}" for one in found
-    ]  # fmt: skip
+        f" {lengths_text(abs(one.missing))}"
+        for one in found
+    ]
     return f"\n  one change would close it: {', or '.join(told)}" if told else ""
 
 

@@ -75,9 +75,11 @@ def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float
     rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
     most = ROUNDED * c if rigid else DEEPEST * float(p[joint.constants["R_i"]])
     if depth > most:
-        why = "the surfaces of this joint do not give (newton_restitution)" if rigid else (
-            f"deeper than {1e3 * most:.3g} mm, a tenth of half the guide's width, no law of contact holds"
-        )  # fmt: skip
+        why = (
+            "the surfaces of this joint do not give (newton_restitution)"
+            if rigid
+            else (f"deeper than {1e3 * most:.3g} mm, a tenth of half the guide's width, no law of contact holds")
+        )
         raise AssemblyError(
             f"start.play.{joint.joint} lays the corner {joint.name} {1e3 * depth:.3g} mm into its wall, beyond the gap"
             f" of {1e3 * c:.4g} mm: {why}\n"
@@ -92,8 +94,7 @@ def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
             wall = "its wall" if joint.at_wall else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
-                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, e/c ="
-                f" {told_apart(e / c, 1.0, 3)[0]}: {so}"
+                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, e/c = {told_apart(e / c, 1.0, 3)[0]}: {so}"
             )
 
 
@@ -161,15 +162,13 @@ def _worn(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: 
 
 def eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
-) -> tuple[list[int], Array]:  # fmt: skip
+) -> tuple[list[int], Array]:
     """The rows of a joint with play in the closed linkage, and e (2,) in ground axes, m."""
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 3: Φ of the joint is −e
 
 
-def _reads_onset(
-    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int
-) -> bool:  # fmt: skip
+def _reads_onset(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int) -> bool:
     """Whether the force in a joint depends on δ̇⁻ at all: it does not without loss, nor where a law reads δ̇ alone."""
     latched = np.array([memory, memory])
     latched[:, number] = 1e-3, np.inf

@@ -46,9 +46,7 @@ class Mobility:
         return self.freedoms - self.gruebler
 
 
-def find_mobility(
-    linkage: Linkage, p: Array, q: Array, rows: Sequence[int] | None = None, t: float = 0.0
-) -> Mobility:
+def find_mobility(linkage: Linkage, p: Array, q: Array, rows: Sequence[int] | None = None, t: float = 0.0) -> Mobility:
     """Of a linkage that is assembled at q (n,); of some of its rows where those of joints with play are left out."""
     kept = list(range(len(linkage.source.start_rows))) if rows is None else list(rows)
     with np.errstate(all="ignore"):

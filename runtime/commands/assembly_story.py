@@ -61,9 +61,7 @@ class Findings:
         return [a for a in self.assemblies[1:] if guesses_apart(closure, a.q, start) < ALIKE]
 
 
-def assemble_scenes(
-    mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None
-) -> Findings:
+def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
     """Assemble every scene; other assemblies are looked for where that is quick, or asked for.
 
     given: numbers in place of the file's, by address; those of a scene alone hold for it.
@@ -162,9 +160,12 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         yield "redundant", f"{rows} of Φ say{'s' if closed.redundant == 1 else ''} nothing new: {counted}"
     if closed.aligned:
         rows = "a row of Φ_q depends" if closed.aligned == 1 else f"{closed.aligned} rows of Φ_q depend"
-        yield "singular", (
-            f"links lie in one line at the start: {rows} on the others"
-            " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
+        yield (
+            "singular",
+            (
+                f"links lie in one line at the start: {rows} on the others"
+                " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
+            ),
         )
     told = {name: off for scene in found.scenes.values() for name, off in scene.off.items()}
     for name, off in told.items():
@@ -209,9 +210,12 @@ def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
     telling = next(name for name in start.guess if any(_differs(name, start, other) for other in alike))
     here, there = _value(telling, start.guess[telling]), [_value(telling, a.guess[telling]) for a in alike]
     others = ", ".join(dict.fromkeys(value for value in there if value != here))
-    yield "assemblies", (
-        f"{len(alike) + 1} fit the start's guesses alike: guess {telling} too, {here} as it is taken now or {others};"
-        " --branches lists all"
+    yield (
+        "assemblies",
+        (
+            f"{len(alike) + 1} fit the start's guesses alike: guess {telling} too, {here} as it is taken now or "
+            f"{others}; --branches lists all"
+        ),
     )
 
 
@@ -252,14 +256,17 @@ def data(found: Findings) -> dict[str, Any]:
 
 def _scene_data(scene: Assembled) -> dict[str, Any]:
     return {
-        "assembles": True, "degrees of freedom": scene.scene.freedoms, "with all joints closed": scene.closed.freedoms,
-        "by counting": scene.closed.gruebler, "redundant rows": scene.closed.redundant,
-        "along": list(scene.closed.along), "loose": list(scene.closed.loose), "guesses not followed": dict(scene.off),
-    }  # fmt: skip
+        "assembles": True,
+        "degrees of freedom": scene.scene.freedoms,
+        "with all joints closed": scene.closed.freedoms,
+        "by counting": scene.closed.gruebler,
+        "redundant rows": scene.closed.redundant,
+        "along": list(scene.closed.along),
+        "loose": list(scene.closed.loose),
+        "guesses not followed": dict(scene.off),
+    }
 
 
 def branches_data(found: Findings) -> list[dict[str, Any]]:
     """Assemblies for --json."""
     return [{"guess": one.guess, "start": one.is_start} for one in found.assemblies]
-
-

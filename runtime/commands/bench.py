@@ -31,9 +31,14 @@ def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
         if step is not None and simulation.source.degrees_of_freedom != 0:
             steps = {*usual_steps(simulation, parameters, request.quick), step}
         return bench(
-            simulation, sorted(steps) if steps else None, t_end=t_end, parameters=parameters, quick=request.quick,
-            methods=wanted, progress=report,
-        )  # fmt: skip
+            simulation,
+            sorted(steps) if steps else None,
+            t_end=t_end,
+            parameters=parameters,
+            quick=request.quick,
+            methods=wanted,
+            progress=report,
+        )
 
     found, interrupted = each(loaded, one, request.json)
     if found:

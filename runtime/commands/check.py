@@ -37,9 +37,7 @@ MARGIN, GAP = 4, 3  # of a table, and between its columns
 CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
 
 
-def check_file(
-    name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()
-) -> int:
+def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()) -> int:
     """Read, tell, and return the exit code; numbers: ADDRESS=VALUE, in place of the file's."""
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -55,9 +53,7 @@ def check_file(
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with status_line(quiet=as_json):
         found = story.assemble_scenes(mechanism, branches, given)
-        scenes = {
-            scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose
-        }  # fmt: skip
+        scenes = {scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose}
     if as_json:
         print_json(_document(mechanism, scenes, seconds, found))
         return _code(mechanism, found)
@@ -96,8 +92,11 @@ def _errors(error: InputError) -> list[dict[str, Any]]:
 
 
 def _counts(mechanism: Mechanism) -> str:
-    numbers = [(len(mechanism.bodies), "body", "bodies"), (len(mechanism.joints), "joint", "joints"),
-               (len(mechanism.drives), "drive", "drives")]  # fmt: skip
+    numbers = [
+        (len(mechanism.bodies), "body", "bodies"),
+        (len(mechanism.joints), "joint", "joints"),
+        (len(mechanism.drives), "drive", "drives"),
+    ]
     words = [f"{count} {one if count == 1 else more}" for count, one, more in numbers]
     return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
 
@@ -134,11 +133,14 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
     if "reduced_dynamics" in source.operations:
         operations["reduced"] = source.operations["reduced_dynamics"]
     return {
-        "formulation": source.formulation, "tree": list(source.tree), "closures": list(source.closures),
-        "driven": list(driven(source)), "operations of the accelerations": operations,
+        "formulation": source.formulation,
+        "tree": list(source.tree),
+        "closures": list(source.closures),
+        "driven": list(driven(source)),
+        "operations of the accelerations": operations,
         "methods": [*source.methods, *(CHECKS if _takes_checks(source) else ())],
         "auto begins with": begins_with(source),
-    }  # fmt: skip
+    }
 
 
 def _rest(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
@@ -163,9 +165,11 @@ def _label(kernel: str) -> str:
 
 
 def _document(
-    mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]],
+    mechanism: Mechanism,
+    scenes: Mapping[str, KernelSource],
+    seconds: Mapping[str, Mapping[str, float]],
     found: story.Findings,
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     return {
         "valid": True,
         "name": mechanism.name,

@@ -29,9 +29,16 @@ PAIR = "steel, R_i = 10 mm, c = 0.1 mm, L = 20 mm"
 # What a number is taken to be that must be given and is not: by its name, else by its dimension (m, kg, s).
 USUAL = {"restitution": 0.9, "roughness": 5e-7, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
 BY_DIMENSION: Mapping[tuple[float, ...], float] = {
-    (0, 0, 0): 0.1, (1, 0, 0): 2e-5, (1, 0, -1): 1e-2, (-1, 0, 0): 2e4, (-1, 0, 1): 3.0, (0, 1, -2): 1e8,
-    (0, 1, -1): 2e3, (-1, 1, -1): 0.05, (-1, 1, -2): 1e9,
-}  # fmt: skip
+    (0, 0, 0): 0.1,
+    (1, 0, 0): 2e-5,
+    (1, 0, -1): 1e-2,
+    (-1, 0, 0): 2e4,
+    (-1, 0, 1): 3.0,
+    (0, 1, -2): 1e8,
+    (0, 1, -1): 2e3,
+    (-1, 1, -1): 0.05,
+    (-1, 1, -2): 1e9,
+}
 DEEPEST, SPEED = 0.05, 0.1  # share of c; m/s, of an approach, and of a slip where the law names none
 RATIOS = {1.0: "approach", 0.0: "rest", -1.0: "parting"}
 SHOWN = {"restitution"}  # of which the default, 1, would draw the same curve thrice
@@ -64,8 +71,10 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     from gudgeon.results.figures import plots  # says where matplotlib is missing
 
     if law.rigid:
-        raise BadValueError(f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
-                            f"  gudgeon laws {name} tells what it does")
+        raise BadValueError(
+            f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
+            f"  gudgeon laws {name} tells what it does"
+        )
     chosen = _chosen(law, name, settings)
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -161,8 +170,9 @@ def _number(own: Field, settings: Mapping[str, float | str]) -> float | None:
 
 
 def _option(own: Field, given: float | str) -> str | bool:
-    words: dict[str, str | bool] = {str(value).lower() if isinstance(value, bool) else value: value
-                                    for value in own.values}  # fmt: skip
+    words: dict[str, str | bool] = {
+        str(value).lower() if isinstance(value, bool) else value: value for value in own.values
+    }
     if str(given) not in words:
         raise unknown_name(f"choice of {own.name}", str(given), tuple(words), None)
     return words[str(given)]
@@ -189,9 +199,11 @@ def _normal(ax: Axes, law: Function, chosen: Chosen) -> None:
     further = [SPEED] * reads_besides(chosen.law)
     curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
     same = np.array_equal(curves[1.0], curves[-1.0])
-    lines = [(curves[1.0], "approach and parting alike")] if same else [
-        (curve, f"{RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()
-    ]  # fmt: skip
+    lines = (
+        [(curves[1.0], "approach and parting alike")]
+        if same
+        else [(curve, f"{RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()]
+    )
     _line(ax, delta, iter(lines), ("δ", "m"), ("F_n", "N"))
     by_speed = bool(further) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
     ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
@@ -241,9 +253,11 @@ def _film(ax: Axes, law: Function, chosen: Chosen) -> None:
     epsilon = np.linspace(0.01, 0.95, POINTS)
     turning, closing, opening = (law(epsilon, *w) for w in ((0.0, -0.5 * epsilon), (1.0, 0.0), (-1.0, 0.0)))
     lines = [
-        (-turning["F_r"], "−F_r, turns"), (turning["F_t"], "F_t, turns"), (-closing["F_r"], "−F_r, gap closes"),
+        (-turning["F_r"], "−F_r, turns"),
+        (turning["F_t"], "F_t, turns"),
+        (-closing["F_r"], "−F_r, gap closes"),
         (opening["F_r"], "F_r, gap opens"),
-    ]  # fmt: skip
+    ]
     if not any((y > 0.0).any() for y, _ in lines):
         raise BadValueError("nothing to draw: with these numbers all forces are 0")
     _line(ax, epsilon, iter(lines), ("ε", ""), ("F", "N"))

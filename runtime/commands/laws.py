@@ -110,19 +110,30 @@ def _told(law: Law, name: str) -> dict[str, Any]:
         for form in forms(law, name)
     )
     return {
-        "law": law.name, "called": name, "role": law.role, "title": law.title, "also": [*law.also],
-        "chosen": dict(law.also.get(name, {})), "equations": first["equations"],
+        "law": law.name,
+        "called": name,
+        "role": law.role,
+        "title": law.title,
+        "also": [*law.also],
+        "chosen": dict(law.also.get(name, {})),
+        "equations": first["equations"],
         "choices": [form for form in others if form["equations"]],
         "keys": [_key(own) for own in law.fields_as(name)],
         "states": {state.name: state.meaning for state in law.states},
-        "validity": law.validity, "reference": law.reference or law.source,
-    }  # fmt: skip
+        "validity": law.validity,
+        "reference": law.reference or law.source,
+    }
 
 
 def _key(own: Field) -> dict[str, Any]:
     """A number with its SI unit, None where any fits; an option with its words."""
-    told: dict[str, Any] = {"key": own.name, "kind": own.kind, "meaning": own.meaning, "required": own.required,
-                            "default": own.default}  # fmt: skip
+    told: dict[str, Any] = {
+        "key": own.name,
+        "kind": own.kind,
+        "meaning": own.meaning,
+        "required": own.required,
+        "default": own.default,
+    }
     if own.values:
         return {**told, "values": [*own.values], "sources": dict(own.sources or {})}
     unit = None if own.dimension is None else si_unit(own.dimension)

@@ -63,9 +63,15 @@ def map_file(request: Request, asked: Asked) -> int:
         if asked.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
             axes = [axis(simulation, "step", steps), *axes]
         return verdict_map(
-            simulation, axes, method=asked.method, value=wanted, t_long=t_end, parameters=parameters,
-            quick=request.quick, progress=report,
-        )  # fmt: skip
+            simulation,
+            axes,
+            method=asked.method,
+            value=wanted,
+            t_long=t_end,
+            parameters=parameters,
+            quick=request.quick,
+            progress=report,
+        )
 
     found, interrupted = each(moving, one, request.json)
     if found:
@@ -74,18 +80,29 @@ def map_file(request: Request, asked: Asked) -> int:
 
 
 def _box(
-    request: Request, asked: Asked, moving: Sequence[Simulation], t_end: float | None, wanted: float | None,
+    request: Request,
+    asked: Asked,
+    moving: Sequence[Simulation],
+    t_end: float | None,
+    wanted: float | None,
     table: Path,
-) -> int:  # fmt: skip
+) -> int:
     def one(simulation: Simulation, report: Report | None) -> VerdictBox:
         parameters = request.of(simulation)
         axes = {a.name: a for a in (typed(simulation, text, parameters) for text in asked.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
         usual = natural_step(simulation, parameters) if asked.fixed else USUAL
         return verdict_box(
-            simulation, ranges, asked.box or 0, setting=Setting(asked.method, wanted or usual), t_long=t_end,
-            parameters=parameters, addresses=axes, quick=request.quick, progress=report,
-        )  # fmt: skip
+            simulation,
+            ranges,
+            asked.box or 0,
+            setting=Setting(asked.method, wanted or usual),
+            t_long=t_end,
+            parameters=parameters,
+            addresses=axes,
+            quick=request.quick,
+            progress=report,
+        )
 
     found, interrupted = each(moving, one, request.json)
     if found:

@@ -62,25 +62,28 @@ File = Annotated[
 ]
 Scenes = Annotated[
     list[str] | None,
-    typer.Option(
-        "--scene", "-s", help="A scene; may be repeated. [default: all]", autocompletion=completion.scenes
-    ),
+    typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]", autocompletion=completion.scenes),
 ]
 OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.", autocompletion=completion.scenes)]
 Pages = Annotated[
     Path,
     typer.Option(
-        "--out", "-o", parser=a_file_or_folder, metavar="PATH",
+        "--out",
+        "-o",
+        parser=a_file_or_folder,
+        metavar="PATH",
         help="x.tex, .txt, .html or .ipynb; a folder: a page of each scene; - prints.",
     ),
-]  # fmt: skip
+]
 ScenesOfPages = Annotated[
     list[str] | None,
     typer.Option(
-        "--scene", "-s", help="A scene; in a folder several. [default: ideal; there all]",
+        "--scene",
+        "-s",
+        help="A scene; in a folder several. [default: ideal; there all]",
         autocompletion=completion.scenes,
     ),
-]  # fmt: skip
+]
 Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
 FilesJson = Annotated[bool, typer.Option("--json", help="Print JSON: which files were written, and notes.")]
@@ -165,8 +168,11 @@ Folder = Annotated[
 ]
 StudyFile = Annotated[
     str,
-    typer.Argument(metavar="FILE", help="A study: a YAML file (docs/studies.md), or the name of one that comes with"
-                   " gudgeon, chen_2022 …; or the word report, for a page."),
+    typer.Argument(
+        metavar="FILE",
+        help="A study: a YAML file (docs/studies.md), or the name of one that comes with"
+        " gudgeon, chen_2022 …; or the word report, for a page.",
+    ),
 ]
 Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The finished study of that page.")]
 Threads = Annotated[
@@ -175,10 +181,11 @@ Threads = Annotated[
 Workers = Annotated[
     int | None,
     typer.Option(
-        parser=whole(1), metavar="COUNT",
+        parser=whole(1),
+        metavar="COUNT",
         help="Processes of their own libraries, in place of threads; then --threads are those of each. [default: none]",
     ),
-]  # fmt: skip
+]
 Cluster = Annotated[
     str | None,
     typer.Option("--dask", metavar="ADDRESS", help="A cluster of dask.distributed, at the address of its scheduler."),

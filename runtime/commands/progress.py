@@ -74,9 +74,14 @@ def _start() -> Any:
     from gudgeon.language.shown import plain_console
 
     progress = Progress(
-        TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),
-        TextColumn("{task.fields[text]}", markup=False), console=plain_console(stderr=True), transient=True,
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        TaskProgressColumn(),
+        TimeRemainingColumn(),
+        TextColumn("{task.fields[text]}", markup=False),
+        console=plain_console(stderr=True),
+        transient=True,
         speed_estimate_period=MEMORY,
-    )  # fmt: skip
+    )
     progress.start()
     return progress

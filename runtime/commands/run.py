@@ -186,12 +186,17 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
             session.haste[name] = simulation.compiled.lib.haste
             try:
                 run = simulation.simulate(
-                    until, output=request.output, method=method, step=step,
-                    rtol=request.rtol, horizon=request.horizon or request.report,
-                    parameters=known_here(simulation.source, settings), progress=bar(name),
+                    until,
+                    output=request.output,
+                    method=method,
+                    step=step,
+                    rtol=request.rtol,
+                    horizon=request.horizon or request.report,
+                    parameters=known_here(simulation.source, settings),
+                    progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
                     peaks=_peaks(request, simulation.source),
-                )  # fmt: skip
+                )
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having
                 session.failures[name] = error
                 partial = getattr(error, "partial", None)
@@ -356,8 +361,11 @@ def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bo
         try:
             with status_line(quiet=quiet):
                 found = run.check()
-            notes = (*run.diagnostics.notes, *found.notes, f"{len(found.faults) or 'no'} faults of contacts at"
-                     f" {found.samples} samples")  # fmt: skip
+            notes = (
+                *run.diagnostics.notes,
+                *found.notes,
+                f"{len(found.faults) or 'no'} faults of contacts at {found.samples} samples",
+            )
             runs[scene] = replace(run, diagnostics=replace(run.diagnostics, notes=notes))
             found.raise_faults()
         except GudgeonError as error:
@@ -365,9 +373,15 @@ def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bo
 
 
 def write_reports(
-    runs: dict[str, Result], simulations: Mapping[str, Simulation], references: Mapping[str, Result], out: Path,
-    save: Callable[[Mapping[str, Result]], None], files: dict[str, str], unwritten: list[GudgeonError], quiet: bool,
-) -> None:  # fmt: skip
+    runs: dict[str, Result],
+    simulations: Mapping[str, Simulation],
+    references: Mapping[str, Result],
+    out: Path,
+    save: Callable[[Mapping[str, Result]], None],
+    files: dict[str, str],
+    unwritten: list[GudgeonError],
+    quiet: bool,
+) -> None:
     """Fills `files` and `unwritten`; `runs` are then the examined ones. A run that Ctrl-C ended is told as it is."""
     from gudgeon.simulation.examine import examine
 

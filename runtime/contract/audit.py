@@ -36,8 +36,9 @@ SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/au
     Check("start", "the first sample against the start that was found"),
     Check("energy", "the energy of the motion against the works of drives, forces and joints with play"),
     Check("power", "reported accelerations, torques and forces against the change of energy"),
-    Check("body", "reported accelerations and forces of joints against the equations of motion of single bodies",
-          "body"),  # fmt: skip
+    Check(
+        "body", "reported accelerations and forces of joints against the equations of motion of single bodies", "body"
+    ),
     Check("torque", "reported drive torques against the power of the drives"),
     Check("sample", "sampled forces of open joints, which are zero", "joint"),
     Check("peak", "the peak of a joint's force against the largest force of its contacts", "joint"),

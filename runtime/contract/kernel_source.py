@@ -274,12 +274,23 @@ class KernelSource:
         """The source that `to_json` wrote."""
         data = complete(json.loads(text), _defaults())
         kinds = {
-            "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
-            "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
-            "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
-            "written": WrittenInfo, "expressions": WrittenInfo, "simulate_written": WrittenInfo,
-            "parts": PartInfo, "contours": ContourInfo,
-        }  # fmt: skip
+            "bodies": BodyInfo,
+            "points": PointInfo,
+            "rows": RowInfo,
+            "joints": JointInfo,
+            "drives": DriveInfo,
+            "clearances": ClearanceInfo,
+            "start_rows": RowInfo,
+            "slots": Slot,
+            "conditions": Condition,
+            "series": SeriesInfo,
+            "events": EventInfo,
+            "written": WrittenInfo,
+            "expressions": WrittenInfo,
+            "simulate_written": WrittenInfo,
+            "parts": PartInfo,
+            "contours": ContourInfo,
+        }
         data |= {key: tuple(kind(**tuples(item)) for item in data.get(key, ())) for key, kind in kinds.items()}
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
@@ -292,9 +303,24 @@ def _defaults() -> dict[str, Any]:
     usual = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in usual.items()}
     lists = (
-        "rows", "joints", "drives", "clearances", "series", "start_rows", "start_guess", "start_set", "start_rates",
-        "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions", "notes",
-    )  # fmt: skip
+        "rows",
+        "joints",
+        "drives",
+        "clearances",
+        "series",
+        "start_rows",
+        "start_guess",
+        "start_set",
+        "start_rates",
+        "frictions",
+        "pivots",
+        "start_pivots",
+        "rate_jumps",
+        "indeterminate",
+        "derived",
+        "conditions",
+        "notes",
+    )
     mappings = ("files", "outputs", "simulate", "reference")
     nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in mappings}
     return {"main": MAIN, **nothing, **plain, "story": {}}

@@ -99,10 +99,17 @@ def _chain(step: Step) -> str:
 
 
 _WORDS: Mapping[str, Callable[[Step], str]] = {
-    told.PLAY: _play, told.REDUNDANT: _redundant, told.PRESCRIBED: _prescribed, told.CONSTANT: _constant,
-    told.FOLLOWING: _following, told.HUB: _hub, told.HINGES: _hinges, told.SLIDES: _slides, told.KNOWN: _known,
+    told.PLAY: _play,
+    told.REDUNDANT: _redundant,
+    told.PRESCRIBED: _prescribed,
+    told.CONSTANT: _constant,
+    told.FOLLOWING: _following,
+    told.HUB: _hub,
+    told.HINGES: _hinges,
+    told.SLIDES: _slides,
+    told.KNOWN: _known,
     told.CHAIN: _chain,
-}  # fmt: skip
+}
 
 
 def _nested(story: Story) -> str:

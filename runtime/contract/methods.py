@@ -28,7 +28,7 @@ METHODS = (
     Method("radau5", "v", slopes=True, staged=True),
     Method("radau9", ">", slopes=True, staged=True),
     Method("taylor", "*", smooth=True),
-)  # fmt: skip
+)
 SMOOTH = tuple(method.name for method in METHODS if method.smooth)
 STAGED = tuple(method.name for method in METHODS if method.staged)
 INTEGRATORS = tuple(method.name for method in METHODS if not (method.smooth or method.staged))  # every library's

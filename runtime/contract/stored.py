@@ -115,7 +115,7 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
         "words": lambda data, slot: [],
         "tree": lambda data, slot: "",
     },
-}  # fmt: skip
+}
 _OF_STORY: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: data["coordinates"],
     "rows": lambda data: [row["name"] for row in data["start_rows"]],

@@ -40,9 +40,13 @@ def magnification(posture: Posture, joint: str, unit: float) -> float:
 
 
 def insets(
-    posture: Posture, unit: float, low: Array, high: Array, touching: frozenset[str] = frozenset(),
+    posture: Posture,
+    unit: float,
+    low: Array,
+    high: Array,
+    touching: frozenset[str] = frozenset(),
     touched: frozenset[str] = frozenset(),
-) -> Iterator[tuple[list[Shape], Label, str]]:  # fmt: skip
+) -> Iterator[tuple[list[Shape], Label, str]]:
     """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box, or where
     that is too low for it in rows below.
 
@@ -98,10 +102,11 @@ def _slider(
         wall = rectangle(centre + side * beyond * across, along, 1.16 * radius, WALL * radius)
         shapes.append(Line(part, "touched" if red else "bearing", wall, True))
     places = {
-        name: centre + (LONG if "front" in name else -LONG) * radius * along
+        name: centre
+        + (LONG if "front" in name else -LONG) * radius * along
         + (1.0 if "upper" in name else -1.0) * (HIGH * radius + times * e) * across
         for name, e in found.items()
-    }  # fmt: skip
+    }
     upper, lower = ([at for name, at in places.items() if word in name] for word in ("upper", "lower"))
     shapes.append(Line(part, "journal", np.array([*upper, *reversed(lower)]), True))
     for name, at in places.items():

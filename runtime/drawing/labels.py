@@ -53,10 +53,18 @@ class Names(Artist):
         word, weight = NAMES[label.role]
         colour = colour_of(word, self.order.get(label.part, 0)) if word in ("edge",) else word
         text = Text(
-            0.0, 0.0, one_line(label.text), size=size, color=colour, weight=weight, ha="center", va="center",
-            transform=None, parse_math=False,
+            0.0,
+            0.0,
+            one_line(label.text),
+            size=size,
+            color=colour,
+            weight=weight,
+            ha="center",
+            va="center",
+            transform=None,
+            parse_math=False,
             style="italic" if label.role == "joint" else "normal",
-        )  # fmt: skip
+        )
         text.set_gid(gid("name", label.part))
         return text
 
@@ -118,9 +126,14 @@ class Names(Artist):
 
 
 def settled(
-    sketch: Sketch, halves: Mapping[str, Array], held: Mapping[str, tuple[float, float]], to_pixels: Any,
-    metre: float, point: float, room: Array,
-) -> dict[str, tuple[float, float]]:  # fmt: skip
+    sketch: Sketch,
+    halves: Mapping[str, Array],
+    held: Mapping[str, tuple[float, float]],
+    to_pixels: Any,
+    metre: float,
+    point: float,
+    room: Array,
+) -> dict[str, tuple[float, float]]:
     """How far the middle of each name is from what it names, by part, pixels; without those that have no place.
 
     halves: half of each name's width and height. held: the same of the picture before, which a name keeps while it
@@ -179,9 +192,16 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 
 
 def best_place(
-    at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array,
+    at: Array,
+    half: Array,
+    way: float,
+    clear: float,
+    point: float,
+    lines: Array,
+    taken: Array,
+    room: Array,
     leads: Array,
-) -> Array | None:  # fmt: skip
+) -> Array | None:
     """The middle of a name: the nearest place on no line and no other name, to which no line leads under another name
     or across another such line; where every place has a line, the one with the fewest; None where there is no place.
     Pixels; `half` its size, `room` the picture's box, `leads` the lines that lead to names."""
@@ -195,8 +215,12 @@ def best_place(
             middles = np.vstack([at, middles])
         boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
         free = ~overlapping(boxes, taken).any(axis=1) & _inside(boxes, room)
-        hits = np.array([crossing(box, lines) + CROSSED * crossing(box, leads) if ok else np.inf
-                         for box, ok in zip(boxes, free, strict=True)])  # fmt: skip
+        hits = np.array(
+            [
+                crossing(box, lines) + CROSSED * crossing(box, leads) if ok else np.inf
+                for box, ok in zip(boxes, free, strict=True)
+            ]
+        )
         for j in np.flatnonzero(free):
             if len(taken) and is_led(at, middles[j], half, clear, point):
                 back = lead(at, middles[j], half, clear)

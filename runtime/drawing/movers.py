@@ -257,9 +257,12 @@ def _other(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
 
 _DRIVES = {"angle": _angle, "coordinate": _coordinate, "distance": _cylinder}
 _FORCES = {
-    "spring_damper": _spring_damper, "rotational_spring_damper": _spiral, "torque": _torque, "force": _force,
+    "spring_damper": _spring_damper,
+    "rotational_spring_damper": _spiral,
+    "torque": _torque,
+    "force": _force,
     "dry_friction": _dry_friction,
-}  # fmt: skip
+}
 
 
 def gravity_of(posture: Posture) -> Array | None:

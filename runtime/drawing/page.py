@@ -21,9 +21,14 @@ Styles = dict[tuple[str, int], int]
 
 
 def page(
-    title: str, sketches: Sequence[Sketch], times: Sequence[float], seconds: float, width: float,
-    beside: Mapping[str, tuple[float, float]], halves: Mapping[str, Array],
-) -> str:  # fmt: skip
+    title: str,
+    sketches: Sequence[Sketch],
+    times: Sequence[float],
+    seconds: float,
+    width: float,
+    beside: Mapping[str, tuple[float, float]],
+    halves: Mapping[str, Array],
+) -> str:
     """The whole text. `sketches` in one box, at `times` (s) of the run, are shown within `seconds`; `width` in pixels,
     `beside` how far the middle of each name is from what it names, at first, pixels, y up, `halves` half its size."""
     first = sketches[0]
@@ -41,15 +46,25 @@ def page(
     followed = _followed(sketches, beside, halves, scale)
     places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, followed, strict=True)]
     data = {
-        "times": [round(t, 9) for t in times], "seconds": seconds, "styles": [_css(*key) for key in styles],
-        "frames": _changes(frames), "places": _changes(places),
-    }  # fmt: skip
+        "times": [round(t, 9) for t in times],
+        "seconds": seconds,
+        "styles": [_css(*key) for key in styles],
+        "frames": _changes(frames),
+        "places": _changes(places),
+    }
     texts = "".join(_name(label.text, label.role, label.part, first) for label in names)
     paths = "".join(f'<path id="{name}"/>' for name in kinds)
     note = "<br>".join(escape(note) for note in first.notes)
     told = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    slots = {"TITLE": escape(title), "NOTE": note, "WIDTH": f"{width:.0f}", "HEIGHT": f"{height:.0f}", "PATHS": paths,
-             "NAMES": texts, "DATA": told}  # fmt: skip
+    slots = {
+        "TITLE": escape(title),
+        "NOTE": note,
+        "WIDTH": f"{width:.0f}",
+        "HEIGHT": f"{height:.0f}",
+        "PATHS": paths,
+        "NAMES": texts,
+        "DATA": told,
+    }
     return re.sub(
         f"@({'|'.join(slots)})@", lambda found: slots[found[1]], PAGE
     )  # in one go: a title may hold such a word

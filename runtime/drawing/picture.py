@@ -120,8 +120,11 @@ def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
     """An SVG, PNG or PDF without date or version: the same picture gives the same bytes."""
     out = io.BytesIO()
     kind = suffix.removeprefix(".")
-    metadata = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None},
-                "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]  # fmt: skip
+    metadata = {
+        "svg": {"Date": None, "Creator": None},
+        "png": {"Software": None},
+        "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+    }[kind]
     with matplotlib.rc_context(STYLE), one_word_on_signs():
         picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
     return out.getvalue()

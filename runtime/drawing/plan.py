@@ -114,9 +114,11 @@ def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
     here = first.place(end)
     holding = [joint for joint in first.parts("joints") if type_of(joint).holds_points]
     bodies = {
-        body for other in holding for body in map(body_of, other.ends)
+        body
+        for other in holding
+        for body in map(body_of, other.ends)
         if body != GROUND and any(np.abs(first.place(e) - here).max() < 1e-9 for e in other.ends)
-    }  # fmt: skip
+    }
     for posture in postures:
         spans = [place - here for body in sorted(bodies) for place in anchors(posture, body).values()]
         angles += [np.arctan2(y, x) for x, y in spans if np.hypot(x, y) > 1e-9]

@@ -102,16 +102,23 @@ class Rig:
     def json(self, digits: float = 1e-2 * EXACT) -> dict[str, Any]:
         """For drawing.js; numbers in shares of `digits` of the size, as whole numbers, runs of one carrier together."""
         step = digits * self.size
-        order = {carrier: k for k, carrier in enumerate(
-            dict.fromkeys([*(one for shape in self.shapes for one in shape.carriers), *self.labels]))}  # fmt: skip
+        order = {
+            carrier: k
+            for k, carrier in enumerate(
+                dict.fromkeys([*(one for shape in self.shapes for one in shape.carriers), *self.labels])
+            )
+        }
         return {
-            "step": step, "low": self.sketch.low.tolist(), "high": self.sketch.high.tolist(),
+            "step": step,
+            "low": self.sketch.low.tolist(),
+            "high": self.sketch.high.tolist(),
             "unit": self.sketch.unit,
             "carriers": [[carrier.point, list(carrier.turn), carrier.by] for carrier in order],
             "shapes": [_told(one, order, step) for one in self.shapes],
-            "labels": [[order[carrier], *_whole(place, step)]
-                       for carrier, place in zip(self.labels, self.places, strict=True)],
-        }  # fmt: skip
+            "labels": [
+                [order[carrier], *_whole(place, step)] for carrier, place in zip(self.labels, self.places, strict=True)
+            ],
+        }
 
 
 def _told(carried: Carried, order: dict[Carrier, int], step: float) -> list[Any]:
@@ -188,8 +195,10 @@ def _moved(real: Sequence[Posture], size: float) -> Iterator[Posture]:
             q, p = posture.q.copy(), posture.p.copy()
             q += far * chance.uniform(-1.0, 1.0, len(q)) * np.where(angle, 2.0, size)
             p[moved] *= 1.0 + share * chance.uniform(-1.0, 1.0, len(moved))
-            loads = {name: (x + far * chance.normal() * abs(x + y), y + far * chance.normal() * abs(x + y))
-                     for name, (x, y) in posture.loads.items()}  # fmt: skip
+            loads = {
+                name: (x + far * chance.normal() * abs(x + y), y + far * chance.normal() * abs(x + y))
+                for name, (x, y) in posture.loads.items()
+            }
             yield Posture(source, p, q, posture.t, posture.v, loads)
 
 
@@ -204,8 +213,9 @@ def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     if kind == "point":
         bodies, ends = [body_of(name)], [name]
     held = [end for body in bodies for end in posture.held.get(body, ()) if body != GROUND]
-    points = [name for name in dict.fromkeys([*ends, *held, *(f"{body}.com" for body in bodies)])
-              if name in posture.points]  # fmt: skip
+    points = [
+        name for name in dict.fromkeys([*ends, *held, *(f"{body}.com" for body in bodies)]) if name in posture.points
+    ]
     turns: list[tuple[Any, ...]] = [()]
     turns += [("body", posture.bodies[body].index + 2) for body in bodies if body in posture.bodies]
     turns += _axes(posture, about) + [("load", one.name) for one in about if one.kind == "force"]
@@ -214,8 +224,12 @@ def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     yield from (Carrier("", turn) for turn in turns)
     yield from (Carrier(point, turn) for turn in turns for point in points)
     yield from (Carrier(one, ("pair", other), -2) for one, other in permutations(points, 2))
-    numbers = [k for address, k in place.items() for one in about
-               if address.startswith(f"{one.section}.{one.name}.") and source.slots[k].unit == "m"]  # fmt: skip
+    numbers = [
+        k
+        for address, k in place.items()
+        for one in about
+        if address.startswith(f"{one.section}.{one.name}.") and source.slots[k].unit == "m"
+    ]
     numbers += [one.clearance for one in source.clearances if one.at_wall and one.joint in (x.name for x in about)]
     for k in dict.fromkeys(numbers):
         yield from (Carrier(point, turn, k) for turn in turns for point in points)
@@ -244,8 +258,11 @@ class _Ways:
     def carry(self, shape: Shape, seen: Sequence[Shape | None]) -> Carried:
         """The shape with the first carrier of each point that explains it, or the one that comes nearest."""
         first = _points(shape)
-        same = [k for k, other in enumerate(seen) if other is not None and type(other) is type(shape)
-                and len(_points(other)) == len(first)]  # fmt: skip
+        same = [
+            k
+            for k, other in enumerate(seen)
+            if other is not None and type(other) is type(shape) and len(_points(other)) == len(first)
+        ]
         same = same if len(same) >= FEW else list(range(1))
         x = np.array([_points(seen[k]) for k in same])  # type: ignore[arg-type]
         best, off = np.zeros(len(first), dtype=int), np.full(len(first), np.inf)
@@ -290,4 +307,3 @@ class _Ways:
 
 def _points(shape: Shape) -> Array:
     return shape.centre[None] if isinstance(shape, Disc) else shape.points
-

@@ -70,14 +70,22 @@ ROLES: Mapping[str, Role] = {
     "touched": Role(WRONG, "#ffd5d0", 1.4, 4.4),
     "touching": Role(WRONG, "#ffd5d0", 1.4, 4.55),
     "scale": Role(INK, "", 1.0, 1.0),
-}  # fmt: skip
+}
 
 # colour and weight of names
 NAMES: Mapping[str, tuple[str, str]] = {
-    "body": ("edge", "bold"), "joint": (INK, "normal"), "drive": (DRIVEN, "normal"), "force": (LOADED, "normal"),
-    "point": (WOUND, "normal"), "gap": (WRONG, "bold"), "free": (WRONG, "bold"), "gravity": (GREY, "normal"),
-    "inset": (INK, "normal"), "scale": (INK, "normal"), "path": ("#9c4300", "normal"),
-}  # fmt: skip
+    "body": ("edge", "bold"),
+    "joint": (INK, "normal"),
+    "drive": (DRIVEN, "normal"),
+    "force": (LOADED, "normal"),
+    "point": (WOUND, "normal"),
+    "gap": (WRONG, "bold"),
+    "free": (WRONG, "bold"),
+    "gravity": (GREY, "normal"),
+    "inset": (INK, "normal"),
+    "scale": (INK, "normal"),
+    "path": ("#9c4300", "normal"),
+}
 
 
 def colour_of(word: str, tint: int) -> str:

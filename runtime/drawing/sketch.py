@@ -24,11 +24,19 @@ MARGIN = 2.6  # units around all
 
 
 def make_sketch(
-    posture: Posture, plan: Plan | None = None, *, more: Sequence[Shape] = (), labels: Sequence[Label] = (),
-    arrows: Sequence[Arrows] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] | None = None,
-    touched: frozenset[str] = frozenset(), box: tuple[Array, Array] | None = None, inset: bool = True,
+    posture: Posture,
+    plan: Plan | None = None,
+    *,
+    more: Sequence[Shape] = (),
+    labels: Sequence[Label] = (),
+    arrows: Sequence[Arrows] = (),
+    loose: frozenset[str] = frozenset(),
+    touching: frozenset[str] | None = None,
+    touched: frozenset[str] = frozenset(),
+    box: tuple[Array, Array] | None = None,
+    inset: bool = True,
     still: bool = True,
-) -> Sketch:  # fmt: skip
+) -> Sketch:
     """The drawing of a posture. `more` shapes with their `labels`, and `arrows` with their scales come on top.
 
     With a `box` of `room_of_all` it keeps its place among others of a motion; names of a picture that is not `still`

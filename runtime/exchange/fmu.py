@@ -74,14 +74,24 @@ def _readme(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
     lines = [line for line in source.files.get(README, "").splitlines() if line.startswith("- `")]
     told = [line for line in lines if line.split("`")[1] in own]
     flags = "-O1 -std=c11 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I."
-    return "\n".join([
-        f"# Sources of the FMU `{name}`", "",
-        f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.", "",
-        *told, "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
-        "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events", "",
-        "In this folder, where the importer does not do it by `buildDescription.xml`:", "", "```",
-        f"cc {flags} {' '.join(UNITS)} -lm -o {name}.so", "```", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f"# Sources of the FMU `{name}`",
+            "",
+            f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.",
+            "",
+            *told,
+            "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
+            "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events",
+            "",
+            "In this folder, where the importer does not do it by `buildDescription.xml`:",
+            "",
+            "```",
+            f"cc {flags} {' '.join(UNITS)} -lm -o {name}.so",
+            "```",
+            "",
+        ]
+    )
 
 
 def _engine() -> dict[str, str]:
@@ -121,26 +131,42 @@ def _header(simulation: Simulation) -> str:
     angles = [int(x) for x in integrated_angles(source)] if source.tree or source.formulation == "full" else []
     places = [(part, column) for _, _, part, column, _ in outputs(source)]
     defines: dict[str, object] = {
-        "FMU_TOKEN": f'"{token(source)}"', "FMU_SLOTS": max(len(source.slots), 1), "FMU_NUMBERS": max(compiled.n_p, 1),
-        "FMU_SLOTS_USED": len(source.slots), "FMU_OUTPUTS": len(places), "FMU_GAINS": len(gains),
-        "FMU_SIZES": len(sizes), "FMU_PLAYS": len(plays), "FMU_RTOL": repr(RTOL), "FMU_FINE": repr(FINE),
-        "FMU_FILM": int(any(joint.film for joint in source.clearances)), "FMU_FELT": repr(FELT_BY_FILMS),
-        "FMU_BEYOND": int(bool(compiled.beyond)), "FMU_REACH": repr(REACH), "FMU_AUTOMATIC": int(not source.explicit),
-        "FMU_BEGINS": f'"{begins}"', "FMU_STIFF": f'"{stiff}"', "FMU_BEGINS_FINE": f'"{begins_fine}"',
-        "FMU_STIFF_FINE": f'"{stiff_fine}"', "FMU_EXCHANGE": int(not kept_from_exchange(source)),
-        "FMU_CONDITIONS": len(conditions(source)), "FMU_JUMPS": len(jumps(source)),
+        "FMU_TOKEN": f'"{token(source)}"',
+        "FMU_SLOTS": max(len(source.slots), 1),
+        "FMU_NUMBERS": max(compiled.n_p, 1),
+        "FMU_SLOTS_USED": len(source.slots),
+        "FMU_OUTPUTS": len(places),
+        "FMU_GAINS": len(gains),
+        "FMU_SIZES": len(sizes),
+        "FMU_PLAYS": len(plays),
+        "FMU_RTOL": repr(RTOL),
+        "FMU_FINE": repr(FINE),
+        "FMU_FILM": int(any(joint.film for joint in source.clearances)),
+        "FMU_FELT": repr(FELT_BY_FILMS),
+        "FMU_BEYOND": int(bool(compiled.beyond)),
+        "FMU_REACH": repr(REACH),
+        "FMU_AUTOMATIC": int(not source.explicit),
+        "FMU_BEGINS": f'"{begins}"',
+        "FMU_STIFF": f'"{stiff}"',
+        "FMU_BEGINS_FINE": f'"{begins_fine}"',
+        "FMU_STIFF_FINE": f'"{stiff_fine}"',
+        "FMU_EXCHANGE": int(not kept_from_exchange(source)),
+        "FMU_CONDITIONS": len(conditions(source)),
+        "FMU_JUMPS": len(jumps(source)),
         "FMU_LEAST_CLEARANCE": repr(LEAST_CLEARANCE),
-    }  # fmt: skip
+    }
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
     lines += [
         _table("double", "fmu_defaults", [repr(float(slot.default)) for slot in source.slots]),
         _table("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
-        _table("int", "fmu_gains", gains), _table("int", "fmu_plays", plays),
+        _table("int", "fmu_gains", gains),
+        _table("int", "fmu_plays", plays),
         _table("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
-        _table("unsigned char", "fmu_is_angle", angles), _table("int", "fmu_jumps", jumps(source)),
+        _table("unsigned char", "fmu_is_angle", angles),
+        _table("int", "fmu_jumps", jumps(source)),
         _table("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in places], "[2]"),
-    ]  # fmt: skip
+    ]
     return "\n".join([*lines, *_conditions(source)]) + "\n"
 
 
@@ -160,11 +186,14 @@ def _conditions(source: KernelSource) -> list[str]:
         bounds += [source.place[address] for address in one.addresses]
     return [
         _table("struct { const char *address, *unit; int follows, chosen; }", "fmu_slots", slots or ['{"", "", 0, 0}']),
-        _table("struct { int slot, first, count; const char *relation; double bound; const char *message; }",
-               "fmu_conditions", rows or ['{0, 0, 0, "<", 0.0, ""}']),
+        _table(
+            "struct { int slot, first, count; const char *relation; double bound; const char *message; }",
+            "fmu_conditions",
+            rows or ['{0, 0, 0, "<", 0.0, ""}'],
+        ),
         _table("int", "fmu_bounds", bounds),
         _table("char *const", "fmu_joints", [_quoted(joint.name) for joint in source.clearances]),
-    ]  # fmt: skip
+    ]
 
 
 def _quoted(text: str) -> str:

@@ -31,8 +31,22 @@ from gudgeon.loading.engine import sizes
 from gudgeon.model.parameters import conditions, expected
 from gudgeon.results.series import catalogue
 
-PARTS = ("q", "v", "work", "memory", "a", "multipliers", "reactions", "torques", "clearance", "series", "friction",
-         "energy", "power", "drift")  # fmt: skip
+PARTS = (
+    "q",
+    "v",
+    "work",
+    "memory",
+    "a",
+    "multipliers",
+    "reactions",
+    "torques",
+    "clearance",
+    "series",
+    "friction",
+    "energy",
+    "power",
+    "drift",
+)
 WIDTHS = {"reactions": N_REACTION_COLUMNS, "clearance": N_CLEARANCE_COLUMNS, "friction": N_FRICTION_COLUMNS}
 UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # what is compiled
 
@@ -195,29 +209,51 @@ def description(source: KernelSource, name: str) -> str:
     units |= integrated | {_rate(unit) for unit in integrated}
     title = quoteattr(source.title or source.mechanism)
     slopes = ' providesDirectionalDerivatives="true"'
-    return "\n".join([
-        '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} instantiationToken="{token(source)}"',
-        f'  description={title} generationTool="gudgeon" variableNamingConvention="flat">',
-        *([f'  <ModelExchange modelIdentifier="{name}" needsCompletedIntegratorStep="true"',
-           f'    canGetAndSetFMUState="true" canSerializeFMUState="true"{slopes}/>'] if integrated else []),
-        f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
-        '    canGetAndSetFMUState="true" canSerializeFMUState="true"/>',
-        "  <UnitDefinitions>", *_units(units), "  </UnitDefinitions>",
-        f'  <DefaultExperiment startTime="0" tolerance="{RTOL!r}"/>',
-        "  <ModelVariables>", *_variables(source), "  </ModelVariables>",
-        "  <ModelStructure>", *_structure(source), "  </ModelStructure>",
-        "</fmiModelDescription>", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            '<?xml version="1.0" encoding="UTF-8"?>',
+            f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} instantiationToken="{token(source)}"',
+            f'  description={title} generationTool="gudgeon" variableNamingConvention="flat">',
+            *(
+                [
+                    f'  <ModelExchange modelIdentifier="{name}" needsCompletedIntegratorStep="true"',
+                    f'    canGetAndSetFMUState="true" canSerializeFMUState="true"{slopes}/>',
+                ]
+                if integrated
+                else []
+            ),
+            f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
+            '    canGetAndSetFMUState="true" canSerializeFMUState="true"/>',
+            "  <UnitDefinitions>",
+            *_units(units),
+            "  </UnitDefinitions>",
+            f'  <DefaultExperiment startTime="0" tolerance="{RTOL!r}"/>',
+            "  <ModelVariables>",
+            *_variables(source),
+            "  </ModelVariables>",
+            "  <ModelStructure>",
+            *_structure(source),
+            "  </ModelStructure>",
+            "</fmiModelDescription>",
+            "",
+        ]
+    )
 
 
 def build(name: str) -> str:
     """sources/buildDescription.xml."""
-    return "\n".join([
-        '<?xml version="1.0" encoding="UTF-8"?>', '<fmiBuildDescription fmiVersion="3.0">',
-        f'  <BuildConfiguration modelIdentifier="{name}">',
-        '    <SourceFileSet language="C11" compilerOptions="-ffp-contract=off">',
-        *(f'      <SourceFile name="{unit}"/>' for unit in UNITS),
-        '      <IncludeDirectory name="."/>', "    </SourceFileSet>", '    <Library name="m" external="true"/>',
-        "  </BuildConfiguration>", "</fmiBuildDescription>", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            '<?xml version="1.0" encoding="UTF-8"?>',
+            '<fmiBuildDescription fmiVersion="3.0">',
+            f'  <BuildConfiguration modelIdentifier="{name}">',
+            '    <SourceFileSet language="C11" compilerOptions="-ffp-contract=off">',
+            *(f'      <SourceFile name="{unit}"/>' for unit in UNITS),
+            '      <IncludeDirectory name="."/>',
+            "    </SourceFileSet>",
+            '    <Library name="m" external="true"/>',
+            "  </BuildConfiguration>",
+            "</fmiBuildDescription>",
+            "",
+        ]
+    )

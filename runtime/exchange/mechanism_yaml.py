@@ -171,8 +171,9 @@ class _Writer:
         out = ["\ndrives:\n", *out] if out else []
         guesses = [
             f"{self.named(body)}.theta: {_number(math.degrees(angle))} deg"
-            for body in self.linkage.bodies if id(body) not in driven and (angle := self.angle(body)) is not None
-        ]  # fmt: skip
+            for body in self.linkage.bodies
+            if id(body) not in driven and (angle := self.angle(body)) is not None
+        ]
         return [*out, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
 
     def _value(self, drive: Drive, rate: str) -> str:

@@ -27,8 +27,16 @@ LENGTHS = ((0.0254, "m"), (1.0, "cm"), (1.0, "m"))  # of the first digit of the 
 PISTON, ROOT = "P", "Y"
 BEGIN = "j="
 REMEDY = "this link is of PMKS+ before April 2023: draw the linkage in today's PMKS+ and share it from there"
-UNITS = {"cm": (1.0, "cm"), "m": (1.0, "m"), "metric": (1.0, "cm"), "si": (1.0, "m"), "inch": (0.0254, "m"),
-         "in": (0.0254, "m"), "english": (0.0254, "m"), "mm": (1.0, "mm")}  # fmt: skip
+UNITS = {
+    "cm": (1.0, "cm"),
+    "m": (1.0, "m"),
+    "metric": (1.0, "cm"),
+    "si": (1.0, "m"),
+    "inch": (0.0254, "m"),
+    "in": (0.0254, "m"),
+    "english": (0.0254, "m"),
+    "mm": (1.0, "mm"),
+}
 
 
 @dataclass
@@ -210,7 +218,7 @@ def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
 
 def add_link(
     linkage: Linkage, name: str, joints: Sequence[str], mass: float, inertia: float, com: Point, found: Joints
-) -> None:  # fmt: skip
+) -> None:
     """A body at its joints' positions; a mass or a moment of inertia of 0 is one that was not given."""
     for what, value in (("mass", mass), ("moment of inertia", inertia)):
         if not 0.0 <= value <= MAX_NUMBER:

@@ -214,9 +214,13 @@ def _sync(handle: int) -> None:
 def kind(found: os.stat_result) -> str:
     """What a path that is no regular file is, in words."""
     kinds = {
-        stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFCHR: "a device",
-        stat.S_IFBLK: "a device", stat.S_IFLNK: "a link",
-    }  # fmt: skip
+        stat.S_IFDIR: "a folder",
+        stat.S_IFIFO: "a pipe",
+        stat.S_IFSOCK: "a socket",
+        stat.S_IFCHR: "a device",
+        stat.S_IFBLK: "a device",
+        stat.S_IFLNK: "a link",
+    }
     return kinds.get(stat.S_IFMT(found.st_mode), "no regular file")
 
 

@@ -62,9 +62,21 @@ class Runs(StoredRuns):
     """
 
     def __init__(
-        self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
-        stop: bool, audit: int, side_by_side: bool, threads: int, shared: bool = False, drive: Drive | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        compiled: CompiledModel,
+        p: Array,
+        motion: Array,
+        times: Times,
+        method: str,
+        step: Array,
+        rtol: float,
+        stop: bool,
+        audit: int,
+        side_by_side: bool,
+        threads: int,
+        shared: bool = False,
+        drive: Drive | None = None,
+    ) -> None:
         self.threads, self.rtol, self.shared, self.drive = threads, rtol, shared, drive
         self.stop, self.audit = stop, audit
         self.over: Callable[[Sequence[int]], None] | None = None  # takes what is wanted of runs that are over
@@ -89,12 +101,20 @@ class Runs(StoredRuns):
         compiled, n, x = self.compiled, self.n, self.arrays
         scale, least = adaptive.tolerances(compiled, x["p"], self.rtol)
         x |= {
-            "t": self.times.t, "wanted": self.times.count, "scale": scale, "least": least,
-            "size": mechanism_sizes(compiled.source, x["p"]), "checked": np.zeros(n, np.int_),
-            "last": np.full((n, 2 * compiled.n + N_WORK), np.nan), "audited": np.full((n, N_CHECKS), -1.0),
-            "audited_t": np.zeros((n, N_CHECKS)), "audited_where": np.full((n, N_CHECKS), -1, np.intc),
-            "gained": np.zeros(n), "paced": np.zeros((n, 2), np.int_), "ended": np.zeros((n, N_STEP_ENDS), np.int_),
-        }  # fmt: skip
+            "t": self.times.t,
+            "wanted": self.times.count,
+            "scale": scale,
+            "least": least,
+            "size": mechanism_sizes(compiled.source, x["p"]),
+            "checked": np.zeros(n, np.int_),
+            "last": np.full((n, 2 * compiled.n + N_WORK), np.nan),
+            "audited": np.full((n, N_CHECKS), -1.0),
+            "audited_t": np.zeros((n, N_CHECKS)),
+            "audited_where": np.full((n, N_CHECKS), -1, np.intc),
+            "gained": np.zeros(n),
+            "paced": np.zeros((n, 2), np.int_),
+            "ended": np.zeros((n, N_STEP_ENDS), np.int_),
+        }
         self.arrays = {name: np.ascontiguousarray(array) for name, array in x.items()}
         struct = compiled.ffi.new("Batch *")
         struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, x["p"].shape[1]
@@ -196,12 +216,21 @@ class Runs(StoredRuns):
         """Run i, which was closed or goes on from a state, as a run alone."""
         x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
         return Problem(
-            self.compiled, x["p"][i], self.times.of(i), x["start"][i, :n], x["start"][i, n:],
-            x["remembered"][i, : self.compiled.n_memory], float(x["step"][i]),
-            state=x["codes"][i, :joints] if i in self.resumed else None, method=self.method, rtol=self.rtol,
-            p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop,
-            start_is_sample=not self.times.skipped[i], audit=self.audit,
-        )  # fmt: skip
+            self.compiled,
+            x["p"][i],
+            self.times.of(i),
+            x["start"][i, :n],
+            x["start"][i, n:],
+            x["remembered"][i, : self.compiled.n_memory],
+            float(x["step"][i]),
+            state=x["codes"][i, :joints] if i in self.resumed else None,
+            method=self.method,
+            rtol=self.rtol,
+            p_free=None if self.method == "rk4" else x["p_motion"][i],
+            stop=self.stop,
+            start_is_sample=not self.times.skipped[i],
+            audit=self.audit,
+        )
 
     def take(self) -> None:
         """Raise KeyboardInterrupt where all runs are to end."""
@@ -234,9 +263,13 @@ class Runs(StoredRuns):
             self.over(over)
 
     def alone(
-        self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None,
+        self,
+        first: int,
+        end: int,
+        memory: NDArray[np.uint8],
+        tape: Tape | None,
         poll: Callable[[], object] = lambda: None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Runs one after the other, from where they are to their ends; `poll` is called after each call of C."""
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         compiled.lib.newest()
@@ -316,9 +349,19 @@ def integrate(problem: Problem, drive: Drive | None = None) -> Trajectory:
     times = Times(problem.t, np.full(1, len(problem.t)), np.zeros(1, np.int_))
     motion = problem.p if problem.method == "rk4" or problem.p_free is None else problem.p_free
     runs = Runs(
-        problem.compiled, problem.p[None], motion[None], times, problem.method, np.full(1, problem.step), problem.rtol,
-        problem.stop, problem.audit, side_by_side=False, threads=1, drive=drive,
-    )  # fmt: skip
+        problem.compiled,
+        problem.p[None],
+        motion[None],
+        times,
+        problem.method,
+        np.full(1, problem.step),
+        problem.rtol,
+        problem.stop,
+        problem.audit,
+        side_by_side=False,
+        threads=1,
+        drive=drive,
+    )
     runs.begin([problem])
     runs.looks = [problem.look] if problem.look else ()
     if problem.compiled.source.clearances and not drive:

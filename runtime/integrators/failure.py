@@ -75,9 +75,16 @@ def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end:
 
 
 def _failure(
-    compiled: CompiledModel, method: str, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array,
+    compiled: CompiledModel,
+    method: str,
+    status: int,
+    t: float,
+    advice: str,
+    last: Array,
+    e_max: Array,
+    p: Array,
     ahead: float,
-) -> SolverError:  # fmt: skip
+) -> SolverError:
     """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters.
 
     `ahead` (s): how far a step of fixed length looked beyond that state.
@@ -133,8 +140,9 @@ def _chattering(compiled: CompiledModel, t: float) -> SolverError:
     if compiled.source.rigid:
         return SolverError(
             f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
-            f"  a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)} closes them earlier", t
-        )  # fmt: skip
+            f"  a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)} closes them earlier",
+            t,
+        )
     source = compiled.source
     used = f"  dry_friction sticks at a slip below {AT_REST:g} m/s: speeds that small are not resolved"
     advice = [used] if source.frictions else []
@@ -154,8 +162,10 @@ def _singular(
             f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
             f" row {row}{drives_at(compiled, p, t)}\n"
             "  the lengths do not let the drives move on from there; end the run before it, or change the drive; in rk4"
-            " a shorter step follows a faster one", t, row
-        )  # fmt: skip
+            " a shorter step follows a faster one",
+            t,
+            row,
+        )
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots, p)
     except SingularError as error:
@@ -220,8 +230,9 @@ def outgrown(pace: Pace, drives: str) -> SolverError:
     return SolverError(
         f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
         f" and less and less, {pace.left:.3g} s are left{drives}\n"
-        f"  {GROWN}", pace.t
-    )  # fmt: skip
+        f"  {GROWN}",
+        pace.t,
+    )
 
 
 def too_far(pace: Pace) -> SolverError:
@@ -229,8 +240,9 @@ def too_far(pace: Pace) -> SolverError:
     return SolverError(
         f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the {pace.left:.3g} s"
         f" that are left take {pace.needed:.1e} more\n"
-        "  take a nearer t_end, or go on from the final state of what was computed, which is kept", pace.t
-    )  # fmt: skip
+        "  take a nearer t_end, or go on from the final state of what was computed, which is kept",
+        pace.t,
+    )
 
 
 def with_corners(source: KernelSource) -> str:
@@ -256,8 +268,12 @@ def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_ma
         return outgrown(pace, fast)
     cornered = with_corners(compiled.source)
     form = f" in {cornered}" if cornered else " of a law"
-    kinds = ("a contact begins or ends", f"a force changes its form (a corner{form})",
-             "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
+    kinds = (
+        "a contact begins or ends",
+        f"a force changes its form (a corner{form})",
+        "friction changes between stick and slip",
+        "an event's expression is zero",
+    )
     count = "all" if ended[whose] == pace.steps else str(ended[whose])
     if film:
         why = film
@@ -269,8 +285,9 @@ def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_ma
         f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gained:.3g} s;"
         f" {pace.left:.3g} s are left, {pace.needed:.1e} steps at this pace\n  {why}\n"
         f"  what was computed is kept: look at its last samples, or end the run before; {JUMPS};"
-        " rk4 with a step of its own goes over a jump of a force, with an error", pace.t
-    )  # fmt: skip
+        " rk4 with a step of its own goes over a jump of a force, with an error",
+        pace.t,
+    )
 
 
 def squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
@@ -296,8 +313,9 @@ def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> Solv
     laws, oil = ("laws of contact", "") if at_wall else ("laws of contact and film", ", a thicker oil")
     error = SolverError(
         f"{whose} lies {1e3 * deepest:.3g} mm deep in {where}, beyond {limit} at t = {t:.9g} s\n"
-        f"  {laws} hold for far less: a stiffer material{oil} or less speed, and in rk4 a shorter step", t
-    )  # fmt: skip
+        f"  {laws} hold for far less: a stiffer material{oil} or less speed, and in rk4 a shorter step",
+        t,
+    )
     error.outside_model = True
     return error
 
@@ -320,8 +338,9 @@ def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> So
     )
     return SolverError(
         f"the linkage reaches a dead centre at t = {t:.9g} s: constraint rows {', '.join(rows)} depend on each other\n"
-        f"  {advice}", t
-    )  # fmt: skip
+        f"  {advice}",
+        t,
+    )
 
 
 def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
@@ -333,7 +352,7 @@ def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> S
                 f"the film in joint {joint.name} is squeezed out at t = {t:.9g} s: e/c = {ratio:.7g}\n"
                 "  its law is singular at e = c: a thicker oil, or a dry contact beyond it, keeps the surfaces apart",
                 t,
-            )  # fmt: skip
+            )
             error.outside_model = True
             return error
     return None
@@ -345,8 +364,9 @@ def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.
     What was not checked, and has a negative value, has none.
     """
     rows = zip(CHECKS, worst.tolist(), t.tolist(), where.tolist(), strict=True)
-    return tuple(Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows
-                 if value >= 0.0)  # fmt: skip
+    return tuple(
+        Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows if value >= 0.0
+    )
 
 
 def _place(source: KernelSource, check: Check, k: int) -> str:

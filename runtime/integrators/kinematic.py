@@ -73,7 +73,7 @@ class _Way:
         none = np.zeros((1, 0))
         begin = Steps(
             self.t[:1], self.q[:1], self.v[:1], self.work[:1], none, none.astype(np.int8), np.ones(1, dtype=bool)
-        )  # fmt: skip
+        )
         return Course(self.compiled, look, self._course, begin)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
@@ -117,10 +117,16 @@ class _Way:
         while status == EVENTS_FULL:
             rows, before = slice(first, None), perf_counter()
             status = self.compiled.lib.gudgeon_kinematic(
-                course, last - first, self.pointer(self.t[rows]),
-                self.pointer(self.problem.p), *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
-                self.pointer(self.maxima), self.pointer(self.maxima[1:]), longs, longs + 1,
-            )  # fmt: skip
+                course,
+                last - first,
+                self.pointer(self.t[rows]),
+                self.pointer(self.problem.p),
+                *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
+                self.pointer(self.maxima),
+                self.pointer(self.maxima[1:]),
+                longs,
+                longs + 1,
+            )
             self.seconds += perf_counter() - before
             first += int(self.longs[1])
             if self.steps:
@@ -134,10 +140,13 @@ class _Way:
             return last
         rows, done = slice(first, None), np.zeros(1, dtype=np.int_)
         status = self.compiled.lib.gudgeon_kinematic_works(
-            self.pointer(self.course, "void *"), last - first, self.pointer(self.t[rows]),
-            self.pointer(self.problem.p), *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
+            self.pointer(self.course, "void *"),
+            last - first,
+            self.pointer(self.t[rows]),
+            self.pointer(self.problem.p),
+            *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
             self.pointer(done, "long *"),
-        )  # fmt: skip
+        )
         self.asker.check(status == STOPPED)
         if status:
             self.reached = first + int(done[0])
@@ -202,10 +211,23 @@ class _Way:
         events, lost = (no_events(), no_events()) if self.events is None else self.events.in_order()
         counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
         return Trajectory(
-            t, self.q[rows], self.v[rows], self.a[rows], empty, empty.astype(np.int8), self.work[rows],
-            np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, N_PEAK)), counts, interrupted, stopped, self.seconds,
-            events[events["t"] <= t[-1]], no_number=lost[lost["t"] <= t[-1]], change_points=(passed, float(first[0])),
-        )  # fmt: skip
+            t,
+            self.q[rows],
+            self.v[rows],
+            self.a[rows],
+            empty,
+            empty.astype(np.int8),
+            self.work[rows],
+            np.zeros(0, dtype=IMPACT_DTYPE),
+            np.zeros((0, N_PEAK)),
+            counts,
+            interrupted,
+            stopped,
+            self.seconds,
+            events[events["t"] <= t[-1]],
+            no_number=lost[lost["t"] <= t[-1]],
+            change_points=(passed, float(first[0])),
+        )
 
 
 def run(problem: Problem) -> Trajectory:
@@ -236,9 +258,16 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
     size = mechanism_size(compiled, p)
     compiled.lib.gudgeon_course_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
     compiled.lib.gudgeon_kinematic(
-        where, T - 1, pointer(t), pointer(p), *(pointer(x, written=True) for x in (every_q, every_v, a)),
-        pointer(maxima), pointer(maxima[1:]), pointer(done, "long *"), pointer(done[1:], "long *"),
-    )  # fmt: skip
+        where,
+        T - 1,
+        pointer(t),
+        pointer(p),
+        *(pointer(x, written=True) for x in (every_q, every_v, a)),
+        pointer(maxima),
+        pointer(maxima[1:]),
+        pointer(done, "long *"),
+        pointer(done[1:], "long *"),
+    )
     return every_q, every_v
 
 
@@ -268,8 +297,10 @@ def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
         return SingularError(
             f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}"
             f"{drives_at(problem.compiled, problem.p, t)}\n"
-            f"  the drives do not tell on which one it goes on: {remedy}", t, row
-        )  # fmt: skip
+            f"  the drives do not tell on which one it goes on: {remedy}",
+            t,
+            row,
+        )
     return SingularError(
         f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
         f" vanished{drives_at(problem.compiled, problem.p, t)}\n"
@@ -317,11 +348,21 @@ class Events:
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
         at, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
         status = self.problem.compiled.lib.gudgeon_kinematic_events(
-            pointer(way.course, "void *"), len(times) - 1, pointer(times), pointer(self.problem.p),
-            pointer(way.q[row:]), pointer(way.v[row:]), float(way.t[0]), int(self.problem.stop),
-            pointer(self.side, "signed char *"), self.capacity, pointer(at), pointer(which, "int *"),
-            pointer(counts, "long *"), pointer(counts[1:], "long *"),
-        )  # fmt: skip
+            pointer(way.course, "void *"),
+            len(times) - 1,
+            pointer(times),
+            pointer(self.problem.p),
+            pointer(way.q[row:]),
+            pointer(way.v[row:]),
+            float(way.t[0]),
+            int(self.problem.stop),
+            pointer(self.side, "signed char *"),
+            self.capacity,
+            pointer(at),
+            pointer(which, "int *"),
+            pointer(counts, "long *"),
+            pointer(counts[1:], "long *"),
+        )
         way.asker.check(status == STOPPED)
         some = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
         some["event"], some["t"] = which[: len(some)], at[: len(some)]

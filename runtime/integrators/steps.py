@@ -68,9 +68,14 @@ class Tape:
         (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(
-            head[:, TAPE_T], y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory[:, : self.compiled.n_memory],
-            state[:, :joints].astype(np.int8), head[:, TAPE_JUMPED] > 0.0,
-        )  # fmt: skip
+            head[:, TAPE_T],
+            y[:, :n],
+            y[:, n : 2 * n],
+            y[:, 2 * n :],
+            memory[:, : self.compiled.n_memory],
+            state[:, :joints].astype(np.int8),
+            head[:, TAPE_JUMPED] > 0.0,
+        )
 
 
 class Shown:
@@ -135,9 +140,15 @@ class Course:
         work[0] = self.last.work[0]
         way = tuple(np.concatenate([old, new]) for old, new in ((self.last.t, t), (self.last.q, q), (self.last.v, v)))
         status = self.compiled.lib.gudgeon_kinematic_works(
-            pointer(self.works, "void *"), count, pointer(way[0]), pointer(p), pointer(way[1]), pointer(way[2]),
-            pointer(work, written=True), pointer(done, "long *", True),
-        )  # fmt: skip
+            pointer(self.works, "void *"),
+            count,
+            pointer(way[0]),
+            pointer(p),
+            pointer(way[1]),
+            pointer(way[2]),
+            pointer(work, written=True),
+            pointer(done, "long *", True),
+        )
         if status:  # told by the samples' own
             work[int(done[0]) + 1 :] = np.nan
         none = np.zeros((count, 0))

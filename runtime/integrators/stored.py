@@ -145,22 +145,40 @@ class StoredRuns:
     struct: Any  # the arrays as C has them
 
     def __init__(
-        self, compiled: CompiledModel, method: str, p: Array, motion: Array, times: Times, step: Array, places: int,
+        self,
+        compiled: CompiledModel,
+        method: str,
+        p: Array,
+        motion: Array,
+        times: Times,
+        step: Array,
+        places: int,
         in_python: bool,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
         n, N, size, nc = self.n, times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.arrays: dict[str, NDArray[Any]] = {
-            "place": np.arange(n) % places, "p": p, "p_motion": motion, "step": step,
+            "place": np.arange(n) % places,
+            "p": p,
+            "p_motion": motion,
+            "step": step,
             "start": np.full((n, 2 * compiled.n), np.nan),
-            "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
-            "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
-            "latched": np.empty((places, N, max(compiled.n_memory, 1))), "state": np.zeros((places, N, nc), np.int8),
-            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc), "t_last": np.full(n, times.start),
-            "seconds": np.zeros(n), "ending": np.zeros(1, np.intc),
-            "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, N_RESIDUALS), np.nan),
+            "started": np.zeros(n, np.uint8),
+            "phase": np.zeros(n, np.uint8),
+            "y": np.empty((places, N, size)),
+            "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan),
+            "codes": np.zeros((n, nc), np.int8),
+            "latched": np.empty((places, N, max(compiled.n_memory, 1))),
+            "state": np.zeros((places, N, nc), np.int8),
+            "done": np.zeros(n, np.int_),
+            "status": np.zeros(n, np.intc),
+            "t_last": np.full(n, times.start),
+            "seconds": np.zeros(n),
+            "ending": np.zeros(1, np.intc),
+            "counts": np.zeros((n, N_COUNTS), np.int_),
+            "residuals": np.full((n, N_RESIDUALS), np.nan),
             "peaks": np.full((n, nc, N_PEAK), np.nan),
-        }  # fmt: skip
+        }
         if in_python:
             self.arrays["a"] = np.full((places, N, compiled.n), np.nan)
         self.driven: dict[int, _Driven] = {}
@@ -287,13 +305,26 @@ class StoredRuns:
         joints = len(self.compiled.source.clearances)
         is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
         return Trajectory(
-            t, own(y[:, :n]), own(y[:, n : 2 * n]), None if a is None else own(a), own(memory), own(state),
-            own(y[:, 2 * n :]), self.impacts_of(i), own(x["peaks"][i, :joints]), self.counts(i),
-            is_stopped, error if isinstance(error, SolverError) and not is_stopped else None,
-            seconds=float(x["seconds"][i]), events=plain(events), event_states=None if driven else events,
-            no_number=plain(no_number), trace=self._trace(i), audit=self.findings(i),
+            t,
+            own(y[:, :n]),
+            own(y[:, n : 2 * n]),
+            None if a is None else own(a),
+            own(memory),
+            own(state),
+            own(y[:, 2 * n :]),
+            self.impacts_of(i),
+            own(x["peaks"][i, :joints]),
+            self.counts(i),
+            is_stopped,
+            error if isinstance(error, SolverError) and not is_stopped else None,
+            seconds=float(x["seconds"][i]),
+            events=plain(events),
+            event_states=None if driven else events,
+            no_number=plain(no_number),
+            trace=self._trace(i),
+            audit=self.findings(i),
             change_points=driven.change_points if driven else NO_CHANGE_POINTS,
-        )  # fmt: skip
+        )
 
     def _trace(self, i: int) -> Trace | None:
         if "trace" not in self.arrays:

@@ -36,11 +36,16 @@ Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is bei
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, s
 TRACE_ROWS = 4096  # of a trace; even, a picture has fewer columns
 TRACED = {
-    "F_low": ("N", "least force since the row before"), "t_F_low": ("s", "its time"),
-    "F_high": ("N", "largest force since the row before"), "t_F_high": ("s", "its time"),
-    "ex_out": ("m", "where the journal was furthest out since the row before, x"), "ey_out": ("m", "the same, y"),
-    "t_out": ("s", "time of that"), "ex": ("m", "where the journal is, x"), "ey": ("m", "the same, y"),
-}  # fmt: skip
+    "F_low": ("N", "least force since the row before"),
+    "t_F_low": ("s", "its time"),
+    "F_high": ("N", "largest force since the row before"),
+    "t_F_high": ("s", "its time"),
+    "ex_out": ("m", "where the journal was furthest out since the row before, x"),
+    "ey_out": ("m", "the same, y"),
+    "t_out": ("s", "time of that"),
+    "ex": ("m", "where the journal is, x"),
+    "ey": ("m", "the same, y"),
+}
 TRACE_COLUMNS = tuple(TRACED)
 EPSILON = float(np.finfo(np.float64).eps)
 
@@ -194,8 +199,13 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
     t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
     y, memory = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
     state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
-    arrays = (compiled.pointer(t), compiled.pointer(event, "int *"), compiled.pointer(y), compiled.pointer(memory),
-              compiled.pointer(state, "signed char *"))  # fmt: skip
+    arrays = (
+        compiled.pointer(t),
+        compiled.pointer(event, "int *"),
+        compiled.pointer(y),
+        compiled.pointer(memory),
+        compiled.pointer(state, "signed char *"),
+    )
     parts, count = [no_states(compiled)], rows
     while count == rows:
         count = compiled.lib.gudgeon_run_events(run, rows, *arrays)

@@ -212,10 +212,14 @@ def spline(
     else:
         slopes = _periodic(h, rises) if ends == PERIODIC else _open(h, rises, ends)
     return tuple(
-        (y[k], slopes[k], (3.0 * rises[k] - 2.0 * slopes[k] - slopes[k + 1]) / h[k],
-         (slopes[k] + slopes[k + 1] - 2.0 * rises[k]) / h[k] / h[k])
+        (
+            y[k],
+            slopes[k],
+            (3.0 * rises[k] - 2.0 * slopes[k] - slopes[k + 1]) / h[k],
+            (slopes[k] + slopes[k + 1] - 2.0 * rises[k]) / h[k] / h[k],
+        )
         for k in range(len(h))
-    )  # fmt: skip
+    )
 
 
 def _inner(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:

@@ -32,7 +32,6 @@ _BARE, _ANY = _Flexible(True), _Flexible(False)
 _Found = Dimension | _Flexible
 
 
-
 def check_dimension(
     expr: Expr, expected: Dimension | None, dimension_of: Callable[[str], Dimension | None], where: Location
 ) -> Dimension | None:

@@ -70,8 +70,12 @@ Expr: TypeAlias = Number | Name | Unary | Binary | Call
 
 
 _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
-    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.true_divide, "**": np.power,
-}  # fmt: skip
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.true_divide,
+    "**": np.power,
+}
 
 _CURVE = "curve"  # heads one in a stored tree: no function has this name
 

@@ -25,24 +25,57 @@ _MAX_LENGTH = 2000  # characters of a value whose remedies are tried
 _OTHER_UNITS: Mapping[str, tuple[str, ...]] = {
     **{word: (f"1 {written}",) for word, written in OTHER_WORDS.items()},
     **dict.fromkeys(("h", "hr", "hrs", "hour", "hours"), ("60 min",)),
-    **dict.fromkeys(("day", "days"), ("1440 min",)), "mins": ("1 min",),
+    **dict.fromkeys(("day", "days"), ("1440 min",)),
+    "mins": ("1 min",),
     **dict.fromkeys(("Hz", "hz", "HZ", "cps"), ("1 rev/s", "1 1/s")),
     **dict.fromkeys(("turn", "turns", "cycle", "cycles", "revs", "revolution", "revolutions", "rot"), ("1 rev",)),
-    **dict.fromkeys(("\u00b0", "degs"), ("1 deg",)), **dict.fromkeys(("rads", "radians"), ("1 rad", "1 rad/s")),
-    **dict.fromkeys(("t", "ton", "tonne", "tonnes", "Mg"), ("1000 kg",)), "kgs": ("1 kg",),
-    "oz": ("0.028349523125 kg",), "slug": ("14.5939029372 kg",),
-    **dict.fromkeys(("kgf", "kp"), ("9.80665 N",)), **dict.fromkeys(("dyn", "dyne"), ("1e-5 N",)),
-    **dict.fromkeys(("erg", "ergs"), ("1e-7 J",)), "cal": ("4.184 J",), "kcal": ("4184 J",), "Wh": ("3600 J",),
-    "hp": ("745.69987158227 W",), "PS": ("735.49875 W",), **dict.fromkeys(("psi", "PSI"), ("6894.757293168 Pa",)),
-    "ksi": ("6894757.293168 Pa",), "atm": ("101325 Pa",), "cSt": ("1 mm^2/s",), "St": ("100 mm^2/s",),
-    **dict.fromkeys(("mi", "mile", "miles"), ("1609.344 m",)), **dict.fromkeys(("yd", "yard", "yards"), ("0.9144 m",)),
-    **dict.fromkeys(("mil", "mils", "thou"), ("0.001 in",)), **dict.fromkeys(("micron", "microns"), ("1 um",)),
+    **dict.fromkeys(("\u00b0", "degs"), ("1 deg",)),
+    **dict.fromkeys(("rads", "radians"), ("1 rad", "1 rad/s")),
+    **dict.fromkeys(("t", "ton", "tonne", "tonnes", "Mg"), ("1000 kg",)),
+    "kgs": ("1 kg",),
+    "oz": ("0.028349523125 kg",),
+    "slug": ("14.5939029372 kg",),
+    **dict.fromkeys(("kgf", "kp"), ("9.80665 N",)),
+    **dict.fromkeys(("dyn", "dyne"), ("1e-5 N",)),
+    **dict.fromkeys(("erg", "ergs"), ("1e-7 J",)),
+    "cal": ("4.184 J",),
+    "kcal": ("4184 J",),
+    "Wh": ("3600 J",),
+    "hp": ("745.69987158227 W",),
+    "PS": ("735.49875 W",),
+    **dict.fromkeys(("psi", "PSI"), ("6894.757293168 Pa",)),
+    "ksi": ("6894757.293168 Pa",),
+    "atm": ("101325 Pa",),
+    "cSt": ("1 mm^2/s",),
+    "St": ("100 mm^2/s",),
+    **dict.fromkeys(("mi", "mile", "miles"), ("1609.344 m",)),
+    **dict.fromkeys(("yd", "yard", "yards"), ("0.9144 m",)),
+    **dict.fromkeys(("mil", "mils", "thou"), ("0.001 in",)),
+    **dict.fromkeys(("micron", "microns"), ("1 um",)),
     **dict.fromkeys(("g0", "g_0", "gn", "g_n"), ("9.80665 m/s^2",)),
-    **dict.fromkeys(("\u00c5", "angstrom"), ("0.1 nm",)), "mph": ("0.44704 m/s",),
-    "mPas": ("1 mPa*s",), "kNm": ("1 kN*m",), "mNm": ("1 mN*m",), "U": ("1 rev",),
-}  # fmt: skip
-_PREFIXES = {"p": "1e-12", "n": "1e-9", "u": "1e-6", "\u00b5": "1e-6", "\u03bc": "1e-6", "m": "1e-3", "c": "0.01",
-             "d": "0.1", "da": "10", "h": "100", "k": "1000", "K": "1000", "M": "1e6", "G": "1e9"}  # fmt: skip
+    **dict.fromkeys(("\u00c5", "angstrom"), ("0.1 nm",)),
+    "mph": ("0.44704 m/s",),
+    "mPas": ("1 mPa*s",),
+    "kNm": ("1 kN*m",),
+    "mNm": ("1 mN*m",),
+    "U": ("1 rev",),
+}
+_PREFIXES = {
+    "p": "1e-12",
+    "n": "1e-9",
+    "u": "1e-6",
+    "\u00b5": "1e-6",
+    "\u03bc": "1e-6",
+    "m": "1e-3",
+    "c": "0.01",
+    "d": "0.1",
+    "da": "10",
+    "h": "100",
+    "k": "1000",
+    "K": "1000",
+    "M": "1e6",
+    "G": "1e9",
+}
 _PLAIN = str.maketrans("\u00b5\u03bcK", "uuk")  # prefixes as the list has them
 _PREFIXED = ("m", "g", "s", "N", "Pa", "J", "W", "rad", "bar", "Hz", "P")
 _RAISED = str.maketrans("\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b", "0123456789-", "\u207a")
@@ -82,9 +115,12 @@ class _Quantity:
 
 @contextmanager
 def unit_remedies(
-    text: str, where: Location, accept: Callable[[str], object], expected: Dimension | None,
+    text: str,
+    where: Location,
+    accept: Callable[[str], object],
+    expected: Dimension | None,
     names: Container[str] = (),
-) -> Iterator[None]:  # fmt: skip
+) -> Iterator[None]:
     """Raise the error that is raised inside with a hint that names what to write in place of a wrong unit.
 
     text: the whole value, whose first character stands at `where`; accept(other) raises InputError unless `other` can
@@ -102,9 +138,13 @@ def unit_remedies(
 
 
 def _remedy(
-    error: InputError, text: str, where: Location, accept: Callable[[str], object], expected: Dimension | None,
+    error: InputError,
+    text: str,
+    where: Location,
+    accept: Callable[[str], object],
+    expected: Dimension | None,
     names: Container[str],
-) -> str:  # fmt: skip
+) -> str:
     place = error.where
     if place is None or (place.file, place.line) != (where.file, where.line) or len(text) > _MAX_LENGTH:
         return ""

@@ -29,9 +29,14 @@ _lock = Lock()
 
 
 def compile_kernels(
-    source: KernelSource, *, portable: bool = False, rebuild: bool = False, cache: Cache | None = None,
-    ahead: Ahead | None = None, quick: bool = False,
-) -> Library:  # fmt: skip
+    source: KernelSource,
+    *,
+    portable: bool = False,
+    rebuild: bool = False,
+    cache: Cache | None = None,
+    ahead: Ahead | None = None,
+    quick: bool = False,
+) -> Library:
     """The library of a kernel source, compiled if the cache has none; without a compiler what the wheel carries.
 
     portable: no instructions that only this CPU has. rebuild: compile even if the cache has it.
@@ -72,7 +77,7 @@ def compile_kernels(
 
 def _quickly(
     source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
-) -> Library | None:  # fmt: skip
+) -> Library | None:
     """A quick library in place of `key`, which another process makes now; None: that one is to be waited for.
 
     Where there was a quick one before, the optimized one is under way, or did not come: this time it is seen why.
@@ -176,7 +181,7 @@ def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
 
 def _build(
     source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache, renew: bool, quick: bool
-) -> None:  # fmt: skip
+) -> None:
     """Write the C files into the folder, compile there what is the scene's own, and link it with what scenes share.
 
     All are under way at once; what `ahead` has begun is taken.

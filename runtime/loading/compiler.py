@@ -52,14 +52,23 @@ GCCS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # clang 
 # have, where it takes this machine's; -march=native behind it still holds.
 ZIG = ("-fno-sanitize=undefined", "-mcpu=baseline")
 
-INEXACT = frozenset((
-    "-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only", "-fassociative-math",
-    "-freciprocal-math", "-fno-signed-zeros",
-))  # fmt: skip
+INEXACT = frozenset(
+    (
+        "-ffast-math",
+        "-Ofast",
+        "-funsafe-math-optimizations",
+        "-ffinite-math-only",
+        "-fassociative-math",
+        "-freciprocal-math",
+        "-fno-signed-zeros",
+    )
+)
 FULL = {
-    "No space left on device": errno.ENOSPC, "Disk quota exceeded": errno.EDQUOT, "File too large": errno.EFBIG,
+    "No space left on device": errno.ENOSPC,
+    "Disk quota exceeded": errno.EDQUOT,
+    "File too large": errno.EFBIG,
     "File size limit exceeded": errno.EFBIG,
-}  # fmt: skip
+}
 
 
 def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
@@ -194,9 +203,7 @@ def plain() -> dict[str, str]:
     return {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), **os.environ, "LC_ALL": "C"}
 
 
-def unit_line(
-    portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = ""
-) -> tuple[str, ...]:  # fmt: skip
+def unit_line(portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = "") -> tuple[str, ...]:
     """The line for one unit of a library (of_unit): what it shares with others stays inside."""
     command = find_compiler()
     options = of_unit(flags(portable, command, quick), unit)

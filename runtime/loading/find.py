@@ -159,9 +159,14 @@ def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
 
 
 def derived(
-    data: bytes, file: Path, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
-    seconds: dict[str, float] | None = None, ahead: Ahead | None = None,
-) -> KernelSource:  # fmt: skip
+    data: bytes,
+    file: Path,
+    scene: str,
+    overrides: Overrides | None = None,
+    formulation: str = "reduced",
+    seconds: dict[str, float] | None = None,
+    ahead: Ahead | None = None,
+) -> KernelSource:
     """The C of a scene, derived now; each stage notes its seconds where somebody wants them.
 
     A mistake in the file is told before SymPy is imported.

@@ -20,10 +20,13 @@ from gudgeon.errors import ArrayError
 FLOAT, CODE, FLAG = np.dtype(np.float64), np.dtype(np.int8), np.dtype(np.uint8)
 # C's type -> what cffi calls an array of it, what NumPy does; memory of a struct is bytes
 _KINDS = {
-    "double *": ("double[]", FLOAT), "int *": ("int[]", np.dtype("i")), "long *": ("long[]", np.dtype("l")),
-    "signed char *": ("signed char[]", CODE), "unsigned char *": ("unsigned char[]", FLAG),
+    "double *": ("double[]", FLOAT),
+    "int *": ("int[]", np.dtype("i")),
+    "long *": ("long[]", np.dtype("l")),
+    "signed char *": ("signed char[]", CODE),
+    "unsigned char *": ("unsigned char[]", FLAG),
     "void *": ("unsigned char[]", FLAG),
-}  # fmt: skip
+}
 Shape = tuple[int | None, ...]
 MOST = 2**32  # entries that are copied
 
@@ -47,9 +50,15 @@ def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool
 
 
 def taken(
-    values: ArrayLike, name: str, shape: Shape | None = None, *, dtype: np.dtype[Any] = FLOAT, finite: bool = False,
-    own: bool = False, most: int = MOST,
-) -> NDArray[Any]:  # fmt: skip
+    values: ArrayLike,
+    name: str,
+    shape: Shape | None = None,
+    *,
+    dtype: np.dtype[Any] = FLOAT,
+    finite: bool = False,
+    own: bool = False,
+    most: int = MOST,
+) -> NDArray[Any]:
     """`values` as C reads them: aligned, C-contiguous, native byte order, of `dtype`; the array itself if it is so.
 
     shape: what it must be, None for any length. most: entries that are copied. finite: NaN and infinities are refused.

@@ -231,9 +231,15 @@ class CompiledModel:
             self.check_pivot(-status, t, names)
 
     def evaluate(
-        self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
-        take: Callable[[], object] = lambda: None, parts: Collection[str] = PARTS,
-    ) -> Evaluation:  # fmt: skip
+        self,
+        t: ArrayLike,
+        q: ArrayLike,
+        v: ArrayLike,
+        memory: ArrayLike,
+        p: ArrayLike,
+        take: Callable[[], object] = lambda: None,
+        parts: Collection[str] = PARTS,
+    ) -> Evaluation:
         """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
 
         `take` is called every few milliseconds, and what it raises is passed on. `parts`: of an Evaluation, what is
@@ -253,7 +259,7 @@ class CompiledModel:
 
     def check_pivot(
         self, status: int, t: float, pivots: tuple[str, ...] | None = None, p: ArrayLike | None = None
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Raises SingularError for a status k > 0, with the row that the pivot belongs to; p: numbers to blame."""
         if status > 0:
             row = (pivots or self.source.pivots)[status - 1]
@@ -264,8 +270,9 @@ class CompiledModel:
             raise SingularError(
                 f"{told}  the mechanism is at a singular position (dead centre), constraints are redundant,"
                 " or the state is no longer finite: check the start, or take a smaller step",
-                t, row,
-            )  # fmt: skip
+                t,
+                row,
+            )
 
     def _rows(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
         out = np.full(len(self.source.start_rows), np.nan)
@@ -304,8 +311,9 @@ def far_masses(source: KernelSource, mass: NDArray[Any]) -> str:
     """
     points = any(mass[body.index + 2] == 0.0 for body in source.bodies)
     for what, unit, row, limit in (
-        ("masses", "kg", 0, MAX_RATIO_OF_POINTS if points else MOST_APART), ("inertias", "kg*m^2", 2, MOST_APART),
-    ):  # fmt: skip
+        ("masses", "kg", 0, MAX_RATIO_OF_POINTS if points else MOST_APART),
+        ("inertias", "kg*m^2", 2, MOST_APART),
+    ):
         of = {body.name: float(x) for body in source.bodies if (x := mass[body.index + row]) > 0.0}
         if not of:
             continue

@@ -110,9 +110,7 @@ def in_contours(source: KernelSource) -> frozenset[int]:
     return frozenset(k for one in source.contours for k in range(one.first, one.first + one.count))
 
 
-def corner_gap(
-    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, number: int
-) -> tuple[float, float]:  # fmt: skip
+def corner_gap(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, number: int) -> tuple[float, float]:
     """Penetration δ (m) and δ̇ (m/s) at joint with play `number`, a corner, at q, v (n,).
 
     Where the equations of motion have no solution it is NaN: the run itself tells.

@@ -55,9 +55,15 @@ PARTS = frozenset(field.name for field in fields(Evaluation))
 
 
 def evaluate(
-    compiled: CompiledModel, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
-    take: Callable[[], object], parts: Collection[str],
-) -> Evaluation:  # fmt: skip
+    compiled: CompiledModel,
+    t: ArrayLike,
+    q: ArrayLike,
+    v: ArrayLike,
+    memory: ArrayLike,
+    p: ArrayLike,
+    take: Callable[[], object],
+    parts: Collection[str],
+) -> Evaluation:
     """See CompiledModel.evaluate."""
     time = taken(t, "t", (None,))
     if compiled.beyond:  # velocities are those behind a corner, and rounding hides on which side of it t is
@@ -86,9 +92,15 @@ def evaluate(
 
 
 def evaluate_runs(
-    compiled: CompiledModel, counts: Sequence[int], t: Array, q: Array, v: Array, memory: Array, p: Array,
+    compiled: CompiledModel,
+    counts: Sequence[int],
+    t: Array,
+    q: Array,
+    v: Array,
+    memory: Array,
+    p: Array,
     parts: Collection[str],
-) -> Evaluation:  # fmt: skip
+) -> Evaluation:
     """The same at few samples of several runs, one behind the other: counts[i] of run i, whose numbers are p[i]."""
     N, time = sum(counts), t + around(t) if compiled.beyond else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
@@ -98,9 +110,7 @@ def evaluate_runs(
     out, failed = _room(compiled, N, parts), compiled.ffi.new("long *")
     filled = [compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(out).values()]
     of_each = compiled.ffi.new("long[]", counts)
-    status = compiled.lib.gudgeon_evaluate_runs(
-        len(counts), of_each, *given, numbers, compiled.n_p, *filled, failed
-    )  # fmt: skip
+    status = compiled.lib.gudgeon_evaluate_runs(len(counts), of_each, *given, numbers, compiled.n_p, *filled, failed)
     compiled.check_pivot(status, math.nan)
     _mark_indeterminate(compiled, out)
     return out
@@ -129,12 +139,17 @@ def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
     """Of each part its name and what it is without a row."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
-        "a": (compiled.n,), "multipliers": (len(s.rows),),
+        "a": (compiled.n,),
+        "multipliers": (len(s.rows),),
         "reactions": (len(s.joints) + len(s.guides), N_REACTION_COLUMNS),
-        "torques": (len(s.drives),), "clearance": (len(s.clearances), N_CLEARANCE_COLUMNS),
-        "series": (len(s.series),), "friction": (len(s.frictions), N_FRICTION_COLUMNS), "energy": (N_ENERGY,),
-        "power": (N_WORK,), "drift": (N_DRIFT,),
-    }  # fmt: skip
+        "torques": (len(s.drives),),
+        "clearance": (len(s.clearances), N_CLEARANCE_COLUMNS),
+        "series": (len(s.series),),
+        "friction": (len(s.frictions), N_FRICTION_COLUMNS),
+        "energy": (N_ENERGY,),
+        "power": (N_WORK,),
+        "drift": (N_DRIFT,),
+    }
     return tuple((name, np.empty((0, *widths[name]))) for name in (field.name for field in fields(Evaluation)))
 
 
@@ -165,9 +180,13 @@ def sample_bytes(compiled: CompiledModel) -> int:
 
 
 def check_room(
-    compiled: CompiledModel, samples: float, runs: int = 1, kept: Collection[str] | None = None,
-    parts: Collection[str] = (), at_once: int = 1,
-) -> None:  # fmt: skip
+    compiled: CompiledModel,
+    samples: float,
+    runs: int = 1,
+    kept: Collection[str] | None = None,
+    parts: Collection[str] = (),
+    at_once: int = 1,
+) -> None:
     """MemoryError where the samples of so many runs, each with as many, are more than there is memory for.
 
     kept: these series of each run in place of its states, which then lie there `at_once` runs at a time, with the

@@ -29,13 +29,12 @@ def may_switch(compiled: CompiledModel) -> bool:
     """Return whether the acceleration that a drive prescribes may jump at some time."""
     return any(
         call.function in PIECEWISE or isinstance(call, CurveCall)
-        for _, tree in trees(compiled.source, ("drives",)) for call in calls(tree)
-    )  # fmt: skip
+        for _, tree in trees(compiled.source, ("drives",))
+        for call in calls(tree)
+    )
 
 
-def evaluation_times(
-    compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf
-) -> Array:
+def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf) -> Array:
     """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
 
     `begin` (s): the start of the run, for a single sample after it.

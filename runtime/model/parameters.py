@@ -267,9 +267,10 @@ def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) 
     if not any(slot.address == condition.address and slot.follows for slot in source.slots):
         return ""
     changed = [
-        f"{slot.address.removeprefix('parameters.')} = {_said(value[slot.address], slot.unit)}" for slot in source.slots
+        f"{slot.address.removeprefix('parameters.')} = {_said(value[slot.address], slot.unit)}"
+        for slot in source.slots
         if slot.address.startswith("parameters.") and value[slot.address] != slot.default
-    ]  # fmt: skip
+    ]
     return f" with {', '.join(changed)}" if changed else ""
 
 

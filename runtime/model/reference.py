@@ -70,8 +70,9 @@ def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) ->
 def _compare(compiled: CompiledModel, name: str, stored: Sequence[float | None], found: Array, t: float) -> None:
     """AuditError where values differ by more than their digits; what is not known on either side is left out."""
     expected = np.array(stored, dtype=float)  # None is NaN
-    known = np.isfinite(expected) & (np.isfinite(found) if compiled.source.massless or compiled.source.indeterminate
-                                     else True)  # fmt: skip
+    known = np.isfinite(expected) & (
+        np.isfinite(found) if compiled.source.massless or compiled.source.indeterminate else True
+    )
     scale = np.abs(expected[known]).max(initial=0.0)
     off = np.abs(found[known] - expected[known])
     if (off <= SHARE * scale + 1e-300).all():
@@ -80,5 +81,6 @@ def _compare(compiled: CompiledModel, name: str, stored: Sequence[float | None],
     mechanism, scene = compiled.source.mechanism, compiled.source.scene
     raise AuditError(
         f"the compiled library of {mechanism}/{scene} is wrong: {name}[{k}] is {found[k]:.7g}, expected"
-        f" {expected[k]:.7g}\n  gudgeon.load(…, regenerate=True) or --regenerate compiles it anew", t
-    )  # fmt: skip
+        f" {expected[k]:.7g}\n  gudgeon.load(…, regenerate=True) or --regenerate compiles it anew",
+        t,
+    )

@@ -237,9 +237,10 @@ def _compared(source: KernelSource) -> dict[str, Expr]:
     if "compared" not in kept:
         found = {info.address: tree for info, tree in trees(source, ("drives", "forces"))}
         kept["compared"] = {
-            address: tree for address, tree in found.items()
+            address: tree
+            for address, tree in found.items()
             if not all(is_defined_everywhere(one) for call in calls(tree, "where") for one in call.arguments[:2])
-        }  # fmt: skip
+        }
     return dict(kept["compared"])
 
 

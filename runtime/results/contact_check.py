@@ -121,7 +121,7 @@ def _in_contact(run: Result, k: int) -> NDArray[np.bool_]:
 
 def _excursions(
     run: Result, joint: ClearanceInfo, kind: str, wrong: NDArray[np.bool_], delta: Array, force: Array
-) -> Iterator[Fault]:  # fmt: skip
+) -> Iterator[Fault]:
     """One fault for each series of neighbouring samples that are wrong."""
     at = np.flatnonzero(wrong)
     for part in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
@@ -162,8 +162,10 @@ def _at_wall(run: Result, joint: ClearanceInfo) -> Array:
     """Penetration of a slider's corner, m: how far it is nearer to its wall than in mid-guide, less the gap."""
     first, second = _ends(run, joint)
     place = run.source.place
-    numbers = {key: float(run.p[place[at]]) if (at := f"joints.{joint.joint}.{key}") in place else 0.0
-               for key in ("axis.x", "axis.y", "angle")}  # fmt: skip
+    numbers = {
+        key: float(run.p[place[at]]) if (at := f"joints.{joint.joint}.{key}") in place else 0.0
+        for key in ("axis.x", "axis.y", "angle")
+    }
     direction = np.arctan2(numbers["axis.y"], numbers["axis.x"]) + _angle(run, joint.first)
     turned = numbers["angle"] if f"joints.{joint.joint}.angle" in place or _written(run, joint) else None
     mounted = np.arctan2(numbers["axis.y"], numbers["axis.x"]) if turned is None else turned

@@ -77,9 +77,18 @@ def classify(
         kind = UNDECIDED
     confidence = max(supports.values()) if kind != UNDECIDED else 1.0 - max(supports.values())
     return Motion(
-        kind, n if kind == PERIODIC else 0, confidence, supports, len(points), share, n,
-        distance / extent if extent > 0.0 else math.nan, k, per_return, uncertainty,
-    )  # fmt: skip
+        kind,
+        n if kind == PERIODIC else 0,
+        confidence,
+        supports,
+        len(points),
+        share,
+        n,
+        distance / extent if extent > 0.0 else math.nan,
+        k,
+        per_return,
+        uncertainty,
+    )
 
 
 def _least(*signs: float) -> float:
@@ -135,8 +144,10 @@ def zero_one(values: Array, seed: int = 1) -> float:
     found = []
     for c in np.random.default_rng(seed).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
         p, q = np.cumsum(values * np.cos(j * c)), np.cumsum(values * np.sin(j * c))
-        squares = [np.mean((p[k:][: count - most] - p[: count - most]) ** 2
-                           + (q[k:][: count - most] - q[: count - most]) ** 2) for k in n]  # fmt: skip
+        squares = [
+            np.mean((p[k:][: count - most] - p[: count - most]) ** 2 + (q[k:][: count - most] - q[: count - most]) ** 2)
+            for k in n
+        ]
         displacement = np.array(squares) - values.mean() ** 2 * (1.0 - np.cos(n * c)) / (1.0 - math.cos(c))
         found.append(np.corrcoef(n, displacement)[0, 1] if np.ptp(displacement) > 0.0 else 0.0)
     return float(np.median(found))

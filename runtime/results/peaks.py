@@ -139,9 +139,12 @@ class BatchPeaks:
 
 
 def of_runs(
-    source: KernelSource, runs: Sequence[Sequence[Extremes]], name: str, error: bool,
+    source: KernelSource,
+    runs: Sequence[Sequence[Extremes]],
+    name: str,
+    error: bool,
     samples: Callable[[], tuple[Array, Array]],
-) -> BatchPeaks:  # fmt: skip
+) -> BatchPeaks:
     """The extremes of a series of all runs; no sample lies beyond, times and values (n, N) each.
 
     Raises UnknownNameError, BadValueError.

@@ -169,9 +169,19 @@ class Result(Shown):
         overridden = {slot.address: said(slot, float(x)) for slot, x, is_given in slots if is_given}
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
         return State(
-            source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, MappingProxyType(overridden),
-            source.whole_sha256, source.overrides, source.formulation, source.beside,
-        )  # fmt: skip
+            source.mechanism,
+            source.scene,
+            float(self.t[-1]),
+            q,
+            v,
+            state,
+            memory,
+            MappingProxyType(overridden),
+            source.whole_sha256,
+            source.overrides,
+            source.formulation,
+            source.beside,
+        )
 
     def __getstate__(self) -> dict[str, Any]:
         """The fields, and the evaluation if it is at hand; what else is cached is made again in no time."""
@@ -206,9 +216,16 @@ class Result(Shown):
         return Plot(self)
 
     def animate(
-        self, path: str | os.PathLike[str] | None = None, *, seconds: float | None = None, rate: float = 25.0,
-        points: Iterable[str] = (), velocities: bool = False, forces: bool = False, progress: Progress | None = None,
-    ) -> Animation | None:  # fmt: skip
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        seconds: float | None = None,
+        rate: float = 25.0,
+        points: Iterable[str] = (),
+        velocities: bool = False,
+        forces: bool = False,
+        progress: Progress | None = None,
+    ) -> Animation | None:
         """The run as a moving picture: x.gif, x.mp4 (where ffmpeg is) or x.html, a page of its own that plays.
 
         `seconds` it lasts (None: as long as the run, but 6 where that is under 2 or over 20), with `rate` pictures a
@@ -329,16 +346,36 @@ class Bare(Result):
 
 
 def bare(
-    source: KernelSource, compiled: CompiledModel | None, p: Array, t: Array, q: Array, v: Array, work: Array,
-    memory: Array, state: Array, parts: frozenset[str],
-) -> Bare:  # fmt: skip
+    source: KernelSource,
+    compiled: CompiledModel | None,
+    p: Array,
+    t: Array,
+    q: Array,
+    v: Array,
+    work: Array,
+    memory: Array,
+    state: Array,
+    parts: frozenset[str],
+) -> Bare:
     """From samples as C stores them; works that no masses tell are NaN."""
     slots = len(source.slots)
     return Bare(
-        compiled=compiled, source=source, p=p, given=np.zeros(slots), is_given=np.zeros(slots, bool), t=t, q=q, v=v,
-        accelerations=None, state=state, memory=memory, work=np.full_like(work, np.nan) if source.massless else work,
-        impacts=np.zeros(0, IMPACT_DTYPE), diagnostics=cast(Diagnostics, None), parts=parts,
-    )  # fmt: skip
+        compiled=compiled,
+        source=source,
+        p=p,
+        given=np.zeros(slots),
+        is_given=np.zeros(slots, bool),
+        t=t,
+        q=q,
+        v=v,
+        accelerations=None,
+        state=state,
+        memory=memory,
+        work=np.full_like(work, np.nan) if source.massless else work,
+        impacts=np.zeros(0, IMPACT_DTYPE),
+        diagnostics=cast(Diagnostics, None),
+        parts=parts,
+    )
 
 
 def blank(source: KernelSource) -> Bare:

@@ -123,9 +123,16 @@ def everything(run: Result) -> Result:
         parts = [array[[0, *rows]] for array in (reached.q, reached.v, reached.work, reached.memory, reached.state)]
     else:
         y = found["y"]
-        ours, theirs = (run.q, run.v, run.work, run.memory, run.state), (
-            y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], found["memory"], found["state"],
-        )  # fmt: skip
+        ours, theirs = (
+            (run.q, run.v, run.work, run.memory, run.state),
+            (
+                y[:, :n],
+                y[:, n : 2 * n],
+                y[:, 2 * n :],
+                found["memory"],
+                found["state"],
+            ),
+        )
         parts = [np.concatenate([own[:1], at]) for own, at in zip(ours, theirs, strict=True)]
     q, v, work, memory, state = parts
     return of_rows(run, run.events["t"], q, v, work, memory, state)
@@ -135,9 +142,18 @@ def of_rows(run: Result, t: Array, *parts: Array) -> Result:
     """The same of rows: the start, then one for each of the times t; q, v, works, memory, state."""
     q, v, work, memory, state = parts
     return replace(
-        run, t=np.concatenate([run.t[:1], t]), q=q, v=v, accelerations=None, work=work, memory=memory, state=state,
-        trace=None, event_states=None, stored={},
-    )  # fmt: skip
+        run,
+        t=np.concatenate([run.t[:1], t]),
+        q=q,
+        v=v,
+        accelerations=None,
+        work=work,
+        memory=memory,
+        state=state,
+        trace=None,
+        event_states=None,
+        stored={},
+    )
 
 
 def _again(run: Result) -> Trajectory:

@@ -59,10 +59,17 @@ CLEARANCE = {
 }
 # what these mean at a slider's corner, n the outward normal of its wall
 AT_WALL = {
-    "Fx": "force on the corner, x in ground axes", "Fy": "force on the corner, y in ground axes",
-    "F": "force on the corner, magnitude", "Fn": "normal force, against n", "Ft": "force along n turned by +90°",
-    "ex": "e n, x in ground axes", "ey": "e n, y in ground axes", "vt": "slip on its wall", "eps": "e by the gap",
-    "e": "how far it is nearer to its wall than in the middle of the guide", "delta": "penetration: e less the gap",
+    "Fx": "force on the corner, x in ground axes",
+    "Fy": "force on the corner, y in ground axes",
+    "F": "force on the corner, magnitude",
+    "Fn": "normal force, against n",
+    "Ft": "force along n turned by +90°",
+    "ex": "e n, x in ground axes",
+    "ey": "e n, y in ground axes",
+    "vt": "slip on its wall",
+    "eps": "e by the gap",
+    "e": "how far it is nearer to its wall than in the middle of the guide",
+    "delta": "penetration: e less the gap",
 }
 EVEN = 1e-6  # of an interval: samples that far from even are not
 WINDOWS = ("boxcar", "hann", "hamming", "blackman", "blackmanharris", "flattop")

@@ -120,10 +120,15 @@ class Wear:
         import xarray
 
         sides = {"bearing": self.bearing, "journal": self.journal}
-        told = {f"{name}_{key}": value for name, side in sides.items() for key, value in
-                (("volume", side.volume), ("arc", side.arc()), ("deepest_angle", side.deepest_angle))}  # fmt: skip
-        columns = {name: ("angle", side.depth, {"units": "m", "long_name": f"wear's depth, {name}'s frame"})
-                   for name, side in sides.items()}  # fmt: skip
+        told = {
+            f"{name}_{key}": value
+            for name, side in sides.items()
+            for key, value in (("volume", side.volume), ("arc", side.arc()), ("deepest_angle", side.deepest_angle))
+        }
+        columns = {
+            name: ("angle", side.depth, {"units": "m", "long_name": f"wear's depth, {name}'s frame"})
+            for name, side in sides.items()
+        }
         own = {"joint": self.joint, "law": self.law, "t_begin": self.t[0], "t_end": self.t[1], "slip": self.slip}
         return xarray.Dataset(columns, {"angle": ("angle", self.angle, {"units": "rad"})}, own | told)
 

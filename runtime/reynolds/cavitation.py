@@ -50,9 +50,7 @@ class Pressure:
     gain: Array
 
 
-def solved(
-    kind: str, equation: Equation, motion: Motion, free: Flags, start: Array | None = None
-) -> Pressure:
+def solved(kind: str, equation: Equation, motion: Motion, free: Flags, start: Array | None = None) -> Pressure:
     """free: where p is an unknown, all but the groove. start: unknowns near the solution, of a coarser grid."""
     closing = equation.closing(motion.w_n, motion.w_t)
     if kind == "half_sommerfeld":
@@ -117,9 +115,7 @@ def _elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -
     return found
 
 
-def _carried_film(
-    matrix: sparse.csr_matrix, carried: sparse.csr_matrix, free: Flags, full: Flags
-) -> Pressure | None:
+def _carried_film(matrix: sparse.csr_matrix, carried: sparse.csr_matrix, free: Flags, full: Flags) -> Pressure | None:
     """From the film `full`, or from none: where oil has run out, a film to begin with may come and go for ever."""
     held = np.where(free, 0.0, 1.0)
     for _ in range(TRIES):

@@ -69,9 +69,16 @@ class Deviation:
 
 
 def deviation(
-    law: str, l_over_d: float, *, eps: ArrayLike = EPS, motion: ArrayLike = MOTIONS, cavitation: str = "reynolds",
-    groove: str | None = None, cells: tuple[int, int] = CELLS, **keys: float | str | bool,
-) -> Deviation:  # fmt: skip
+    law: str,
+    l_over_d: float,
+    *,
+    eps: ArrayLike = EPS,
+    motion: ArrayLike = MOTIONS,
+    cavitation: str = "reynolds",
+    groove: str | None = None,
+    cells: tuple[int, int] = CELLS,
+    **keys: float | str | bool,
+) -> Deviation:
     """A film law (`gudgeon.generator.kinds.laws`, or one of your own that is registered) against the solver.
 
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as

@@ -32,10 +32,17 @@ Groove = float | str | None
 
 
 def solve(
-    bearing: Bearing, eccentricity: ArrayLike, rate: ArrayLike = (0.0, 0.0), *, omega_journal: float = 0.0,
-    omega_bearing: float = 0.0, cavitation: str = "reynolds", ends: str = "open", groove: Groove = None,
+    bearing: Bearing,
+    eccentricity: ArrayLike,
+    rate: ArrayLike = (0.0, 0.0),
+    *,
+    omega_journal: float = 0.0,
+    omega_bearing: float = 0.0,
+    cavitation: str = "reynolds",
+    ends: str = "open",
+    groove: Groove = None,
     cells: tuple[int, int] = CELLS,
-) -> Film:  # fmt: skip
+) -> Film:
     """The film between a journal and its bearing: pressure, forces, torques, leakage, and the forces' error.
 
     eccentricity: (2,) of the journal's centre from the bearing's, m, |e| < c. rate: (2,) its rate, m/s. Both rates of
@@ -236,13 +243,29 @@ def _film(
     turn = 0.5 * math.hypot(*e) * tangential
     leakage, supply, taken = (c * bearing.radius**2 * flow for flow in fine.flows)
     return Film(
-        bearing, problem.cavitation, ends, (float(e[0]), float(e[1])), omega_s,
-        None if problem.groove is None else widest + problem.groove, grid.phi + widest,
-        bearing.radius * np.concatenate([-zeta[:0:-1], zeta]), c * grid.h, _mirrored(p), _mirrored(filled),
-        radial * n + tangential * np.array([-n[1], n[0]]), radial, tangential,
-        unit * bearing.radius**2 * float(np.hypot(*(fine.force - coarse.force))), -drag - turn, drag - turn,
-        leakage, supply, taken, supply - leakage - taken, _extent(p[:, 0], grid.phi + widest),
-    )  # fmt: skip
+        bearing,
+        problem.cavitation,
+        ends,
+        (float(e[0]), float(e[1])),
+        omega_s,
+        None if problem.groove is None else widest + problem.groove,
+        grid.phi + widest,
+        bearing.radius * np.concatenate([-zeta[:0:-1], zeta]),
+        c * grid.h,
+        _mirrored(p),
+        _mirrored(filled),
+        radial * n + tangential * np.array([-n[1], n[0]]),
+        radial,
+        tangential,
+        unit * bearing.radius**2 * float(np.hypot(*(fine.force - coarse.force))),
+        -drag - turn,
+        drag - turn,
+        leakage,
+        supply,
+        taken,
+        supply - leakage - taken,
+        _extent(p[:, 0], grid.phi + widest),
+    )
 
 
 def _mirrored(half: Array) -> Array:

@@ -38,9 +38,16 @@ class Table:
 
 
 def table(
-    bearing: Bearing, eps: ArrayLike, eps_rate: ArrayLike = 0.0, omega_s: ArrayLike = 0.0, *,
-    cavitation: str = "reynolds", ends: str = "open", groove: str | None = None, cells: tuple[int, int] = CELLS,
-) -> Table:  # fmt: skip
+    bearing: Bearing,
+    eps: ArrayLike,
+    eps_rate: ArrayLike = 0.0,
+    omega_s: ArrayLike = 0.0,
+    *,
+    cavitation: str = "reynolds",
+    ends: str = "open",
+    groove: str | None = None,
+    cells: tuple[int, int] = CELLS,
+) -> Table:
     """Forces over eccentricity ratio ε in [0, 1), its rate ε̇ (1/s) and ω_s = ω_i + ω_j − 2ψ̇ (rad/s).
 
     The three are broadcast together; all else is as `solve` takes it, a groove is None or "widest". States of one ε

@@ -98,9 +98,13 @@ def _off_given(problem: Problem, size: float) -> float:
 
 
 def _energy(
-    compiled: CompiledModel, problem: Problem, x: Trajectory, evaluation: Evaluation, balance: tuple[float, float],
+    compiled: CompiledModel,
+    problem: Problem,
+    x: Trajectory,
+    evaluation: Evaluation,
+    balance: tuple[float, float],
     size: float,
-) -> Iterator[Finding]:  # fmt: skip
+) -> Iterator[Finding]:
     """The balance of the whole run; a fixed step has no tolerance to compare it with."""
     residual, turned = balance[0], balance[1] + float(np.abs(evaluation.energy).max(initial=0.0))
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
@@ -170,6 +174,4 @@ def _balances(
     off[~np.isfinite(off)] = 0.0  # those are of another check
     times = x.t[at[off.argmax(axis=0)]].tolist()
     shares = zip(limits.items(), off.max(axis=0).tolist(), times, strict=True)
-    return tuple(
-        Finding(check, worst / limit, t, body if check in BODY else "") for (check, limit), worst, t in shares
-    )
+    return tuple(Finding(check, worst / limit, t, body if check in BODY else "") for (check, limit), worst, t in shares)

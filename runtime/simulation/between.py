@@ -31,10 +31,22 @@ ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positi
 REST = 1e-9  # of the positions: a block that moves by less is at rest
 CLOSE = 1e-3  # of the largest acceleration: states between others whose forces err more are left out
 NONE = Diagnostics(
-    method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, phi_max=math.nan, phi_dot_max=math.nan,
-    energy_residual=math.nan, energy_turned_over=math.nan, ratio_min=math.nan, ratio_max=math.nan, ratio_outside=0,
-    peaks=(), seconds=math.nan, seconds_per_simulated_second=math.nan,
-)  # fmt: skip
+    method="",
+    step=math.nan,
+    steps=0,
+    right_hand_sides=0,
+    onsets=0,
+    phi_max=math.nan,
+    phi_dot_max=math.nan,
+    energy_residual=math.nan,
+    energy_turned_over=math.nan,
+    ratio_min=math.nan,
+    ratio_max=math.nan,
+    ratio_outside=0,
+    peaks=(),
+    seconds=math.nan,
+    seconds_per_simulated_second=math.nan,
+)
 
 
 class Path:
@@ -128,10 +140,21 @@ class Path:
         x = self.first.then(steps)
         evaluation, good = self._evaluation(x)
         run = Result(
-            compiled=self.compiled, source=self.source, p=self.p, given=self.given, is_given=self.is_given,
-            t=x.t, q=x.q, v=x.v, accelerations=evaluation.a, state=x.state, memory=x.memory, work=x.work,
-            impacts=np.zeros(0, IMPACT_DTYPE), diagnostics=NONE,
-        )  # fmt: skip
+            compiled=self.compiled,
+            source=self.source,
+            p=self.p,
+            given=self.given,
+            is_given=self.is_given,
+            t=x.t,
+            q=x.q,
+            v=x.v,
+            accelerations=evaluation.a,
+            state=x.state,
+            memory=x.memory,
+            work=x.work,
+            impacts=np.zeros(0, IMPACT_DTYPE),
+            diagnostics=NONE,
+        )
         run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
         return run, good
 

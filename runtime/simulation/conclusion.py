@@ -61,18 +61,31 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
         both = EXPLICIT, stiff_of(compiled.source, problem.rtol)
         method = "+".join(both) if 0 < counts.stiff_steps < counts.steps else both[counts.stiff_steps > 0]
     return Diagnostics(
-        method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        method=method,
+        step=used if math.isfinite(problem.step) else math.nan,
+        steps=counts.steps,
         last_step=last if last != used else math.nan,
         t_end=float(problem.t[-1]) if len(x.t) and x.t[-1] < problem.t[-1] else math.nan,
         rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
-        rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
-        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets,
-        phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
-        ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
-        peaks=_peaks(compiled, x), seconds=x.seconds,
+        rejected=counts.rejected,
+        stiff_steps=counts.stiff_steps,
+        jacobians=counts.jacobians,
+        right_hand_sides=counts.right_hand_sides,
+        onsets=counts.onsets,
+        phi_max=counts.phi_max,
+        phi_dot_max=counts.phi_dot_max,
+        energy_residual=worst,
+        energy_turned_over=turned,
+        ratio_min=counts.ratio_min,
+        ratio_max=counts.ratio_max,
+        ratio_outside=counts.ratio_outside,
+        peaks=_peaks(compiled, x),
+        seconds=x.seconds,
         seconds_per_simulated_second=x.seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory), audit=x.audit,
-    )  # fmt: skip
+        interrupted=x.interrupted,
+        notes=_notes(compiled, problem, trajectory),
+        audit=x.audit,
+    )
 
 
 def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
@@ -224,8 +237,7 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
             yield (
                 f"{joint.name}: the {into.format(f'{1e3 * deepest:.3g}')} {1e3 * c:.3g} mm,"
                 f" {'half the width' if joint.at_wall else 'radius'} {1e3 * radius:.3g} mm): outside what contact laws"
-                " hold for; "
-                + ("it lies so deep from the start on" if begun else "a step too long does this too")
+                " hold for; " + ("it lies so deep from the start on" if begun else "a step too long does this too")
             )
 
 
@@ -250,9 +262,7 @@ class _TooLong(Exception):
     """What is left can wait until somebody asks for it."""
 
 
-def conclude(
-    problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True
-) -> Result:  # fmt: skip
+def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True) -> Result:
     """A run with its diagnostics, from its samples. Everything that follows from them is evaluated for its balance.
 
     Where Ctrl-C comes meanwhile, or ended the run and (with `soon`) the samples are many, that is left for later.
@@ -276,11 +286,26 @@ def conclude(
     if evaluation is not None:
         x = replace(x, audit=(*x.audit, *audit_samples(compiled, problem, x, evaluation, balance)))
     result = Result(
-        compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
-        accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
-        diagnostics=diagnose(problem, x, balance), events=x.events,
-        event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled), begun=problem.begun,
-    )  # fmt: skip
+        compiled=compiled,
+        source=compiled.source,
+        p=problem.p,
+        given=given,
+        is_given=is_given,
+        t=x.t,
+        q=x.q,
+        v=x.v,
+        accelerations=a,
+        state=x.state,
+        memory=x.memory,
+        work=x.work,
+        impacts=x.impacts,
+        diagnostics=diagnose(problem, x, balance),
+        events=x.events,
+        event_states=x.event_states,
+        trace=x.trace,
+        provenance=provenance_of(compiled),
+        begun=problem.begun,
+    )
     if evaluation is not None:
         told = unbalanced(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
         result = result if compiled.source.massless else _with_notes(result, told)

@@ -76,9 +76,7 @@ class EachRun:
             raise next(iter(self.bad.values()))
         return Times.of_runs(found or {0: (np.array([t0]), True)}, len(p))
 
-    def _of_run(
-        self, i: int, p: Array, t0: float, same: dict[Any, tuple[Array, bool]]
-    ) -> tuple[Array, bool] | None:
+    def _of_run(self, i: int, p: Array, t0: float, same: dict[Any, tuple[Array, bool]]) -> tuple[Array, bool] | None:
         """Return what `output_times` does for run i, once for all that have `same`; None where they are no numbers."""
         source = self.compiled.source
         row = self.output if self.rows is None else self.rows[i]

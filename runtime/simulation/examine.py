@@ -61,9 +61,14 @@ def examine(
 
 
 def _again(
-    simulation: Simulation, run: Result, t: Array, settings: dict[str, Any], progress: Progress | None,
-    peaks: tuple[str | Rubbing, ...] = (), beyond: float = math.nan,
-) -> Iterator[Result]:  # fmt: skip
+    simulation: Simulation,
+    run: Result,
+    t: Array,
+    settings: dict[str, Any],
+    progress: Progress | None,
+    peaks: tuple[str | Rubbing, ...] = (),
+    beyond: float = math.nan,
+) -> Iterator[Result]:
     """The run at times t: begun as the file says, and begun in its first sample. What ends early is none.
 
     `beyond` (s): up to which a run goes that an event or an error ends at the last of the times; NaN: none does.
@@ -172,9 +177,15 @@ def _joint(
     taken, returned, friction = found if joint.dry else (math.nan,) * 3
     taken, returned = (math.nan, math.nan) if rigid else (taken, returned)
     return JointExamined(
-        name, impacting, rms, taken, returned, friction, film if joint.film else math.nan,
+        name,
+        impacting,
+        rms,
+        taken,
+        returned,
+        friction,
+        film if joint.film else math.nan,
         *_restitution(run, other, k, name),
-    )  # fmt: skip
+    )
 
 
 def known_to_rub(source: KernelSource, joint: ClearanceInfo) -> bool:

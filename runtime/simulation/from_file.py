@@ -49,9 +49,16 @@ def load(
     portable, regenerate = flag(portable, "portable"), flag(regenerate, "regenerate")
     quick = flag(quick, "quick") and not regenerate
     return load_bytes(
-        read_bytes(file), file, scene, overrides=overrides, formulation=formulation, portable=portable,
-        regenerate=regenerate, quick=quick, start=start,
-    )  # fmt: skip
+        read_bytes(file),
+        file,
+        scene,
+        overrides=overrides,
+        formulation=formulation,
+        portable=portable,
+        regenerate=regenerate,
+        quick=quick,
+        start=start,
+    )
 
 
 def load_bytes(

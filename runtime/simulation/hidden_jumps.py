@@ -112,9 +112,10 @@ def _with_drives(source: KernelSource) -> list[tuple[str, Expr]]:
 def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
     """Drives whose corners the generator may not have found."""
     return [
-        (drive, tree) for drive, tree in _with_drives(source)
+        (drive, tree)
+        for drive, tree in _with_drives(source)
         if _hides(tree) and drive not in source.rate_jumps and CORNERED.isdisjoint(functions(tree))
-    ]  # fmt: skip
+    ]
 
 
 def end_before(jump: Jump, t0: float) -> float:

@@ -93,9 +93,12 @@ def _ladder(t0: float, t1: float) -> Iterator[Array]:
 
 
 def _parting(
-    simulation: Simulation, times: Array, variants: Iterable[tuple[State, dict[str, Any]]], progress: Progress | None,
+    simulation: Simulation,
+    times: Array,
+    variants: Iterable[tuple[State, dict[str, Any]]],
+    progress: Progress | None,
     apart: float,
-) -> float | None:  # fmt: skip
+) -> float | None:
     """Of runs from these starts with these settings: the last of the times (s) before they part; None: they do not."""
     runs = []
     for start, settings in variants:
@@ -110,9 +113,14 @@ def _parting(
 
 
 def repeated(
-    simulation: Simulation, times: Array, start: State | None, settings: dict[str, Any],
-    progress: Progress | None, peaks: tuple[str | Rubbing, ...] = (), stop: bool = False,
-) -> Result | None:  # fmt: skip
+    simulation: Simulation,
+    times: Array,
+    start: State | None,
+    settings: dict[str, Any],
+    progress: Progress | None,
+    peaks: tuple[str | Rubbing, ...] = (),
+    stop: bool = False,
+) -> Result | None:
     """A run through `times`, as far as it goes, None: not even from the start; `stop`: whether events may end it."""
     try:
         return simulation.simulate(output=times, start=start, progress=progress, stop=stop, peaks=peaks, **settings)
@@ -135,8 +143,11 @@ def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> tupl
 def _path(simulation: Simulation, run: Result) -> Array:
     """What is compared, (N, …): e/c of all journals, or all coordinates of a scene without play."""
     if run.source.clearances:
-        scaled = [run[f"{joint.name}.{axis}"] / run.p[joint.clearance]
-                  for joint in run.source.clearances for axis in ("ex", "ey")]  # fmt: skip
+        scaled = [
+            run[f"{joint.name}.{axis}"] / run.p[joint.clearance]
+            for joint in run.source.clearances
+            for axis in ("ex", "ey")
+        ]
         return np.stack(scaled, axis=1)
     return np.asarray(run.q / np.where(_angles(run), 1.0, mechanism_size(simulation.compiled, run.p)))
 

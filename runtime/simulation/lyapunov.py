@@ -74,10 +74,16 @@ def no_tangent(source: KernelSource) -> str:
 
 
 def lyapunov(
-    simulation: Simulation, until: float | str | Result, section: str | float | None, by: str, skip: float | str,
-    settings: dict[str, Any], parameters: Mapping[str, float | str] | None, start: State | None,
+    simulation: Simulation,
+    until: float | str | Result,
+    section: str | float | None,
+    by: str,
+    skip: float | str,
+    settings: dict[str, Any],
+    parameters: Mapping[str, float | str] | None,
+    start: State | None,
     progress: Progress | None,
-) -> Lyapunov:  # fmt: skip
+) -> Lyapunov:
     """See Simulation.lyapunov."""
     source = simulation.source
     t_end: float | str
@@ -105,9 +111,16 @@ def lyapunov(
         growth.append(grown)
         returns.note(run)
     return Lyapunov(
-        "tangent" if why is None else "twin", why or "", np.array(t), np.array(growth),
-        pair.unresolved / (t[-1] - t[0]), pair.merged, transverse, returns.section(), pair.state,
-    )  # fmt: skip
+        "tangent" if why is None else "twin",
+        why or "",
+        np.array(t),
+        np.array(growth),
+        pair.unresolved / (t[-1] - t[0]),
+        pair.merged,
+        transverse,
+        returns.section(),
+        pair.state,
+    )
 
 
 def slow_tangent(source: KernelSource) -> str:
@@ -125,9 +138,12 @@ def _refuse_short(run: Result, measure: Neighbours) -> None:
 
 
 def _of_run(
-    simulation: Simulation, run: Result, parameters: Mapping[str, float | str] | None, start: State | None,
+    simulation: Simulation,
+    run: Result,
+    parameters: Mapping[str, float | str] | None,
+    start: State | None,
     settings: dict[str, Any],
-) -> tuple[float, State, dict[str, Any]]:  # fmt: skip
+) -> tuple[float, State, dict[str, Any]]:
     """End, start and settings of a run; a tolerance is not its own, but what a neighbour needs."""
     check_own(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
@@ -189,9 +205,12 @@ def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
 
 
 def _settled(
-    simulation: Simulation, skip: float | str, settings: dict[str, Any],
-    parameters: Mapping[str, float | str] | None, start: State | None,
-) -> dict[str, Any]:  # fmt: skip
+    simulation: Simulation,
+    skip: float | str,
+    settings: dict[str, Any],
+    parameters: Mapping[str, float | str] | None,
+    start: State | None,
+) -> dict[str, Any]:
     """Further arguments of simulate for the run that is looked at: it begins where the motion has settled."""
     state = None if start is None else own(simulation.source, start)
     given, is_given, _ = numbers(simulation.compiled, state, parameters)
@@ -265,10 +284,17 @@ class Returns:
         p = run.p if not hasattr(run, "all") else run.all.p
         angle = angles(source)
         per = np.where(angle, 1.0, self.size)
-        parts = [run.q[:, ~angle] / self.size, np.cos(run.q[:, angle]), np.sin(run.q[:, angle]),
-                 run.v / per * (self.size / self.speed)]  # fmt: skip
-        parts += [(run[f"{joint.name}.{axis}"] / p[joint.clearance])[:, None]
-                  for joint in source.clearances for axis in ("ex", "ey")]  # fmt: skip
+        parts = [
+            run.q[:, ~angle] / self.size,
+            np.cos(run.q[:, angle]),
+            np.sin(run.q[:, angle]),
+            run.v / per * (self.size / self.speed),
+        ]
+        parts += [
+            (run[f"{joint.name}.{axis}"] / p[joint.clearance])[:, None]
+            for joint in source.clearances
+            for axis in ("ex", "ey")
+        ]
         return np.concatenate(parts, axis=1)
 
 

@@ -19,8 +19,14 @@ from gudgeon.contract.kernel_source import KernelSource, PartInfo, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 
-ELEMENTS = {"spring_damper": "F", "force": "Fx", "dry_friction": "", "torque": "M", "rotational_spring_damper": "M",
-            "angle": "M"}  # of each kind the result that is its force or moment
+ELEMENTS = {
+    "spring_damper": "F",
+    "force": "Fx",
+    "dry_friction": "",
+    "torque": "M",
+    "rotational_spring_damper": "M",
+    "angle": "M",
+}  # of each kind the result that is its force or moment
 LEAST = 1e-300  # N, N m
 GROUND = PointInfo("", -1, -1, -1)
 Number = tuple[int, float]  # index into p, -1: the value itself
@@ -65,9 +71,15 @@ def _made(source: KernelSource) -> Table:
     bodies = {"ground", *(body.name for body in source.bodies)}
     found = [(part, _element(source, part)) for part in source.parts if part.section != "joints"]
     elements = tuple(element for _, element in found if element)
-    lost = {name.partition(".")[0] for part in source.parts for name in (*part.ends, *part.options.values())
-            if part.name in source.indeterminate or part.name in source.rigid or (part, None) in found
-            or (part.section == "joints" and bodies.intersection(part.options.values()))}  # fmt: skip
+    lost = {
+        name.partition(".")[0]
+        for part in source.parts
+        for name in (*part.ends, *part.options.values())
+        if part.name in source.indeterminate
+        or part.name in source.rigid
+        or (part, None) in found
+        or (part.section == "joints" and bodies.intersection(part.options.values()))
+    }
     pairs = [(joint.first, joint.second) for joint in source.joints]
     pairs += [(element.first.body, element.second.body) for element in elements]
     known = len(pairs)
@@ -80,10 +92,14 @@ def _made(source: KernelSource) -> Table:
     turned = moved & ~signs[:, known:].any(axis=1)
     given = ((0, source.place.get("gravity.x")), (1, source.place.get("gravity.y")))
     return Table(
-        signs, np.flatnonzero(moved), np.flatnonzero(turned), signs[turned, :known],
-        (*points, *(element.second for element in elements)), elements,
+        signs,
+        np.flatnonzero(moved),
+        np.flatnonzero(turned),
+        signs[turned, :known],
+        (*points, *(element.second for element in elements)),
+        elements,
         tuple((axis, k) for axis, k in given if k is not None),
-    )  # fmt: skip
+    )
 
 
 def _element(source: KernelSource, part: PartInfo) -> Element | None:
@@ -125,10 +141,13 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
     m = compiled.mass(p)
     inertia = (evaluation.a[at] * m).reshape(n, -1, 3)
     q = q[at].reshape(n, -1, 3)
-    wrenches = np.concatenate([
-        evaluation.reactions[at, : len(compiled.source.joints)],
-        *(_wrench(element, p, q, evaluation, at)[:, np.newaxis] for element in table.elements),
-    ], axis=1)  # fmt: skip
+    wrenches = np.concatenate(
+        [
+            evaluation.reactions[at, : len(compiled.source.joints)],
+            *(_wrench(element, p, q, evaluation, at)[:, np.newaxis] for element in table.elements),
+        ],
+        axis=1,
+    )
     forces = np.concatenate([wrenches[:, :, :2], evaluation.clearance[at, :, :2]], axis=1)
     left = inertia[:, :, :2] - table.signs @ forces
     for axis, k in table.gravity:

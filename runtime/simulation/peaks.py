@@ -42,9 +42,12 @@ class Search:
     """Whoever looks at all steps of one run; `found` says what came of it."""
 
     def __init__(
-        self, compiled: CompiledModel, names: Iterable[str], numbers: tuple[Array, Array, Array],
+        self,
+        compiled: CompiledModel,
+        names: Iterable[str],
+        numbers: tuple[Array, Array, Array],
         beside: Beside | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.names = tuple(names)
         self.ours = Path(compiled, numbers, self.names)
         self.beside = beside  # the scene against which errors are wanted
@@ -113,9 +116,13 @@ class Search:
                 self._look_closer(key, k, paths, scale)
 
     def _look_closer(
-        self, key: tuple[str, bool, int], k: int, paths: list[Path], scale: float,
+        self,
+        key: tuple[str, bool, int],
+        k: int,
+        paths: list[Path],
+        scale: float,
         within: tuple[float, float] | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """The top between states k and k + 1: of the polynomial through so many places, once that tells all of it.
 
         `within`: begin and end of the part of this step that is searched; None: all of it.

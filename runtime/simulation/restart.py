@@ -135,7 +135,9 @@ def _changed(source: KernelSource, start: State) -> list[str]:
 
 
 def numbers(
-    compiled: CompiledModel, start: State | None, parameters: Mapping[str, Any] | None,
+    compiled: CompiledModel,
+    start: State | None,
+    parameters: Mapping[str, Any] | None,
     contour: Mapping[str, Array] = MappingProxyType({}),
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Values and mask of the slots, (n_slots,) each: the state's, and over them those given; what to say of it."""
@@ -156,10 +158,19 @@ def numbers(
     if not changed:
         return both, mask, chosen
     slots = compiled.source.slots
-    told = [f"{slots[k].address} {_quantity(has[k], slots[k])} (before {_quantity(had[k], slots[k])})"
-            for k in changed[:MOST_TOLD]]  # fmt: skip
+    told = [
+        f"{slots[k].address} {_quantity(has[k], slots[k])} (before {_quantity(had[k], slots[k])})"
+        for k in changed[:MOST_TOLD]
+    ]
     more = f" and {len(changed) - MOST_TOLD} more" if len(changed) > MOST_TOLD else ""
-    return both, mask, (*chosen, f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",)
+    return (
+        both,
+        mask,
+        (
+            *chosen,
+            f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",
+        ),
+    )
 
 
 def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
@@ -197,8 +208,11 @@ def _open(compiled: CompiledModel, p: Array, by: Array, terms: Array | float = 0
     """Rows that are open `by` more than a run leaves them, beside `terms` (m,) of theirs: "rod.length (0.1 m)"."""
     rows, size = compiled.source.rows, mechanism_size(compiled, p)
     allowed = OPEN * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
-    told = [f"{row.name} ({x:.3g} {row.unit}{rate})" for row, x, most in zip(rows, by, allowed, strict=True)
-            if not abs(x) <= most]  # fmt: skip
+    told = [
+        f"{row.name} ({x:.3g} {row.unit}{rate})"
+        for row, x, most in zip(rows, by, allowed, strict=True)
+        if not abs(x) <= most
+    ]
     more = f" and {len(told) - MOST_TOLD} more" if len(told) > MOST_TOLD else ""
     return f"{', '.join(told[:MOST_TOLD])}{more}" if told else ""
 

@@ -49,12 +49,24 @@ if TYPE_CHECKING:
 
 
 def simulate_many(
-    simulation: Simulation, parameters: ParameterSets, t_end: Any, output: Any, method: str, rtol: float | str | None,
-    step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
-    start: State | Sequence[State] | None = None, keep: str | Iterable[str] = STATES,
-    peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None, contour: Any = None,
+    simulation: Simulation,
+    parameters: ParameterSets,
+    t_end: Any,
+    output: Any,
+    method: str,
+    rtol: float | str | None,
+    step: Any,
+    threads: int | None,
+    progress: Progress | None,
+    stop: bool,
+    side_by_side: bool = True,
+    start: State | Sequence[State] | None = None,
+    keep: str | Iterable[str] = STATES,
+    peaks: Iterable[str | Rubbing] | None = None,
+    against: Simulation | None = None,
+    contour: Any = None,
     audit: bool | str = True,
-) -> Batch:  # fmt: skip
+) -> Batch:
     """See Simulation.simulate_many."""
     method, progress = text(method, "method"), function(progress, "progress")
     simulation = simulation.of_method(method, progress)
@@ -89,18 +101,33 @@ def _kept(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | 
 
 
 def _ran(
-    simulation: Simulation, starts: _Starts, numbers: tuple[Array, Array, Array], times: Times, bad: dict[int, Any],
+    simulation: Simulation,
+    starts: _Starts,
+    numbers: tuple[Array, Array, Array],
+    times: Times,
+    bad: dict[int, Any],
     asked: Asked,
-) -> Batch:  # fmt: skip
+) -> Batch:
     """Runs from start to end. A drive that jumps ends its run before."""
     p, motion, steps = numbers
     jumps = first_jumps(simulation.source, p, starts.t, times.ends().tolist(), bad)
     own_times = times.before({i: end_before(jump, starts.t) for i, jump in jumps.items()})
     kept = None if asked.keep is None else KeptSeries(simulation.source, asked.keep, len(p), times)
     runs = many.Runs(
-        simulation.compiled, p, motion, own_times, asked.method, steps, asked.rtol, asked.stop, asked.audit,
-        asked.side_by_side, asked.threads, kept is not None, DRIVES.get(asked.method),
-    )  # fmt: skip
+        simulation.compiled,
+        p,
+        motion,
+        own_times,
+        asked.method,
+        steps,
+        asked.rtol,
+        asked.stop,
+        asked.audit,
+        asked.side_by_side,
+        asked.threads,
+        kept is not None,
+        DRIVES.get(asked.method),
+    )
     runs.begin(starts.states)
     runs.leave_out(bad)
     runs.looks = searches = starts.searches(p, bad, asked)
@@ -136,7 +163,7 @@ class _Starts:
 
     def __init__(
         self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun, worn: dict[str, Array]
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.compiled, self.worn = simulation.compiled, worn
         rows, self.bad = rows_of(parameters)
         own = next((len(contour) for contour in worn.values() if contour.ndim == 2), len(rows))
@@ -297,16 +324,25 @@ def _of_runs(results: _Results, times: Times) -> Batch:
         states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
     numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
-        source=source, t=times.requested(), states=states, samples=x["done"] - times.skipped * (x["done"] > 1),
+        source=source,
+        t=times.requested(),
+        states=states,
+        samples=x["done"] - times.skipped * (x["done"] > 1),
         t_last=x["t_last"],
-        parameters=given_values(source, x["p"], results.starts.is_given), impacts=runs.all_impacts(),
-        events=runs.all_events(), peaks=peaks_of(x["peaks"][:, :joints], runs.contacts, np.diff(runs.cuts)),
-        diagnostics=numbers, failures=as_failures(runs.failures),
-        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results,
+        parameters=given_values(source, x["p"], results.starts.is_given),
+        impacts=runs.all_impacts(),
+        events=runs.all_events(),
+        peaks=peaks_of(x["peaks"][:, :joints], runs.contacts, np.diff(runs.cuts)),
+        diagnostics=numbers,
+        failures=as_failures(runs.failures),
+        seconds=math.nan,
+        threads=0,
+        interrupted=runs.interrupted,
+        result=results,
         kept={name: times.without_starts(rows) for name, rows in kept.arrays.items()} if kept else {},
         extremes=tuple(told.extremes for told in results.told),
         rubbed=tuple(told.rubbed for told in results.told),
-    )  # fmt: skip
+    )
 
 
 class KeptSeries:

@@ -52,9 +52,13 @@ class Simulation(Shown):
     """
 
     def __init__(
-        self, compiled: CompiledModel, file: Path | str, *, overrides: Mapping[str, Any] | None = None,
+        self,
+        compiled: CompiledModel,
+        file: Path | str,
+        *,
+        overrides: Mapping[str, Any] | None = None,
         loading: Loading | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.compiled, self.source, self.file = compiled, compiled.source, Path(file)
         self.loading = loading  # where the kernels came from, and how long it took
         self._overrides = dict(overrides or {})
@@ -100,9 +104,13 @@ class Simulation(Shown):
 
         if formulation not in self._variants:
             self._variants[formulation] = load_bytes(
-                self._loaded_bytes(), self.file, self.source.scene, formulation=formulation, overrides=self._overrides,
+                self._loaded_bytes(),
+                self.file,
+                self.source.scene,
+                formulation=formulation,
+                overrides=self._overrides,
                 portable=self.compiled.portable,
-            )  # fmt: skip
+            )
         return self._variants[formulation]
 
     def to_html(self) -> str:
@@ -182,13 +190,23 @@ class Simulation(Shown):
         return assemble(self.compiled, prepare(self.compiled, parameters)[0])
 
     def simulate(
-        self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
-        rtol: float | str | None = None, step: float | str | None = None,
-        parameters: Mapping[str, float | str] | None = None, start: State | None = None,
-        progress: Progress | None = None, horizon: bool = False, stop: bool = True,
-        peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
-        contour: Mapping[str, ArrayLike] | None = None, audit: bool | str = True,
-    ) -> Result:  # fmt: skip
+        self,
+        t_end: float | str | None = None,
+        *,
+        output: int | ArrayLike | None = None,
+        method: str = "auto",
+        rtol: float | str | None = None,
+        step: float | str | None = None,
+        parameters: Mapping[str, float | str] | None = None,
+        start: State | None = None,
+        progress: Progress | None = None,
+        horizon: bool = False,
+        stop: bool = True,
+        peaks: Iterable[str | Rubbing] | None = None,
+        against: Simulation | None = None,
+        contour: Mapping[str, ArrayLike] | None = None,
+        audit: bool | str = True,
+    ) -> Result:
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
         `output`: so many equal intervals, both ends included, or the times (s) of all samples, of which the last is
@@ -221,10 +239,21 @@ class Simulation(Shown):
         horizon, stop, level = flag(horizon, "horizon"), flag(stop, "stop"), audit_level(audit)
         if (fitting := self.of_method(method, progress)) is not self:
             return fitting.simulate(
-                t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
-                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
+                t_end,
+                output=output,
+                method=method,
+                rtol=rtol,
+                step=step,
+                parameters=parameters,
+                start=start,
+                progress=progress,
+                horizon=horizon,
+                stop=stop,
+                peaks=peaks,
+                against=against,
+                contour=contour,
                 audit=audit,
-            )  # fmt: skip
+            )
         names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
         begin = None if start is None else own(self.source, start)
         given, is_given, remarks = numbers(self.compiled, begin, parameters, taken_contours(self.source, contour))
@@ -246,9 +275,24 @@ class Simulation(Shown):
             remarks += off_constraints(self.compiled, p, t0, q, v)
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
-            self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state, chosen,
-            tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, from_start, level, begin,
-        )  # fmt: skip
+            self.compiled,
+            p,
+            times,
+            q,
+            v,
+            memory,
+            h,
+            progress,
+            None if begin is None else begin.state,
+            chosen,
+            tolerance,
+            without_baumgarte(self.compiled, given, is_given),
+            stop,
+            remarks,
+            from_start,
+            level,
+            begin,
+        )
         search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(problem, given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
@@ -258,14 +302,25 @@ class Simulation(Shown):
         return result
 
     def simulate_many(
-        self, parameters: ParameterSets, t_end: float | str | Sequence[float | str] | ArrayLike | None = None, *,
-        output: int | ArrayLike | Sequence[ArrayLike] | None = None, method: str = "auto",
-        rtol: float | str | None = None, step: float | str | Sequence[float | str] | ArrayLike | None = None,
-        threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
-        start: State | Sequence[State] | None = None, keep: str | Iterable[str] = "states",
-        peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
-        contour: Mapping[str, ArrayLike] | None = None, audit: bool | str = True,
-    ) -> Batch:  # fmt: skip
+        self,
+        parameters: ParameterSets,
+        t_end: float | str | Sequence[float | str] | ArrayLike | None = None,
+        *,
+        output: int | ArrayLike | Sequence[ArrayLike] | None = None,
+        method: str = "auto",
+        rtol: float | str | None = None,
+        step: float | str | Sequence[float | str] | ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        stop: bool = True,
+        side_by_side: bool = True,
+        start: State | Sequence[State] | None = None,
+        keep: str | Iterable[str] = "states",
+        peaks: Iterable[str | Rubbing] | None = None,
+        against: Simulation | None = None,
+        contour: Mapping[str, ArrayLike] | None = None,
+        audit: bool | str = True,
+    ) -> Batch:
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
         `parameters`: a mapping for every run, or columns {address: one value, or (n,) values in an array, a list,
@@ -289,16 +344,39 @@ class Simulation(Shown):
         from gudgeon.simulation.simulate_many import simulate_many
 
         return simulate_many(
-            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep,
-            peaks, against, contour, audit,
-        )  # fmt: skip
+            self,
+            parameters,
+            t_end,
+            output,
+            method,
+            rtol,
+            step,
+            threads,
+            progress,
+            stop,
+            side_by_side,
+            start,
+            keep,
+            peaks,
+            against,
+            contour,
+            audit,
+        )
 
     def lyapunov(
-        self, t_end: float | str | Result, *, section: str | float | None = None, by: str = "auto",
-        skip: float | str = 0.0, method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
-        parameters: Mapping[str, float | str] | None = None, start: State | None = None,
+        self,
+        t_end: float | str | Result,
+        *,
+        section: str | float | None = None,
+        by: str = "auto",
+        skip: float | str = 0.0,
+        method: str = "auto",
+        rtol: float | str | None = None,
+        step: float | str | None = None,
+        parameters: Mapping[str, float | str] | None = None,
+        start: State | None = None,
         progress: Progress | None = None,
-    ) -> Lyapunov:  # fmt: skip
+    ) -> Lyapunov:
         """The largest Lyapunov exponent (1/s) of the motion up to t_end (s), with its uncertainty; see Lyapunov.
 
         `by`: "tangent", the variational equation with the exact Jacobian and a jump at each contact; "twin", a second

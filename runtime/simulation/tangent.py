@@ -39,11 +39,13 @@ if TYPE_CHECKING:
 NUDGE = 1e-5  # share of δ̇⁻ by which it is moved for the slope of forces along it: they hang on 1/δ̇⁻
 ROOT = np.sqrt(15.0)
 NODES = np.array([0.5 - ROOT / 10, 0.5, 0.5 + ROOT / 10])  # E. Hairer, G. Wanner, Solving ODEs II, table IV.5.2
-BUTCHER = np.array([
-    [5 / 36, 2 / 9 - ROOT / 15, 5 / 36 - ROOT / 30],
-    [5 / 36 + ROOT / 24, 2 / 9, 5 / 36 - ROOT / 24],
-    [5 / 36 + ROOT / 30, 2 / 9 + ROOT / 15, 5 / 36],
-])  # fmt: skip
+BUTCHER = np.array(
+    [
+        [5 / 36, 2 / 9 - ROOT / 15, 5 / 36 - ROOT / 30],
+        [5 / 36 + ROOT / 24, 2 / 9, 5 / 36 - ROOT / 24],
+        [5 / 36 + ROOT / 30, 2 / 9 + ROOT / 15, 5 / 36],
+    ]
+)
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
 FIRST, DEEPEST = 2, 16  # panels of a stretch; how often one is halved
 CLOSE = 1e-8  # change of a panel's propagator by that
@@ -142,8 +144,9 @@ class Flow:
         if not self.chained:
             return chain
         q, rates = chain[0].copy(), np.zeros(3 * self.chained)
-        self.compiled.lib.gudgeon_chains(t, *self.pointers(q, written=True), *self.pointers(self.p),
-                                         *self.pointers(rates, written=True))  # fmt: skip
+        self.compiled.lib.gudgeon_chains(
+            t, *self.pointers(q, written=True), *self.pointers(self.p), *self.pointers(rates, written=True)
+        )
         return np.stack([q, rates[: self.chained]])
 
     def gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
@@ -199,8 +202,9 @@ class Panel:
     def ends(self) -> list[float]:
         """Times (s) of both ends, beside those of the stretch."""
         s, length = np.array([self.s, self.s + self.width]), self.b - self.a
-        return np.clip(self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length,
-                       self.b - INSIDE * length).tolist()  # fmt: skip
+        return np.clip(
+            self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length, self.b - INSIDE * length
+        ).tolist()
 
     def halved(self) -> tuple[Panel, Panel]:
         """Its two halves, without propagators."""
@@ -270,21 +274,26 @@ class Tangent:
         found = []
         for impact in run.impacts:
             joint, deltadot = int(impact["joint"]), float(impact["deltadot"])
-            found += [(float(impact[name]), joint, name == "t_on", deltadot) for name in ("t_on", "t_off")
-                      if begin < impact[name] < end]  # fmt: skip
+            found += [
+                (float(impact[name]), joint, name == "t_on", deltadot)
+                for name in ("t_on", "t_off")
+                if begin < impact[name] < end
+            ]
         return sorted(found)
 
     def _samples(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
         """(q, q̇) and memory at these times."""
         run = with_start(self._run([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
-        return {t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy())
-                for t, k in zip(times, rows, strict=True)}  # fmt: skip
+        return {
+            t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy()) for t, k in zip(times, rows, strict=True)
+        }
 
     def _propagated(self, places: list[float]) -> list[Panel]:
         """Panels from the first to the last of these times, whose propagators stand still."""
-        panels = [Panel(a, b, k / FIRST, 1.0 / FIRST) for a, b in zip(places, places[1:], strict=False)
-                  for k in range(FIRST)]  # fmt: skip
+        panels = [
+            Panel(a, b, k / FIRST, 1.0 / FIRST) for a, b in zip(places, places[1:], strict=False) for k in range(FIRST)
+        ]
         self._fill(panels)
         open_ones = panels
         while open_ones:
@@ -359,8 +368,10 @@ class Tangent:
         out = (BESIDE * flow.play[joint] + 2.0 * abs(gap)) / abs(rate)  # s
         drift = flow.rates(t, y, chain, free)
         drift[flow.m :] = 0.0
-        f = [flow.rates(t + s * out, y + s * out * drift, flow.chain_at(t + s * out, chain), memory)
-             for s, memory in ((-1.0, free if onset else closed), (1.0, closed if onset else free))]  # fmt: skip
+        f = [
+            flow.rates(t + s * out, y + s * out * drift, flow.chain_at(t + s * out, chain), memory)
+            for s, memory in ((-1.0, free if onset else closed), (1.0, closed if onset else free))
+        ]
         passed = z.copy()
         passed[:size] -= (f[1] - f[0]) * later
         passed[size + joint] = 0.0
@@ -374,8 +385,12 @@ class Tangent:
         lifted = self._lifted(t, y, chain, f)
         lifted[self.measure.n :] = 0.0
         h = SMALL / max(self.measure.apart(lifted), 1.0 / self.measure.crossing)
-        rates = [flow.gap(joint, t + s, y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)),
-                          flow.chain_at(t + s, chain))[1] for s in (h, -h)]  # fmt: skip
+        rates = [
+            flow.gap(
+                joint, t + s, y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)), flow.chain_at(t + s, chain)
+            )[1]
+            for s in (h, -h)
+        ]
         return (rates[0] - rates[1]) / (2.0 * h)
 
     def _onto(self, run: Result, z: Array) -> Array:
@@ -387,8 +402,10 @@ class Tangent:
             f = self.flow.rates(t, y, chain, run.memory[-1])
             d = d - f * self.measure.along(self._lifted(t, y, chain, d), self._lifted(t, y, chain, f))
         h = NEAR / self.measure.apart(self._lifted(t, y, chain, d))
-        ends = [self.flow.reduced(t, self.measure.onto(t, self.flow.expanded(t, y + s * h * d, chain)))[0]
-                for s in (1.0, -1.0)]  # fmt: skip
+        ends = [
+            self.flow.reduced(t, self.measure.onto(t, self.flow.expanded(t, y + s * h * d, chain)))[0]
+            for s in (1.0, -1.0)
+        ]
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
 
     def _lifted(self, t: float, y: Array, chain: Array, d: Array) -> Array:

@@ -74,9 +74,12 @@ class Told:
 
 
 def search_of(
-    compiled: CompiledModel, numbers: tuple[Array, Array, Array], rtol: float, wanted: tuple[str | Rubbing, ...],
+    compiled: CompiledModel,
+    numbers: tuple[Array, Array, Array],
+    rtol: float,
+    wanted: tuple[str | Rubbing, ...],
     against: Simulation | None,
-) -> Looker | None:  # fmt: skip
+) -> Looker | None:
     """For a run with these numbers, p, given and is_given; None where nothing is wanted."""
     found, series = list[Looker](), tuple(one for one in wanted if isinstance(one, str))
     if series:
@@ -152,9 +155,18 @@ class Beside:
         assembled, method = assemble(self.compiled, p), method_of(self.compiled.source, "auto", False)
         memory = np.full(self.compiled.n_memory, np.nan)
         return Problem(
-            self.compiled, p, np.zeros(1), assembled.q, assembled.v, memory, math.inf, method=method, rtol=self.rtol,
-            p_free=without_baumgarte(self.compiled, given, is_given), stop=False,
-        )  # fmt: skip
+            self.compiled,
+            p,
+            np.zeros(1),
+            assembled.q,
+            assembled.v,
+            memory,
+            math.inf,
+            method=method,
+            rtol=self.rtol,
+            p_free=without_baumgarte(self.compiled, given, is_given),
+            stop=False,
+        )
 
 
 def check_beside(source: KernelSource, against: Simulation | None) -> Simulation | None:

@@ -41,11 +41,21 @@ NOT_AGAIN = "the run could not be repeated bit for bit: what rubbed in it is not
 
 
 def wear(
-    simulation: Simulation, run: Result, joint: str, *, k: float | str, hardness: float | str | None = None,
-    journal_k: float | str | None = None, journal_hardness: float | str | None = None, law: str = "archard",
-    contact: str = "point", points: int = POINTS, since: float | None = None, until: float | None = None,
+    simulation: Simulation,
+    run: Result,
+    joint: str,
+    *,
+    k: float | str,
+    hardness: float | str | None = None,
+    journal_k: float | str | None = None,
+    journal_hardness: float | str | None = None,
+    law: str = "archard",
+    contact: str = "point",
+    points: int = POINTS,
+    since: float | None = None,
+    until: float | None = None,
     progress: Progress | None = None,
-) -> Wear:  # fmt: skip
+) -> Wear:
     """What a joint with dry contact wears off in a run, over the circumferences of bearing and journal.
 
     Where it has a film too, by what the touching surfaces bear: what the oil carries wears nothing.
@@ -61,10 +71,15 @@ def wear(
     """
     check_own(simulation, run, "wear")
     asked = _asked(run, joint, points, since, until, contact)
-    rates = rate_of(k, hardness, "k", "hardness"), rate_of(
-        k if journal_k is None else journal_k,
-        hardness if journal_hardness is None else journal_hardness, "journal_k", "journal_hardness",
-    )  # fmt: skip
+    rates = (
+        rate_of(k, hardness, "k", "hardness"),
+        rate_of(
+            k if journal_k is None else journal_k,
+            hardness if journal_hardness is None else journal_hardness,
+            "journal_k",
+            "journal_hardness",
+        ),
+    )
     if text(law, "law") not in LAWS:
         refuse("law", law, " or ".join(LAWS))
     again = as_it_was(simulation, run, run.t, progress, (asked,))

@@ -60,12 +60,24 @@ class Wearing:
 
 
 def wear_loop(
-    simulation: Simulation, joints: str | Iterable[str], t_end: float | str | None = None, *, rounds: int,
-    k: float | str, hardness: float | str | None = None, law: str = "archard", scale: float = 1.0,
-    contact: str = "point", points: int = POINTS, passes: int = 1, since: float | None = None,
-    parameters: ParameterSets | None = None, contour: Mapping[str, ArrayLike] | None = None,
-    progress: Progress | None = None, **options: Any,
-) -> Worn:  # fmt: skip
+    simulation: Simulation,
+    joints: str | Iterable[str],
+    t_end: float | str | None = None,
+    *,
+    rounds: int,
+    k: float | str,
+    hardness: float | str | None = None,
+    law: str = "archard",
+    scale: float = 1.0,
+    contact: str = "point",
+    points: int = POINTS,
+    passes: int = 1,
+    since: float | None = None,
+    parameters: ParameterSets | None = None,
+    contour: Mapping[str, ArrayLike] | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Worn:
     """What wear makes of bearings that have a `contour`, over so many rounds of one run or of many.
 
     `k`, `hardness`, `law`, `contact`, `points`, `since`: as in `gudgeon.wear`, of the bearings. `scale`: how many runs
@@ -86,10 +98,15 @@ def wear_loop(
     if text(contact, "contact") not in CONTACT:
         refuse("contact", contact, " or ".join(CONTACT))
     wearing = Wearing(
-        names, rate_of(k, hardness, "k", "hardness"), law, positive(scale, "scale"),
-        whole(points, "points", 8, MOST_POINTS), contact == "overlap", whole(passes, "passes", 0, MOST_PASSES),
+        names,
+        rate_of(k, hardness, "k", "hardness"),
+        law,
+        positive(scale, "scale"),
+        whole(points, "points", 8, MOST_POINTS),
+        contact == "overlap",
+        whole(passes, "passes", 0, MOST_PASSES),
         -np.inf if since is None else number_of(since, "since"),
-    )  # fmt: skip
+    )
     loop = Loop(simulation, wearing, taken_contours(simulation.source, contour, runs=True))
     function(progress, "progress")
     count = whole(rounds, "rounds", 1, MOST_ROUNDS)
@@ -162,12 +179,17 @@ class Loop:
         source, wearing = self.simulation.source, self.wearing
         joints = {
             joint: WornJoint(
-                np.stack(self.contours[joint]), np.stack(self.depths[joint]), np.stack(self.works[joint]),
-                np.stack(self.peaks[joint]), self.sizes[joint][0], self.sizes[joint][1],
-                np.stack(self.journals[joint]), self.sizes[joint][2],
+                np.stack(self.contours[joint]),
+                np.stack(self.depths[joint]),
+                np.stack(self.works[joint]),
+                np.stack(self.peaks[joint]),
+                self.sizes[joint][0],
+                self.sizes[joint][1],
+                np.stack(self.journals[joint]),
+                self.sizes[joint][2],
             )
             for joint in wearing.joints
-        }  # fmt: skip
+        }
         title = f"{one_line(source.title)}: {source.scene}"
         return Worn(joints, wearing.law, wearing.rate, wearing.scale, self.failures, title)
 

@@ -119,10 +119,16 @@ Report = Callable[[float, str], None]
 
 
 def bench(
-    simulation: Simulation, steps: Sequence[float] | None = None, tolerances: Sequence[float] | None = None, *,
-    t_end: float | None = None, parameters: Parameters | None = None, quick: bool = False,
-    methods: Sequence[str] | None = None, progress: Report | None = None,
-) -> SceneBench:  # fmt: skip
+    simulation: Simulation,
+    steps: Sequence[float] | None = None,
+    tolerances: Sequence[float] | None = None,
+    *,
+    t_end: float | None = None,
+    parameters: Parameters | None = None,
+    quick: bool = False,
+    methods: Sequence[str] | None = None,
+    progress: Report | None = None,
+) -> SceneBench:
     """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
 
     `methods`: as `choice` takes them, by default all that fit. `tolerances` default to 1e-3 … 1e-11. `t_end` (s)
@@ -237,9 +243,14 @@ def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
     known = diagnostics.seconds if found.setting.method in python_driver.NAMES else 0.0
     seconds = known if known > work.enough else work.seconds(found.setting)
     return Row(
-        found.setting, seconds / work.t_end, diagnostics.right_hand_sides, error,
-        diagnostics.jacobians, 0, None if other is None else other.setting,
-    )  # fmt: skip
+        found.setting,
+        seconds / work.t_end,
+        diagnostics.right_hand_sides,
+        error,
+        diagnostics.jacobians,
+        0,
+        None if other is None else other.setting,
+    )
 
 
 def other_than(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
@@ -248,9 +259,12 @@ def other_than(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | Non
 
 
 def _kinematic(
-    simulation: Simulation, parameters: Parameters, counts: Sequence[int], t_end: float | None,
+    simulation: Simulation,
+    parameters: Parameters,
+    counts: Sequence[int],
+    t_end: float | None,
     progress: Report | None,
-) -> SceneBench:  # fmt: skip
+) -> SceneBench:
     """No step and no reference: the error is what Newton's method leaves open of the constraints."""
     work = Work(simulation, t_end or plain_end(simulation.compiled, parameters), parameters)
     rows = []

@@ -72,9 +72,14 @@ def _point(ranges: Sequence[Range], shares: Sequence[float]) -> dict[str, float]
 
 
 def judge_point(
-    simulation: Simulation, parameters: Parameters, t_end: float, setting: Setting, limits: Limits | None = None,
-    limit: float = math.inf, progress: Progress | None = None,
-) -> Cell:  # fmt: skip
+    simulation: Simulation,
+    parameters: Parameters,
+    t_end: float,
+    setting: Setting,
+    limits: Limits | None = None,
+    limit: float = math.inf,
+    progress: Progress | None = None,
+) -> Cell:
     """One point of a box over [0, t_end] (s); `limit` (s) of processor time for its long run."""
     work, limits = Work(simulation, t_end, parameters, limit=limit), limits or limits_of(setting)
     long = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1), progress)

@@ -91,10 +91,18 @@ class VerdictBox(_Judged):
 
 
 def verdict_map(
-    simulation: Simulation, axes: Sequence[Axis] = (), *, method: str = "auto", value: float | None = None,
-    t_long: float | None = None, t_short: float | None = None, parameters: Parameters | None = None,
-    limits: Limits | None = None, quick: bool = False, progress: Report | None = None,
-) -> VerdictMap:  # fmt: skip
+    simulation: Simulation,
+    axes: Sequence[Axis] = (),
+    *,
+    method: str = "auto",
+    value: float | None = None,
+    t_long: float | None = None,
+    t_short: float | None = None,
+    parameters: Parameters | None = None,
+    limits: Limits | None = None,
+    quick: bool = False,
+    progress: Report | None = None,
+) -> VerdictMap:
     """Judge every pair of at most two axes (`gudgeon.measure.axes`), by default tolerance (rk4: step) × clearance.
 
     `value`: the step or tolerance where neither axis is one. `t_long` (s) is the run over which a cell has to
@@ -144,10 +152,18 @@ def arrange(
 
 
 def verdict_box(
-    simulation: Simulation, ranges: Sequence[Range], count: int, *, setting: Setting | None = None,
-    t_long: float | None = None, parameters: Parameters | None = None, limits: Limits | None = None,
-    addresses: Mapping[str, Axis] | None = None, quick: bool = False, progress: Report | None = None,
-) -> VerdictBox:  # fmt: skip
+    simulation: Simulation,
+    ranges: Sequence[Range],
+    count: int,
+    *,
+    setting: Setting | None = None,
+    t_long: float | None = None,
+    parameters: Parameters | None = None,
+    limits: Limits | None = None,
+    addresses: Mapping[str, Axis] | None = None,
+    quick: bool = False,
+    progress: Report | None = None,
+) -> VerdictBox:
     """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups.
 
     `quick`: over a tenth of the time. Rest as for a map.

@@ -120,9 +120,16 @@ def _touching(simulation: Simulation, longest: float) -> Result | None:
 
 
 def _time(
-    simulation: Simulation, state: str, t: float, q: Array, v: Array, memory: Array, batch: int, repeats: int,
+    simulation: Simulation,
+    state: str,
+    t: float,
+    q: Array,
+    v: Array,
+    memory: Array,
+    batch: int,
+    repeats: int,
     closed: list[str] | None = None,
-) -> RhsTime:  # fmt: skip
+) -> RhsTime:
     model = simulation.compiled
     y, latched = np.concatenate([q, v, np.zeros(N_WORK)]), model.memory_array(memory)
     arguments = (batch, t, model.pointer(y), model.pointer(latched), model.pointer(simulation.p))

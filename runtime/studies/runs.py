@@ -127,9 +127,13 @@ class _TooSlowError(Exception):
 
 
 def attempt(
-    simulation: Simulation, times: Array, setting: Setting, parameters: Parameters, progress: Progress | None = None,
+    simulation: Simulation,
+    times: Array,
+    setting: Setting,
+    parameters: Parameters,
+    progress: Progress | None = None,
     limit: float = math.inf,
-) -> Attempt:  # fmt: skip
+) -> Attempt:
     """A run that may fail, or be stopped after `limit` seconds of processor time.
 
     Ctrl-C is passed on, unlike in `simulate`: half a comparison is none.

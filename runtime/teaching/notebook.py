@@ -48,8 +48,12 @@ def notebook(model: Model, mechanism: str) -> str:
         for k, (kind, text) in enumerate(_cells(model, mechanism), 1)
     ]
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    document = {"cells": cells, "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
-                "nbformat": 4, "nbformat_minor": 5}  # fmt: skip
+    document = {
+        "cells": cells,
+        "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 

@@ -23,8 +23,9 @@ from gudgeon.teaching.draw_numbers import NOISE
 from gudgeon.teaching.sheet import LONGEST, Question, Subject
 
 PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "ν")
-GAMMA = Name(r"\gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}",
-             "γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt")  # fmt: skip
+GAMMA = Name(
+    r"\gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}", "γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt"
+)
 WIDEST = 60  # characters of a formula in a cell
 STATE = (("x", "m"), ("y", "m"), ("theta", "rad"))
 ACCELERATIONS = Name(r"\Phi_{q} \ddot{q} = \gamma", "Φ_q·q̈ = γ")
@@ -68,9 +69,12 @@ def _freedoms(subject: Subject) -> Question:
         told = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
         solved.append(paragraph("The rank of ", PHI_Q, told))
     asked = paragraph(
-        "How many coordinates do the bodies have, how many rows does each joint and drive add to ", PHI,
-        ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ", PHI_Q, " agree?",
-    )  # fmt: skip
+        "How many coordinates do the bodies have, how many rows does each joint and drive add to ",
+        PHI,
+        ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ",
+        PHI_Q,
+        " agree?",
+    )
     numbers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
     return Question("Count the freedoms", (asked,), tuple(solved), numbers)
 
@@ -81,9 +85,11 @@ def _named(subject: Subject) -> str:
 
 def _rows(subject: Subject) -> Question:
     asked = paragraph(
-        "Write the rows of ", PHI, f" of {_named(subject)}, in the coordinates of the centres of mass, with the "
+        "Write the rows of ",
+        PHI,
+        f" of {_named(subject)}, in the coordinates of the centres of mass, with the "
         "letters given above. A joint's points are written from its first body to its second.",
-    )  # fmt: skip
+    )
     solved: list[Block] = [
         block
         for k, row in subject.rows
@@ -128,9 +134,12 @@ def _jacobian(subject: Subject) -> Question:
     asked = [
         paragraph(f"At {drawn.t:g} s the bodies are at"),
         *position(subject, rates=False),
-        paragraph("What entries of ", PHI_Q, f" do the rows of {_named(subject)} have there? Check one by moving its "
-                  "coordinate by a little."),
-    ]  # fmt: skip
+        paragraph(
+            "What entries of ",
+            PHI_Q,
+            f" do the rows of {_named(subject)} have there? Check one by moving its coordinate by a little.",
+        ),
+    ]
     solved = [*_new_letters(subject, "phi_q"), *table(cells("entry", "", "value", "unit"), rows), *below]
     return Question("The Jacobian at a position", tuple(asked), tuple(solved), numbers)
 
@@ -175,10 +184,14 @@ def _play(subject: Subject) -> Iterator[Question]:
     clearance = float(drawn.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))
     asked = paragraph(
-        f"The journal of {joint} is off the middle of its bearing by (", subject.number(ex), ", ", subject.number(ey),
-        ") m, and the clearance is ", subject.number(clearance), " m. How large are the eccentricity e, its ratio "
-        "e/c and the penetration δ = e - c? Do the surfaces touch?",
-    )  # fmt: skip
+        f"The journal of {joint} is off the middle of its bearing by (",
+        subject.number(ex),
+        ", ",
+        subject.number(ey),
+        ") m, and the clearance is ",
+        subject.number(clearance),
+        " m. How large are the eccentricity e, its ratio e/c and the penetration δ = e - c? Do the surfaces touch?",
+    )
     touch = "they touch" if e > clearance else "they do not touch"
     solved = (
         subject.value(letter("e", joint), e, "m"),
@@ -302,10 +315,11 @@ def acceleration(subject: Subject) -> Question:
         *([paragraph("The other bodies are at"), *others, paragraph("with the rates")] if others else []),
         *position(subject, rates=True, others=True),
         paragraph(
-            "Drives determine the whole motion. Write all rows of ", ACCELERATIONS, f" at {drawn.t:g} s, by hand or by "
-            f"computer, and solve them: how large is the {what} {name}?",
+            "Drives determine the whole motion. Write all rows of ",
+            ACCELERATIONS,
+            f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {what} {name}?",
         ),
-    ]  # fmt: skip
+    ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     signs = [letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MOST else [r for r in range(len(gamma)) if phi_q[r, k]]
@@ -363,9 +377,7 @@ def force(subject: Subject) -> Iterator[Question]:
     solved: list[Block] = [
         *_balance(subject, [k - 1 for k, _ in lambdas]),
         *(
-            subject.value(
-                indexed("lambda", k), _multiplier(subject, row.name), "N" if row.unit == "m" else "N m", F[2]
-            )
+            subject.value(indexed("lambda", k), _multiplier(subject, row.name), "N" if row.unit == "m" else "N m", F[2])
             for k, row in lambdas
         ),
         paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),

@@ -47,9 +47,16 @@ class Programs:
 
         with CtrlC() as ctrl_c:  # not between the start of a process and the note of it
             process = subprocess.Popen(
-                line, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True,
-            )  # fmt: skip
+                line,
+                cwd=folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+                errors="replace",
+                start_new_session=True,
+            )
             self._begun.append(process)
         ctrl_c.take()
         return process

@@ -41,32 +41,55 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
     source = compiled.source
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     found = {
-        "mechanism": source.mechanism, "scene": source.scene, "title": source.title,
-        "coordinates": source.coordinates, "bodies": [body.name for body in source.bodies],
-        "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
+        "mechanism": source.mechanism,
+        "scene": source.scene,
+        "title": source.title,
+        "coordinates": source.coordinates,
+        "bodies": [body.name for body in source.bodies],
+        "slots": [_slot(slot) for slot in source.slots],
+        "derived": source.derived,
         "conditions": [[one.address, one.relation, one.bound, one.message] for one in conditions(source)],
-        "partials": [{"address": one.address, "tree": to_json(one.tree), "slot": one.slot, "slots": dict(one.slots)}
-                     for one in partials(source)],
+        "partials": [
+            {"address": one.address, "tree": to_json(one.tree), "slot": one.slot, "slots": dict(one.slots)}
+            for one in partials(source)
+        ],
         "divides": sorted(DIVIDING),
         "gains": [place[name] for name in GAINS if name in place],
-        "methods": _methods(source), "begins": begins_with(source), "stiff": stiff_of(source, RTOL),
+        "methods": _methods(source),
+        "begins": begins_with(source),
+        "stiff": stiff_of(source, RTOL),
         "automatic": not source.explicit,
-        "pivots": source.motion_pivots, "start_pivots": source.start_pivots,
+        "pivots": source.motion_pivots,
+        "start_pivots": source.start_pivots,
         "evaluation_pivots": source.pivots,
-        "angles": integrated_angles(source).tolist(), "sizes": size_places(source),
+        "angles": integrated_angles(source).tolist(),
+        "sizes": size_places(source),
         "clearances": [[joint.name, joint.clearance] for joint in source.clearances],
         **({"contours": {one.joint: [one.first, one.count] for one in source.contours}} if source.contours else {}),
-        "film": any(joint.film for joint in source.clearances), "beyond": compiled.beyond,
-        "rtol": RTOL, "felt_by_films": FELT_BY_FILMS, "reach": REACH,
-        "memory": source.n_memory, "events": [[event.name, event.action] for event in source.events],
-        "widths": _widths(source), "unknown": _unknown(source), "left_out": _left_out(compiled), "open": OPEN,
+        "film": any(joint.film for joint in source.clearances),
+        "beyond": compiled.beyond,
+        "rtol": RTOL,
+        "felt_by_films": FELT_BY_FILMS,
+        "reach": REACH,
+        "memory": source.n_memory,
+        "events": [[event.name, event.action] for event in source.events],
+        "widths": _widths(source),
+        "unknown": _unknown(source),
+        "left_out": _left_out(compiled),
+        "open": OPEN,
         "rows": [[row.owner, row.unit] for row in source.start_rows],
-        "simulate": _simulate(source), "step": _step(compiled, seen_step), "start": _start(compiled),
-        "columns": dict(_columns(source)), "points": {point.name: _point(source, point) for point in source.points},
-        "outputs": {name: [series.unit, source.outputs[name]] for name, series in catalogue(source).items()
-                    if name in source.outputs},
+        "simulate": _simulate(source),
+        "step": _step(compiled, seen_step),
+        "start": _start(compiled),
+        "columns": dict(_columns(source)),
+        "points": {point.name: _point(source, point) for point in source.points},
+        "outputs": {
+            name: [series.unit, source.outputs[name]]
+            for name, series in catalogue(source).items()
+            if name in source.outputs
+        },
         "notes": [NOT_SEEN] if may_jump(source) else [],
-    }  # fmt: skip
+    }
     return json.dumps(found, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
@@ -84,11 +107,17 @@ def _slot(slot: Slot) -> dict[str, Any]:
 def _widths(source: KernelSource) -> dict[str, int]:
     """Columns of what gudgeon_evaluate fills, in its order."""
     return {
-        "a": len(source.coordinates), "multipliers": len(source.rows),
-        "reactions": 3 * (len(source.joints) + len(source.guides)), "torques": len(source.drives),
-        "clearance": 10 * len(source.clearances), "series": len(source.series),
-        "friction": 2 * len(source.frictions), "energy": 2, "power": 3, "drift": 2,
-    }  # fmt: skip
+        "a": len(source.coordinates),
+        "multipliers": len(source.rows),
+        "reactions": 3 * (len(source.joints) + len(source.guides)),
+        "torques": len(source.drives),
+        "clearance": 10 * len(source.clearances),
+        "series": len(source.series),
+        "friction": 2 * len(source.frictions),
+        "energy": 2,
+        "power": 3,
+        "drift": 2,
+    }
 
 
 def _unknown(source: KernelSource) -> list[str]:

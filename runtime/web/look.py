@@ -13,10 +13,19 @@ from gudgeon.drawing.roles import DRIVEN, EDGES, GREY, INK, LOADED, NAMES, ROLES
 # what turns with the paper; in print and in light as roles.py has it
 FRAME = {INK: "var(--ink)", GREY: "var(--quiet)", "white": "var(--paper)", "#ffffff": "var(--paper)"}
 DARK = {
-    DRIVEN: "#ff8a80", LOADED: "#4fd1b5", WOUND: "#c8c8d0", WRONG: "#ff6b6b", "#0072B2": "#6cb8f0",
-    "#D55E00": "#ff9d4d", "#9c4300": "#ffb27a", "#f9dedc": "#57211d", "#e8e8e8": "#3a3c44", "#ececec": "#33353c",
-    "#ffd5d0": "#5c1f1f", "#cfe3f1": "#24455c",
-} | dict(zip(EDGES, TINTS, strict=True))  # fmt: skip
+    DRIVEN: "#ff8a80",
+    LOADED: "#4fd1b5",
+    WOUND: "#c8c8d0",
+    WRONG: "#ff6b6b",
+    "#0072B2": "#6cb8f0",
+    "#D55E00": "#ff9d4d",
+    "#9c4300": "#ffb27a",
+    "#f9dedc": "#57211d",
+    "#e8e8e8": "#3a3c44",
+    "#ececec": "#33353c",
+    "#ffd5d0": "#5c1f1f",
+    "#cfe3f1": "#24455c",
+} | dict(zip(EDGES, TINTS, strict=True))
 DARK_TINTS = ("#1d3a4d", "#4a3510", "#153f32", "#45263a", "#4d2a14", "#234152", "#3a3a3e", "#403d12")
 
 
@@ -27,8 +36,10 @@ def style(looks: Iterable[tuple[str, int]], names: Iterable[tuple[str, int]]) ->
         here = f".{look(role, tint)}"
         one = ROLES[role]
         dashes = f"stroke-dasharray:{' '.join(f'{x:g}' for x in one.dashes)};" if one.dashes else ""
-        light.append(f"{here}{{stroke:{_light(one.edge, tint)};fill:{_light(one.face, tint)};"
-                     f"stroke-width:{one.width * PIXELS / 72.0:.2f};{dashes}}}")  # fmt: skip
+        light.append(
+            f"{here}{{stroke:{_light(one.edge, tint)};fill:{_light(one.face, tint)};"
+            f"stroke-width:{one.width * PIXELS / 72.0:.2f};{dashes}}}"
+        )
         dark.append(f"{here}{{stroke:{_dark(one.edge, tint)};fill:{_dark(one.face, tint)}}}")
     for role, tint in names:
         here = f".{look(role, tint)}-name"

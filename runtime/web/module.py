@@ -24,21 +24,59 @@ from gudgeon.waiting.programs import Programs
 MODULE = "simulator.wasm"
 # what simulator.js calls, where a scene has it
 CALLED = (
-    "prepare", "mass", "phi", "phi_q", "nu", "start_values", "start", "follow", "evaluate", "run_size", "run_start",
-    "run_stop", "run_events", "run_impacts", "run_report", "run_sample", "method", "adaptive_setup", "adaptive_run",
-    "course_size", "course_begin", "course_again", "course_pace", "course_tape", "course_taped",
-    "kinematic", "kinematic_works", "kinematic_events",
+    "prepare",
+    "mass",
+    "phi",
+    "phi_q",
+    "nu",
+    "start_values",
+    "start",
+    "follow",
+    "evaluate",
+    "run_size",
+    "run_start",
+    "run_stop",
+    "run_events",
+    "run_impacts",
+    "run_report",
+    "run_sample",
+    "method",
+    "adaptive_setup",
+    "adaptive_run",
+    "course_size",
+    "course_begin",
+    "course_again",
+    "course_pace",
+    "course_tape",
+    "course_taped",
+    "kinematic",
+    "kinematic_works",
+    "kinematic_events",
 )
-DRIVEN = ("rhs",)  # and where its drives leave no freedom  # fmt: skip
+DRIVEN = ("rhs",)  # and where its drives leave no freedom
 # No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). Loops stay loops: a
 # module is a tenth shorter. The stack is as large as programs have it; zig puts it first, so that what overflows it
 # traps instead of writing over numbers.
 FLAGS = (
-    "-target", "wasm32-wasi", "-mexec-model=reactor", "-O2", "-fno-unroll-loops", "-msimd128", "-std=c11",
-    "-ffp-contract=off", "-fno-math-errno", "-fno-sanitize=undefined", "-fvisibility=hidden", "-DAUDITS=0",
-    "-Werror=implicit-function-declaration", "-s", "-Wl,--gc-sections", "-Wl,-z,stack-size=8388608",
-    "-Wl,--export=malloc", "-Wl,--export=free",
-)  # fmt: skip
+    "-target",
+    "wasm32-wasi",
+    "-mexec-model=reactor",
+    "-O2",
+    "-fno-unroll-loops",
+    "-msimd128",
+    "-std=c11",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-fno-sanitize=undefined",
+    "-fvisibility=hidden",
+    "-DAUDITS=0",
+    "-Werror=implicit-function-declaration",
+    "-s",
+    "-Wl,--gc-sections",
+    "-Wl,-z,stack-size=8388608",
+    "-Wl,--export=malloc",
+    "-Wl,--export=free",
+)
 
 
 def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:

@@ -21,10 +21,20 @@ from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
 
 SECTIONS = {
-    "parameters": "Parameters", "bodies": "Bodies", "ground": "Ground", "gravity": "Gravity", "joints": "Joints",
-    "drives": "Drives", "forces": "Forces", "bearings": "Bearings", "guides": "Guides", "contacts": "Contacts",
-    "materials": "Materials", "baumgarte": "Baumgarte's terms", "start": "Start",
-}  # fmt: skip
+    "parameters": "Parameters",
+    "bodies": "Bodies",
+    "ground": "Ground",
+    "gravity": "Gravity",
+    "joints": "Joints",
+    "drives": "Drives",
+    "forces": "Forces",
+    "bearings": "Bearings",
+    "guides": "Guides",
+    "contacts": "Contacts",
+    "materials": "Materials",
+    "baumgarte": "Baumgarte's terms",
+    "start": "Start",
+}
 MORE, TURN = 4.0, 3.141592653589793  # how many times a positive number, how far an angle goes either way
 SMALL = 0.05  # share of the mechanism's size below which a length is none of its links
 STAY = ("bodies", "bearings", "guides", "contacts", "materials", "baumgarte")  # whose positive numbers keep their sign
@@ -70,6 +80,7 @@ def units(source: KernelSource) -> dict[str, dict[str, float]]:
 
 def _allowed(compiled: CompiledModel, slot: Slot, value: float, end: float) -> float:
     """The end of a slider; where what follows from the number breaks a condition, the last one before that."""
+
     def refused(at: float) -> bool:
         try:
             prepare(compiled, {slot.address: at})

@@ -58,10 +58,17 @@ def script(source: KernelSource) -> str:
     Whether expressions are defined is checked in scenes with expressions that may not be.
     """
     texts = [code(name) for name in FILES if name != UNDEFINED or partials(source)]
-    return "\n".join((
-        "const gudgeon = (() => {", '"use strict";', *texts, "return {load, unpacked, Simulator, Run};", "})();",
-        'if (typeof module !== "undefined") module.exports = gudgeon;', "",
-    ))  # fmt: skip
+    return "\n".join(
+        (
+            "const gudgeon = (() => {",
+            '"use strict";',
+            *texts,
+            "return {load, unpacked, Simulator, Run};",
+            "})();",
+            'if (typeof module !== "undefined") module.exports = gudgeon;',
+            "",
+        )
+    )
 
 
 def carried(compiled: CompiledModel) -> str:

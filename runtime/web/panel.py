@@ -42,13 +42,17 @@ def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
     source, span = run.source, float(run.t[-1] - run.t[0])
     ends = dict(_journals(source))
     return {
-        "groups": groups(simulation, simulation.p), "units": units(source), "noise": NOISE,
-        "rig": rig.json(), "names": list(_names(rig)),
+        "groups": groups(simulation, simulation.p),
+        "units": units(source),
+        "noise": NOISE,
+        "rig": rig.json(),
+        "names": list(_names(rig)),
         "joints": [[name, point] for name, point in ends.items() if f"{name}.Fx" in run.names],
-        "traces": _first_traces(run), "values": _first_values(run),
+        "traces": _first_traces(run),
+        "values": _first_values(run),
         "seconds": span if SLOW <= span <= QUICK else SHOWN,
         "path": _first_path(rig),
-    }  # fmt: skip
+    }
 
 
 def _journals(source: KernelSource) -> list[tuple[str, str]]:
@@ -129,6 +133,8 @@ def recorded(run: Result, named: list[str]) -> dict[str, Any]:
     table = np.column_stack([run.t[rows], run.q[rows], run.v[rows], *(run[name][rows] for name in names)])
     bits = gzip.compress(np.ascontiguousarray(table.T, dtype="<f4").tobytes(), 9, mtime=0)
     return {
-        "rows": len(rows), "p": [float(x) for x in run.p], "series": {name: run.unit(name) for name in names},
+        "rows": len(rows),
+        "p": [float(x) for x in run.p],
+        "series": {name: run.unit(name) for name in names},
         "bits": base64.b64encode(bits).decode("ascii"),
-    }  # fmt: skip
+    }

@@ -36,10 +36,12 @@ joints:
 A, B, C, D = (
     f"  {name}: {{revolute: [{one}, {other}]}}\n"
     for name, one, other in (
-        ("A", "ground.O", "crank.tail"), ("B", "crank.head", "coupler.tail"),
-        ("C", "coupler.head", "rocker.head"), ("D", "ground.Q", "rocker.tail"),
+        ("A", "ground.O", "crank.tail"),
+        ("B", "crank.head", "coupler.tail"),
+        ("C", "coupler.head", "rocker.head"),
+        ("D", "ground.Q", "rocker.tail"),
     )
-)  # fmt: skip
+)
 MOTOR = "drives: {motor: {angle: crank, value: 30 deg + 1 rad/s * t}}"
 
 
@@ -252,9 +254,10 @@ start: {{guess: {{{guess}}}}}
 """.encode()
 
 
-@pytest.mark.parametrize(("guess", "side", "off"), slow_rows_but(
-    [(160, 1, 0), (-100, -1, 25.9)], [(160, 1, 0), (-74, -1, 0), (-100, -1, 25.9), (-160, -1, 85.9)]
-))
+@pytest.mark.parametrize(
+    ("guess", "side", "off"),
+    slow_rows_but([(160, 1, 0), (-100, -1, 25.9)], [(160, 1, 0), (-74, -1, 0), (-100, -1, 25.9), (-160, -1, 85.9)]),
+)
 def test_a_guessed_place_picks_the_branch(tmp_path: Path, guess: float, side: int, off: float) -> None:
     """x = r cos α ± √(l² − r² sin² α) of a slider-crank: the nearer of the two, told where it is far."""
     file = tmp_path / "engine.yaml"

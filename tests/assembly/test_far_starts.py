@@ -35,9 +35,15 @@ ASKS = (
 
 @pytest.mark.parametrize("hangs", [pytest.param(False, marks=pytest.mark.slow), True])
 @pytest.mark.parametrize("ask", ASKS)
-@pytest.mark.parametrize(("written", "x"), [
-    (-1e3, -1e3), (-1e3, 1e5), (-1e3, 1e8), *(pytest.param(x, x, marks=pytest.mark.slow) for x in (1e5, 1e8)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("written", "x"),
+    [
+        (-1e3, -1e3),
+        (-1e3, 1e5),
+        (-1e3, 1e8),
+        *(pytest.param(x, x, marks=pytest.mark.slow) for x in (1e5, 1e8)),
+    ],
+)
 def test_a_start_far_away_assembles(written: float, x: float, ask: str, hangs: bool, tmp_path: Path) -> None:
     """1000 m was too far for a cart without a length: it was said that a row stays open, by 0."""
     text, given = CART.format(x=written, bob=BOB * hangs, pin=PIN * hangs, ask=ask), {"x": x}

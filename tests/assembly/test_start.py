@@ -132,9 +132,14 @@ def test_rate_that_agrees_with_a_drive(load: Load) -> None:
     assert load(text).start({"guess_c": 1.4}).v[2] == pytest.approx(1.0)
 
 
-RODS = [(part, ends) for ends in ("ground.o, a.origin", "a.origin, ground.o") for part in (
-    "joints: {rod: {distance: [{ends}], length: 2 mm}}", "drives: {rod: {distance: [{ends}], value: 2 mm}}"
-)]  # fmt: skip
+RODS = [
+    (part, ends)
+    for ends in ("ground.o, a.origin", "a.origin, ground.o")
+    for part in (
+        "joints: {rod: {distance: [{ends}], length: 2 mm}}",
+        "drives: {rod: {distance: [{ends}], value: 2 mm}}",
+    )
+]
 
 
 @pytest.mark.parametrize(("part", "ends"), slow_rows_but([RODS[0], RODS[3]], RODS))

@@ -175,14 +175,31 @@ def test_equations_wants_a_known_suffix(call: Gudgeon, pump: str, tmp_path: Path
 @pytest.mark.parametrize(
     "line",
     [
-        "equations PUMP -o FILE/x.tex", "equations PUMP -o LONG.tex", "equations PUMP -o LONG/x.html",
-        "draw PUMP -o LONG.svg", "draw PUMP -o FILE/x.svg", "draw PUMP -o x.gif", "draw pipe.yaml",
-        "emit PUMP -o FILE", "emit PUMP -o FILE/x", "emit PUMP -o LONG", "run PUMP --out FILE", "run PUMP --out LONG",
-        "run PUMP --out x/LONG/y", "run LONG.yaml", "check LONG.yaml", "bench PUMP --csv LONG.csv",
-        "map PUMP --csv FILE/x.csv", "map PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
-        "emit pipe.yaml -o c", "equations pipe.yaml -o x.txt",
+        "equations PUMP -o FILE/x.tex",
+        "equations PUMP -o LONG.tex",
+        "equations PUMP -o LONG/x.html",
+        "draw PUMP -o LONG.svg",
+        "draw PUMP -o FILE/x.svg",
+        "draw PUMP -o x.gif",
+        "draw pipe.yaml",
+        "emit PUMP -o FILE",
+        "emit PUMP -o FILE/x",
+        "emit PUMP -o LONG",
+        "run PUMP --out FILE",
+        "run PUMP --out LONG",
+        "run PUMP --out x/LONG/y",
+        "run LONG.yaml",
+        "check LONG.yaml",
+        "bench PUMP --csv LONG.csv",
+        "map PUMP --csv FILE/x.csv",
+        "map PUMP --out LONG",
+        "run /dev/zero",
+        "check /dev",
+        "check pipe.yaml",
+        "emit pipe.yaml -o c",
+        "equations pipe.yaml -o x.txt",
     ],
-)  # fmt: skip
+)
 def test_names_that_cannot_be_are_told(line: str, call: Gudgeon, pump: str, tmp_path: Path) -> None:
     """A file in a folder's place, a name too long, a file that is none: a sentence, exit code 2, nothing written."""
     (tmp_path / "FILE").write_text("mine")
@@ -255,8 +272,7 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
 
     tasks: list[tuple[Callable[[], object], list[str]]] = [
         (lambda: emit_c(pump, tmp_path / "c", ("worn",)), ["deriving pump, scene worn"]),
-        (lambda: load_scenes(Request(pump, ("ideal",))),
-         ["deriving pump, scene ideal", "compiling pump, scene ideal"]),
+        (lambda: load_scenes(Request(pump, ("ideal",))), ["deriving pump, scene ideal", "compiling pump, scene ideal"]),
     ]
     for task, told in tasks:
         cold = shown(task, Screen())
@@ -287,11 +303,16 @@ def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monk
         assert told.keys() == quietly.keys()
 
 
-@pytest.mark.parametrize(("line", "files"), [
-    ("new engine", {"mechanism": "engine.yaml"}), ("new many --study", {"study": "many.yaml"}),
-    ("draw PUMP -o x.svg", {"picture": "x.svg"}), ("emit PUMP -o c -s worn", {"worn": "c/worn", "engine": "c/engine"}),
-    ("equations PUMP -o x.txt -s worn", {"equations": "x.txt"}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "files"),
+    [
+        ("new engine", {"mechanism": "engine.yaml"}),
+        ("new many --study", {"study": "many.yaml"}),
+        ("draw PUMP -o x.svg", {"picture": "x.svg"}),
+        ("emit PUMP -o c -s worn", {"worn": "c/worn", "engine": "c/engine"}),
+        ("equations PUMP -o x.txt -s worn", {"equations": "x.txt"}),
+    ],
+)
 def test_files_that_are_written_are_told_as_json(line: str, files: dict[str, str], call: Gudgeon, pump: str) -> None:
     done = call(*line.replace("PUMP", pump).split(), "--json")
     told = json.loads(done.stdout)

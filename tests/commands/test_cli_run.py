@@ -19,7 +19,9 @@ from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon, written
 
 # The pump with a rod whose length has a name, and scenes of other numbers.
-MORE = TEXT.replace("c: 0.2 mm", "c: 0.2 mm, l: 120 mm").replace("length: 120 mm", "length: l") + """\
+MORE = (
+    TEXT.replace("c: 0.2 mm", "c: 0.2 mm, l: 120 mm").replace("length: 120 mm", "length: l")
+    + """\
   fast:
     play: {B: {bearing: pin, contact: dry}}
     parameters: {omega: 40 rad/s}
@@ -27,6 +29,7 @@ MORE = TEXT.replace("c: 0.2 mm", "c: 0.2 mm, l: 120 mm").replace("length: 120 mm
     simulate: {t_end: 0.005 s, step: 2e-6 s, output: 20}
   short: {parameters: {l: 5 mm}}
 """
+)
 
 
 @needs_compiler

@@ -36,8 +36,9 @@ def test_the_start_of_a_shipped_mechanism(call: Gudgeon, tmp_path: Path) -> None
     assert (tmp_path / "other.svg").read_bytes() != first
 
 
-@pytest.mark.parametrize(("suffix", "magic"), [("png", b"\x89PNG"),
-    pytest.param("pdf", b"%PDF", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("suffix", "magic"), [("png", b"\x89PNG"), pytest.param("pdf", b"%PDF", marks=pytest.mark.slow)]
+)
 def test_at_a_time_of_the_motion(suffix: str, magic: bytes, call: Gudgeon, tmp_path: Path) -> None:
     done = call("draw", "slider_crank", "--scene", "dry", "--at", "5ms", "-o", f"x.{suffix}")
     assert done.exit_code == 0, done.output

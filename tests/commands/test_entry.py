@@ -52,9 +52,13 @@ def gudgeon_process(line: str, folder: Path, before: str = "", **environment: st
     """A line of a shell, in which `gudgeon` is the command."""
     code = before + START
     return subprocess.run(
-        ["sh", "-c", 'gudgeon() { "$PYTHON" -c "$START" "$@"; }; ' + line], cwd=folder, capture_output=True, text=True,
-        encoding="utf-8", env={**os.environ, "PYTHON": sys.executable, "START": code, **environment},
-    )  # fmt: skip
+        ["sh", "-c", 'gudgeon() { "$PYTHON" -c "$START" "$@"; }; ' + line],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        env={**os.environ, "PYTHON": sys.executable, "START": code, **environment},
+    )
 
 
 def test_help_waits_for_no_rich(tmp_path: Path) -> None:
@@ -145,8 +149,10 @@ def test_what_an_encoding_lacks_is_escaped_as_in_json(call: Gudgeon, tmp_path: P
     line = "gudgeon check pendulum -v"
     done = gudgeon_process(line, tmp_path, PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stderr) == (0, "") and "\\u03a6_q" in done.stdout
-    found = [json.loads(gudgeon_process(f"{line} --json", tmp_path, PYTHONIOENCODING="ascii").stdout),
-             json.loads(call(*line.split()[1:], "--json").stdout)]  # fmt: skip
+    found = [
+        json.loads(gudgeon_process(f"{line} --json", tmp_path, PYTHONIOENCODING="ascii").stdout),
+        json.loads(call(*line.split()[1:], "--json").stdout),
+    ]
     for told in (scene for document in found for scene in document["scenes"].values()):
         assert told.pop("seconds")  # the only thing that two derivations tell otherwise
     assert found[0] == found[1] and "non-zeros of Φ_q" in found[0]["scenes"]["ideal"]

@@ -23,10 +23,23 @@ from tests.pump import TEXT, Gudgeon, written
 from tests.slow import slow_but
 
 TITLES = (
-    "[/]", "[bold]x[/foo]", "[link=https://x]y[/link]", "[[bold]", "a $^$ b", "$$", "$\\input{x}$", "\\$x$",
-    ":bomb: [red]", "{0} %s", "</title><script>", "\u0639\u0631\u0628\u064a \u05d0", "x" * 5000, "a\u001b[31mb",
-    "a\u202eb\u2066c", "a\nb\rc\x00",
-)  # fmt: skip
+    "[/]",
+    "[bold]x[/foo]",
+    "[link=https://x]y[/link]",
+    "[[bold]",
+    "a $^$ b",
+    "$$",
+    "$\\input{x}$",
+    "\\$x$",
+    ":bomb: [red]",
+    "{0} %s",
+    "</title><script>",
+    "\u0639\u0631\u0628\u064a \u05d0",
+    "x" * 5000,
+    "a\u001b[31mb",
+    "a\u202eb\u2066c",
+    "a\nb\rc\x00",
+)
 
 SHOWN = [title for title in TITLES if title in ("a $^$ b", "$\\input{x}$", "a\nb\rc\x00") or len(title) > 999]
 # all that the reader lets through, in one
@@ -79,10 +92,11 @@ def test_commands_show_a_title_as_it_stands(call: Gudgeon, tmp_path: Path) -> No
     (tmp_path / "nasty.yaml").write_text(TEXT.replace(TITLE, json.dumps(NASTY)))
     short = ("--scene", "worn", "--t-end", "1e-4")
     commands = {
-        "check": ("nasty.yaml", "-v"), "run": ("nasty.yaml", *short),
+        "check": ("nasty.yaml", "-v"),
+        "run": ("nasty.yaml", *short),
         "map": ("nasty.yaml", *short, "--quick", "--axis", "rtol=1e-6"),
         "bench": ("nasty.yaml", *short, "--quick", "--methods", "dop853"),
-    }  # fmt: skip
+    }
     for command, arguments in commands.items():
         done = call(command, *arguments)
         assert done.exit_code == 0, (command, done.output)
@@ -108,12 +122,25 @@ def test_equations_hold_a_title_as_text(call: Gudgeon, tmp_path: Path, monkeypat
 
 HOSTILE = "\u001b[31m[/]\u202e\u0007\u009b1m"
 PLACES = (  # in the text, and what stands there
-    (TITLE, "TEXT"), ("name: pump", "name: TEXT"), ("format: gudgeon/1", "format: TEXT"), ("crank: {", "TEXT: {"),
-    ("20 rad/s", "TEXT"), ("20 rad/s", "20 TEXT"), ("mass: 0.2 kg", "TEXT: 0.2 kg"), ("[ground.O,", "[TEXT,"),
-    ("revolute: [ground.O", "TEXT: [ground.O"), ("law: lankarani_nikravesh", "law: TEXT"), ("crank, v", "TEXT, v"),
-    ("omega * t", "omega * TEXT"), ("scenes:", "TEXT:"), ("worn: {", "TEXT: {"), ("bearing: pin", "bearing: TEXT"),
-    ("piston.x: 0.14", "TEXT: 0.14"), ("geometry: external", "geometry: TEXT"), ("1e-4 m/s, v1", "TEXT, v1"),
-)  # fmt: skip
+    (TITLE, "TEXT"),
+    ("name: pump", "name: TEXT"),
+    ("format: gudgeon/1", "format: TEXT"),
+    ("crank: {", "TEXT: {"),
+    ("20 rad/s", "TEXT"),
+    ("20 rad/s", "20 TEXT"),
+    ("mass: 0.2 kg", "TEXT: 0.2 kg"),
+    ("[ground.O,", "[TEXT,"),
+    ("revolute: [ground.O", "TEXT: [ground.O"),
+    ("law: lankarani_nikravesh", "law: TEXT"),
+    ("crank, v", "TEXT, v"),
+    ("omega * t", "omega * TEXT"),
+    ("scenes:", "TEXT:"),
+    ("worn: {", "TEXT: {"),
+    ("bearing: pin", "bearing: TEXT"),
+    ("piston.x: 0.14", "TEXT: 0.14"),
+    ("geometry: external", "geometry: TEXT"),
+    ("1e-4 m/s, v1", "TEXT, v1"),
+)
 
 
 @pytest.mark.parametrize("place", PLACES)
@@ -134,9 +161,16 @@ def test_errors_quote_what_a_terminal_must_not_obey(
 
 @pytest.mark.parametrize(
     "arguments",
-    [("check", "[/].yaml"), ("check", "a\x1b[31m.yaml"), ("run", "[/foo]"), ("run", "four_bar", "--output", "[/]"),
-     ("run", "four_bar", "--set", "[/]=1"), ("run", "four_bar", "--scene", "[bold]\x1b[31m"), ("[/]",)],
-)  # fmt: skip
+    [
+        ("check", "[/].yaml"),
+        ("check", "a\x1b[31m.yaml"),
+        ("run", "[/foo]"),
+        ("run", "four_bar", "--output", "[/]"),
+        ("run", "four_bar", "--set", "[/]=1"),
+        ("run", "four_bar", "--scene", "[bold]\x1b[31m"),
+        ("[/]",),
+    ],
+)
 def test_arguments_are_told_as_they_are(arguments: tuple[str, ...], call: Gudgeon) -> None:
     done = call(*arguments)
     assert done.exit_code == 2 and is_safe(done.stderr) and "Traceback" not in done.stderr

@@ -31,9 +31,17 @@ from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sec
 
 NAMES = [name for role in RESULTS for name in called(role)]
 STATES = {  # of what laws read, by the letter; z lies within what bristles take
-    "delta": 3e-5, "ratio": -0.4, "deltadot": 0.02, "F_n": 700.0, "v_t": -0.03, "z": 2e-5, "epsilon": 0.6, "w_n": -3.0,
-    "w_t": 4.0, "held_force": 81.0,
-}  # fmt: skip
+    "delta": 3e-5,
+    "ratio": -0.4,
+    "deltadot": 0.02,
+    "F_n": 700.0,
+    "v_t": -0.03,
+    "z": 2e-5,
+    "epsilon": 0.6,
+    "w_n": -3.0,
+    "w_t": 4.0,
+    "held_force": 81.0,
+}
 NUMBERS = {"dahl": {"presliding": 1e-4}, "modified_coulomb": {"v0": 0.01, "v1": 0.05}}
 DRAWN = {"hertz", "expression", "lugre", "ocvirk", "christensen", "newton_restitution"}
 LETTERS = {"held_force": "λ", "delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
@@ -97,8 +105,11 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
         constants = [one for one in first.constants if one.left.text not in letters]  # what is given follows from none
         read = evaluate([*merged(constants, changed[0]), *merged(first.steps, changed[1])], known)
         chosen = dict(law.also.get(name, {})) | {key: x for key, x in form.chosen.items() if x != GIVEN}
-        given = {own.name: numbers[own.name] for own in law.parameters
-                 if own.required or own.default is not None or own.name in form.chosen}  # fmt: skip
+        given = {
+            own.name: numbers[own.name]
+            for own in law.parameters
+            if own.required or own.default is not None or own.name in form.chosen
+        }
         alone = Evaluator(law.name, given, **chosen)
         got = alone(*(state[symbol] for symbol in alone.reads))
         called_here = {key: of.text for key, of in form.used}
@@ -204,18 +215,24 @@ def test_bristles_that_have_gone_far_slide() -> None:
     assert force[np.argmax(v_t)] == pytest.approx(-0.1, rel=0.01)
 
 
-@pytest.mark.parametrize(("line", "told"), [
-    ("lugre --plot x.svg --set viscosity=1", "unknown key of lugre 'viscosity'"),
-    ("flores --plot x.svg --set restitution=1.5", "restitution is 1.5: expected <= 1"),
-    ("flores --plot x.svg --set geometry=round", "'round'"), ("flores --set restitution=.5", "--plot draws one law"),
-    ("--plot x.svg", "--plot draws one law"), ("flores --json --plot x.svg", "--plot draws one law"),
-    ("flores --plot x.txt", ".svg"), ("dahl --plot x.svg --set 'presliding=2 s'", "presliding"),
-    ("flores --plot x.svg --set stiffness=1N/m", "expected a stiffness by Hertz (N/m^1.5), got a stiffness (N/m)"),
-    ("dahl --plot x.svg --set presliding=1e-300", "z cannot be followed; its rate overflows"),
-    ("lugre --plot x.svg --set v_s=1e300", "z cannot be followed"),
-    ("stribeck --plot x.svg --set v_s=1e300", "F_t/F_n is no finite number anywhere"),
-    ("ocvirk --plot x.svg --set extra_clearance=1e300", "all forces are 0"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("lugre --plot x.svg --set viscosity=1", "unknown key of lugre 'viscosity'"),
+        ("flores --plot x.svg --set restitution=1.5", "restitution is 1.5: expected <= 1"),
+        ("flores --plot x.svg --set geometry=round", "'round'"),
+        ("flores --set restitution=.5", "--plot draws one law"),
+        ("--plot x.svg", "--plot draws one law"),
+        ("flores --json --plot x.svg", "--plot draws one law"),
+        ("flores --plot x.txt", ".svg"),
+        ("dahl --plot x.svg --set 'presliding=2 s'", "presliding"),
+        ("flores --plot x.svg --set stiffness=1N/m", "expected a stiffness by Hertz (N/m^1.5), got a stiffness (N/m)"),
+        ("dahl --plot x.svg --set presliding=1e-300", "z cannot be followed; its rate overflows"),
+        ("lugre --plot x.svg --set v_s=1e300", "z cannot be followed"),
+        ("stribeck --plot x.svg --set v_s=1e300", "F_t/F_n is no finite number anywhere"),
+        ("ocvirk --plot x.svg --set extra_clearance=1e300", "all forces are 0"),
+    ],
+)
 def test_what_cannot_be_drawn(line: str, told: str, call: Gudgeon) -> None:
     done = call("laws", *shlex.split(line))
     assert done.exit_code == 2 and told in done.stderr, done.output
@@ -227,4 +244,4 @@ def test_the_page_of_laws_is_current() -> None:
     assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == page_of_laws()
     assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
         law.name for role in RESULTS for law in house().values() if law.role == role
-    ]  # fmt: skip
+    ]

@@ -35,8 +35,11 @@ def test_a_study_to_begin_with_runs(call: Gudgeon, tmp_path: Path) -> None:
     assert told.exit_code == 0 and "18 runs (c 3 × omega 3 × start 2)" in told.stdout and "2 trends" in told.stdout
     text = (tmp_path / "play.yaml").read_text(encoding="utf-8")
     assert text.count("#") > 12 and max(map(len, text.splitlines())) <= 120
-    for line, why in (("play --study", "is there already"), ("a --study --like four_bar", "--like is of mechanisms"),
-                      ("a-b --study", "a_b")):  # fmt: skip
+    for line, why in (
+        ("play --study", "is there already"),
+        ("a --study --like four_bar", "--like is of mechanisms"),
+        ("a-b --study", "a_b"),
+    ):
         refused = call("new", *line.split())
         assert refused.exit_code == 2 and why in refused.stderr, refused.stderr
     assert {name.split("/")[0] for name in written(tmp_path)} == {"play.yaml", "play.study"}
@@ -55,10 +58,17 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
 
 @pytest.mark.parametrize(
     ("line", "told"),
-    [("my-engine", "my_engine"), ("engine.yml", "without .yaml"), ("true", "YAML takes it"), ("../x", "no identifier"),
-     ("a__x", "kept for emitted code"), ("crane --like double_rocke", "did you mean 'double_rocker'"),
-     ("there", "is there already"), ("link", "is there already")],
-)  # fmt: skip
+    [
+        ("my-engine", "my_engine"),
+        ("engine.yml", "without .yaml"),
+        ("true", "YAML takes it"),
+        ("../x", "no identifier"),
+        ("a__x", "kept for emitted code"),
+        ("crane --like double_rocke", "did you mean 'double_rocker'"),
+        ("there", "is there already"),
+        ("link", "is there already"),
+    ],
+)
 def test_what_is_refused_leaves_all_as_it_was(line: str, told: str, call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "there.yaml").write_text("mine")
     (tmp_path / "link.yaml").symlink_to("nowhere")

@@ -68,9 +68,11 @@ def test_a_zero_that_is_no_component_and_one_that_is_left_out(tmp_path: Path) ->
 
 def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:
     """A start that has its section, and what is driven: itself, or by the linkage; an address without its section."""
-    for address, told in (("crank.omega", "motor drives crank: how it moves is in drives.motor.value, here by "),
-                          ("rod.omega", "motor drives the linkage, which has no freedom left: how it moves is in "),
-                          ("piston.x", "its start is start.guess.piston.x")):  # fmt: skip
+    for address, told in (
+        ("crank.omega", "motor drives crank: how it moves is in drives.motor.value, here by "),
+        ("rod.omega", "motor drives the linkage, which has no freedom left: how it moves is in "),
+        ("piston.x", "its start is start.guess.piston.x"),
+    ):
         for command in ("check", "run"):
             done = call(command, pump, "--set", f"{address}=1")
             words = " ".join(done.stderr.split())
@@ -118,12 +120,13 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
         ("gains=-1", "baumgarte.alpha is -1 1/s: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
         ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300 1/s: its square is no number"),
         ("contacts.dry.velocity_floor=0", "contacts.dry.velocity_floor is 0 m/s: the least impact velocity is"),
-        ("gains=1e-320", "'1e-320' is out of range"), ("c=1e-306 mm", "'1e-306 mm' is out of range"),
+        ("gains=1e-320", "'1e-320' is out of range"),
+        ("c=1e-306 mm", "'1e-306 mm' is out of range"),
         ("omega=1e-320rpm", "'1e-320 rpm' is out of range"),
         ("c=1e-18m", "the clearance of B is 1e-18 m, below what doubles tell apart at the mechanism's size (0.06 m)"),
         ("bearings.pin.radius=1e300", "bearings.pin.radius is 1e+300 m, too far from 1 for doubles: B.K, which"),
     ],
-)  # fmt: skip
+)
 def test_numbers_that_mean_nothing(command: str, setting: str, told: str, call: Gudgeon, pump: str) -> None:
     """Check says so as a run does; below 2.2e-308 a number has lost digits before anything is made of it."""
     done = call(command, pump, "--set", setting)

@@ -16,9 +16,16 @@ from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
 STRANGE = {
-    "LC_ALL": "POSIX", "LANG": "tr_TR.ISO-8859-9", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "HOME": "/nowhere",
-    "TZ": "Pacific/Auckland", "SOURCE_DATE_EPOCH": "315532800", "PYTHONHASHSEED": "20231", "COLUMNS": "40",
-}  # fmt: skip
+    "LC_ALL": "POSIX",
+    "LANG": "tr_TR.ISO-8859-9",
+    "PYTHONUTF8": "0",
+    "PYTHONCOERCECLOCALE": "0",
+    "HOME": "/nowhere",
+    "TZ": "Pacific/Auckland",
+    "SOURCE_DATE_EPOCH": "315532800",
+    "PYTHONHASHSEED": "20231",
+    "COLUMNS": "40",
+}
 
 
 def without_times(told: object) -> object:
@@ -32,16 +39,20 @@ def run(folder: Path, around: dict[str, str], umask: int) -> tuple[object, dict[
     """What a run prints, and all series of its file."""
     command = [sys.executable, "-m", "gudgeon", "run", "slider_crank", "--scene", "dry", "--t-end", "0.05", "--json"]
     found = subprocess.run(
-        [*command, "--out", "out"], env={**os.environ, **around}, cwd=folder, umask=umask, check=True,
+        [*command, "--out", "out"],
+        env={**os.environ, **around},
+        cwd=folder,
+        umask=umask,
+        check=True,
         capture_output=True,
-    )  # fmt: skip
+    )
     result = Result.load(folder / "out" / "slider_crank_dry.nc")
     return without_times(json.loads(found.stdout)), {name: np.asarray(result[name]) for name in result.names}
 
 
 @pytest.mark.slow
 def test_a_run_is_the_same_in_strange_surroundings(tmp_path: Path) -> None:
-    folders = tmp_path / "here", tmp_path / "ölçüm & \"s\""
+    folders = tmp_path / "here", tmp_path / 'ölçüm & "s"'
     for folder in folders:
         folder.mkdir()
     (told, series), (told_there, series_there) = run(folders[0], {}, 0o022), run(folders[1], STRANGE, 0o077)

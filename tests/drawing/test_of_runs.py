@@ -92,9 +92,13 @@ def test_a_path_is_the_series(four_bar: Result) -> None:
 
 @pytest.mark.parametrize(
     "points",
-    [np.array(["coupler.tracer", "", "rocker"])[::2], np.array(["coupler.tracer", "rocker"], object),
-     {"coupler.tracer": 1, "rocker": 2}.keys(), ("coupler.tracer", "rocker")],
-)  # fmt: skip
+    [
+        np.array(["coupler.tracer", "", "rocker"])[::2],
+        np.array(["coupler.tracer", "rocker"], object),
+        {"coupler.tracer": 1, "rocker": 2}.keys(),
+        ("coupler.tracer", "rocker"),
+    ],
+)
 def test_points_are_named_by_any_sequence(points: Any, four_bar: Result) -> None:
     found = by_gid(four_bar.plot.path(points))
     assert {"path-coupler.tracer", "path-rocker"} == {name for name in found if name.startswith("path-")}
@@ -109,7 +113,7 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
     for role, on, unit, letter, of_these in (
         ("velocity", "", "m/s", "v", ("L1.head", "L7.com", "L8.head")),
         ("reaction", " on the second body", "N", "F", ("O1", "Q8", "slider", "B")),
-    ):  # fmt: skip
+    ):
         wanted = {name: [press[f"{name}.{letter}{axis}"][k] for axis in "xy"] for name in of_these}
         stands, of = re.fullmatch(rf"{role}{on}: ([\d.]+) (m?{unit})", told[f"scale {role}"]).groups()  # type: ignore[union-attr]
         tail, tip = found[f"scale-{role}"].get_xy()[0], found[f"scale-{role}-2"].get_xy()[0]

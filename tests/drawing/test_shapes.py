@@ -48,9 +48,10 @@ def test_the_hull_is_convex_and_holds_all(places: np.ndarray) -> None:
 
 @settings(deadline=None)
 @given(
-    arrays(float, (4,), elements=st.floats(-10, 10)), arrays(float, (2,), elements=st.floats(-10, 10)),
+    arrays(float, (4,), elements=st.floats(-10, 10)),
+    arrays(float, (2,), elements=st.floats(-10, 10)),
     arrays(float, (2,), elements=st.floats(0.1, 5)),
-)  # fmt: skip
+)
 def test_lines_through_a_box_are_found(segment: np.ndarray, corner: np.ndarray, size: np.ndarray) -> None:
     """Against points along the line; a line that only grazes the box may count either way."""
     box = np.array([*corner, *(corner + size)])

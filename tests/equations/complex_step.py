@@ -43,8 +43,11 @@ def _hermite(depths: Sequence[complex], angle: complex) -> list[complex]:
     k = int(np.floor(x.real))
     a, b, c, d = (depths[(k + shift) % count] for shift in (-1, 0, 1, 2))
     ends = [[(y - x) / 2, x - 2 * m + y] for x, m, y in ((a, b, c), (b, c, d))]
-    rows = [[np.prod(range(n - order + 1, n + 1)) * s ** max(n - order, 0) * (n >= order) for n in range(6)]
-            for s in (0.0, 1.0) for order in range(3)]  # fmt: skip
+    rows = [
+        [np.prod(range(n - order + 1, n + 1)) * s ** max(n - order, 0) * (n >= order) for n in range(6)]
+        for s in (0.0, 1.0)
+        for order in range(3)
+    ]
     power = np.linalg.solve(np.array(rows, float), np.array([b, *ends[0], c, *ends[1]]))
     s = x - k
     slope = sum(n * power[n] * s ** (n - 1) for n in range(1, 6)) * count / (2.0 * np.pi)
@@ -79,12 +82,17 @@ class ComplexStep:
         self._joints = [self.function(self._geometry(c)) for c in model.clearances]
         self._laws: dict[int, Callable[..., Any]] = {}
         self._slips = [
-            self.function([
-                *(friction.jacobian.get(q, sp.Integer(0)) for q in model.q), friction.gamma, friction.slip.v,
-                friction.slip.speed, friction.slip.kinetic_at(friction.slip.v),
-            ])
+            self.function(
+                [
+                    *(friction.jacobian.get(q, sp.Integer(0)) for q in model.q),
+                    friction.gamma,
+                    friction.slip.v,
+                    friction.slip.speed,
+                    friction.slip.kinetic_at(friction.slip.v),
+                ]
+            )
             for friction in model.frictions
-        ]  # fmt: skip
+        ]
 
     def function(self, expressions: Iterable[sp.Expr]) -> Callable[..., Complex]:
         """Expressions in the model's symbols as a function of (t, q, v)."""
@@ -103,9 +111,21 @@ class ComplexStep:
     def _geometry(joint: Clearance) -> tuple[sp.Expr, ...]:
         film = joint.constants.get("film_clearance", joint.pair.c)
         transition = sp.Integer(0) if joint.transition is None else joint.transition
-        return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
-                joint.pair.R_i, joint.pair.R_j, film, transition, joint.first.theta, *joint.first.arm,
-                *joint.second.arm, *(joint.wall.normal if joint.wall else ()))  # fmt: skip
+        return (
+            *joint.eccentricity,
+            *joint.eccentricity_rate,
+            joint.first.omega,
+            joint.second.omega,
+            joint.pair.c,
+            joint.pair.R_i,
+            joint.pair.R_j,
+            film,
+            transition,
+            joint.first.theta,
+            *joint.first.arm,
+            *joint.second.arm,
+            *(joint.wall.normal if joint.wall else ()),
+        )
 
     def bent(self, memory: Sequence[float] | np.ndarray) -> np.ndarray:
         """Inner states of laws, (joints, states)."""
@@ -226,7 +246,7 @@ class ComplexStep:
 
     def _on_contour(
         self, joint: Clearance, delta: complex, R_j: complex, e: complex, slope: complex, speeds: Any, stored: float
-    ) -> Complex:  # fmt: skip
+    ) -> Complex:
         """Along e and across it: −F_n by δ's gradient, friction across that at the middle of the penetration."""
         v_n, v_t, w_i, w_j = speeds
         assert joint.normal is not None
@@ -247,9 +267,17 @@ class ComplexStep:
         return np.array([*total, *moments])
 
     def _at_wall(
-        self, joint: Clearance, span: Complex, speed: Complex, normal: Complex, turning: Any, radii: Any, stored: float,
-        z: Complex, bending: Complex,
-    ) -> Complex:  # fmt: skip
+        self,
+        joint: Clearance,
+        span: Complex,
+        speed: Complex,
+        normal: Complex,
+        turning: Any,
+        radii: Any,
+        stored: float,
+        z: Complex,
+        bending: Complex,
+    ) -> Complex:
         """Of a disc on a straight wall: force in ground axes and moments, by the place where both touch."""
         (R_i, R_j), (w_i, w_j), tangent = radii, turning, np.array([-normal[1], normal[0]])
         delta = span @ normal - (R_i - R_j)

@@ -42,10 +42,20 @@ def expressions(count: int) -> Iterator[sp.Expr]:
 
 @pytest.mark.parametrize(
     "expression",
-    [sp.atan2(x * y, 3 - x), sp.Max(x, y * x), Pick(x - y, x**2, x * sp.sin(y)), sp.Abs(x * y) * x, 2 * (x + y),
-     sp.Mul(2, x + y * x, evaluate=False), x**x, sp.Heaviside(x - y) * x, sp.sqrt(x**2 + y**2) ** -3, sp.Integer(4)],
+    [
+        sp.atan2(x * y, 3 - x),
+        sp.Max(x, y * x),
+        Pick(x - y, x**2, x * sp.sin(y)),
+        sp.Abs(x * y) * x,
+        2 * (x + y),
+        sp.Mul(2, x + y * x, evaluate=False),
+        x**x,
+        sp.Heaviside(x - y) * x,
+        sp.sqrt(x**2 + y**2) ** -3,
+        sp.Integer(4),
+    ],
     ids=str,
-)  # fmt: skip
+)
 def test_derivatives_of_each_kind(expression: sp.Expr) -> None:
     for symbol in SYMBOLS:
         assert derivative(expression, symbol) == sp.diff(expression, symbol)
@@ -65,6 +75,13 @@ def test_texts_of_random_expressions(printer: type[C99CodePrinter | PythonCodePr
         if expression.has(sp.Float) and printer is PythonCodePrinter:
             continue  # every printer of gudgeon writes these in its own way
         assert quick.doprint(expression) == printer().doprint(expression)
-    for expression in (-1 / x, -x / (y * z), 1 / (x * (y + 1)), -(x + y), -2 / (x * y) ** 2, x / (y * sp.sqrt(z)),
-                       sp.Mul(x, 1 / sp.Mul(y, z, evaluate=False), evaluate=False)):  # fmt: skip
+    for expression in (
+        -1 / x,
+        -x / (y * z),
+        1 / (x * (y + 1)),
+        -(x + y),
+        -2 / (x * y) ** 2,
+        x / (y * sp.sqrt(z)),
+        sp.Mul(x, 1 / sp.Mul(y, z, evaluate=False), evaluate=False),
+    ):
         assert quick.doprint(expression) == printer().doprint(expression)

@@ -34,8 +34,13 @@ def printed(law: str, load: mp.mpf) -> mp.mpf:
 def root(law: str, delta: float) -> mp.mpf:
     """The load below the one at which penetration is largest, by bisection and secants: nothing of W in it."""
     most = mp.pi * PAIR.L * mp.mpf(MODULUS) * 4 * mp.mpf(PAIR.c) * mp.exp(CONSTANT[law] - 1)
-    return mp.findroot(lambda load: printed(law, load) - mp.mpf(delta), (most * mp.mpf(10) ** -40, most),
-                       solver="anderson", tol=1e-70, maxsteps=500)  # fmt: skip
+    return mp.findroot(
+        lambda load: printed(law, load) - mp.mpf(delta),
+        (most * mp.mpf(10) ** -40, most),
+        solver="anderson",
+        tol=1e-70,
+        maxsteps=500,
+    )
 
 
 @pytest.mark.parametrize("law", sorted(CONSTANT))

@@ -118,10 +118,9 @@ def test_gamma_against_finite_differences(which: str | int) -> None:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_random_linkages_against_the_oracle(seed: int) -> None:
     case, model = random_model(seed)
-    assert [row.owner for row in model.rows][:: 1] == [
-        owner
-        for i in range(len(case.linkage.joints)) for owner in (f"j{i}", f"j{i}")
-    ] + [f"d{i}" for i in range(len(case.linkage.drives))]  # fmt: skip
+    assert [row.owner for row in model.rows][::1] == [
+        owner for i in range(len(case.linkage.joints)) for owner in (f"j{i}", f"j{i}")
+    ] + [f"d{i}" for i in range(len(case.linkage.drives))]
     functions = [numeric(model, m) for m in (model.Phi, model.Phi_q, model.nu, model.gamma)]
     states = [(0.0, case.q, case.v), *(random_state(model, s) for s in range(3))]
     for t, q, v in states:

@@ -43,9 +43,11 @@ def test_a_scene_has_the_events_of_the_file_and_its_own() -> None:
     assert list(scenes["dry"].events) == ["reach", "lift", "corner", "late"]
     addresses = [event.zero.address for event in scenes["further"].events.values()]
     assert addresses == [
-        "scenes.dry.events.reach.zero", "scenes.further.events.lift.zero", "events.corner.zero",
+        "scenes.dry.events.reach.zero",
+        "scenes.further.events.lift.zero",
+        "events.corner.zero",
         "scenes.dry.events.late.zero",
-    ]  # fmt: skip
+    ]
     words = [(event.direction, event.action) for event in scenes["further"].events.values()]
     assert words == [("both", "record"), ("both", "record"), ("falling", "stop"), ("both", "stop")]
 
@@ -60,9 +62,10 @@ def test_an_override_changes_an_event_and_makes_none() -> None:
 def test_the_runtime_is_told() -> None:
     source = generate(file(), "slider.yaml", "dry")
     assert source.events == (
-        EventInfo("reach", "record", "rising"), EventInfo("lift", "record", "both"),
+        EventInfo("reach", "record", "rising"),
+        EventInfo("lift", "record", "both"),
         EventInfo("corner", "stop", "falling"),
-    )  # fmt: skip
+    )
     assert KernelSource.from_json(source.to_json()) == source
     older = {key: value for key, value in json.loads(source.to_json()).items() if key != "events"}
     assert KernelSource.from_json(json.dumps(older)) == replace(source, events=())

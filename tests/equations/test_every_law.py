@@ -25,16 +25,30 @@ MANY, PAIRS = 50_000, 20_000
 Array = np.ndarray
 MU, MU_S = 0.12, 0.2
 DELTA = sp.Symbol("delta", real=True)
-USUAL = {"mu": MU, "mu_s": MU_S, "v0": 1e-3, "v1": 5e-3, "v_r": 1e-3, "v_s": 0.02, "decay": 5e-3, "viscosity": 0.1,
-         "roughness": 1e-6, "restitution": 0.7, "presliding": 2e-5}  # fmt: skip
+USUAL = {
+    "mu": MU,
+    "mu_s": MU_S,
+    "v0": 1e-3,
+    "v1": 5e-3,
+    "v_r": 1e-3,
+    "v_s": 0.02,
+    "decay": 5e-3,
+    "viscosity": 0.1,
+    "roughness": 1e-6,
+    "restitution": 0.7,
+    "presliding": 2e-5,
+}
 NUMBERS: Mapping[str, Mapping[str, Any]] = {
-    "kelvin_voigt": {"stiffness": 1e6, "damping": 50.0}, "lugre": {"stiffness": 2e4, "damping": 3.0},
+    "kelvin_voigt": {"stiffness": 1e6, "damping": 50.0},
+    "lugre": {"stiffness": 2e4, "damping": 3.0},
     "expression": {"force": 1e6 * DELTA + 1e15 * DELTA**3},
-}  # fmt: skip
+}
 CORNERS: Mapping[str, tuple[type, Callable[..., Array]]] = {
-    "corner_max": (sp.Max, lambda *x: reduce(np.maximum, x)), "corner_min": (sp.Min, lambda *x: reduce(np.minimum, x)),
-    "corner_abs": (sp.Abs, np.abs), "corner_sign": (sp.sign, np.sign),
-}  # fmt: skip
+    "corner_max": (sp.Max, lambda *x: reduce(np.maximum, x)),
+    "corner_min": (sp.Min, lambda *x: reduce(np.minimum, x)),
+    "corner_abs": (sp.Abs, np.abs),
+    "corner_sign": (sp.sign, np.sign),
+}
 
 
 class Vectors:
@@ -46,9 +60,12 @@ class Vectors:
         numbers = {own.name: sp.sympify(known.get(own.name, own.default or 0.0)) for own in needed}
         self.symbols = [sp.Symbol(name, real=True) for name in law.variables]
         given = LawInputs(
-            numbers, options, PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()}),
-            dict(zip(law.variables, self.symbols, strict=True)), lambda name, value, meaning: value,
-        )  # fmt: skip
+            numbers,
+            options,
+            PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()}),
+            dict(zip(law.variables, self.symbols, strict=True)),
+            lambda name, value, meaning: value,
+        )
         self.law, self.steps = law, {n: sp.sympify(x) for n, x in law.build(given).items()}
         self.named = [*self.symbols, *(sp.Symbol(name, real=True) for name in self.steps)]
         self._steps = {name: self._array(value) for name, value in self.steps.items()}
@@ -107,12 +124,16 @@ def random(law: Law, count: int, seed: int = 1) -> list[Array]:
 
     signs = rng.choice([-1.0, 1.0], (3, count))
     drawn = {
-        "delta": lambda: sized(1e-9, 1e-4), "ratio": lambda: rng.uniform(-9.0, 9.0, count),
-        "deltadot": lambda: signs[0] * sized(1e-6, 10.0), "F_n": lambda: sized(1e-3, 1e5),
-        "v_t": lambda: signs[0] * sized(1e-7, 10.0), "epsilon": lambda: 0.9999 * rng.uniform(0.0, 1.0, count) ** 0.3,
-        "w_n": lambda: signs[1] * sized(1e-6, 1e4), "w_t": lambda: signs[2] * sized(1e-6, 1e4),
+        "delta": lambda: sized(1e-9, 1e-4),
+        "ratio": lambda: rng.uniform(-9.0, 9.0, count),
+        "deltadot": lambda: signs[0] * sized(1e-6, 10.0),
+        "F_n": lambda: sized(1e-3, 1e5),
+        "v_t": lambda: signs[0] * sized(1e-7, 10.0),
+        "epsilon": lambda: 0.9999 * rng.uniform(0.0, 1.0, count) ** 0.3,
+        "w_n": lambda: signs[1] * sized(1e-6, 1e4),
+        "w_t": lambda: signs[2] * sized(1e-6, 1e4),
         "z": lambda: rng.uniform(-1.0, 1.0, count),
-    }  # fmt: skip
+    }
     return [drawn[name]() for name in law.variables]
 
 

@@ -59,8 +59,10 @@ def at_depth(n: int, depth: float) -> np.ndarray:
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_it_is_hertz_where_its_force_is_that(formulation: str, tmp_path: Path) -> None:
     """The same rates to rounding, and states within the tolerance of methods without and with a Jacobian."""
-    both = ["hertz, stiffness: k1*d1/d1**1.5, dissipation: flores",
-            "expression, force: k1*d1*(delta/d1)**n, dissipation: flores"]  # fmt: skip
+    both = [
+        "hertz, stiffness: k1*d1/d1**1.5, dissipation: flores",
+        "expression, force: k1*d1*(delta/d1)**n, dissipation: flores",
+    ]
     scenes = [loaded(tmp_path, law, RUBS, formulation=formulation) for law in both]
     for method in ("dop853", "rodas5p"):
         one, other = (scene.simulate(t_end=9e-4, method=method, rtol=1e-9) for scene in scenes)
@@ -89,10 +91,14 @@ def test_exact_delivers_its_restitution_whatever_the_force(force: str, tmp_path:
 
 
 @needs_compiler
-@pytest.mark.parametrize(("law", "more"), [
-    (CUBIC, FILM + "transition: 2 um"), (f"expression, force: {BENT}", RUBS),
-    ("expression, force: pressed(delta)", FILM + MIXED),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("law", "more"),
+    [
+        (CUBIC, FILM + "transition: 2 um"),
+        (f"expression, force: {BENT}", RUBS),
+        ("expression, force: pressed(delta)", FILM + MIXED),
+    ],
+)
 def test_slopes_are_those_of_the_force(law: str, more: str) -> None:
     """The Jacobian beside central differences of the right-hand side, on both sides of a branch and of a knot."""
     subject = make(text(law, more).encode(), "ball", "dry")

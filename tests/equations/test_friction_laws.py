@@ -22,17 +22,29 @@ def bengisu_akay(v: float) -> float:
 
 # law -> (its numbers, c_d for a slip v > 0, slips at which its form changes)
 PRINTED = {
-    "modified_coulomb": ({"mu": MU, "v0": 1e-4, "v1": 1e-3},
-                         lambda v: MU * np.clip((v - 1e-4) / 9e-4, 0.0, 1.0), (1e-4, 1e-3)),
+    "modified_coulomb": (
+        {"mu": MU, "v0": 1e-4, "v1": 1e-3},
+        lambda v: MU * np.clip((v - 1e-4) / 9e-4, 0.0, 1.0),
+        (1e-4, 1e-3),
+    ),
     "coulomb": ({"mu": MU, "v0": 1e-3}, lambda v: MU * np.tanh(v / 1e-3), ()),
-    "threlfall": ({"mu": MU, "v_r": 1e-3},
-                  lambda v: MU * (1.0 - np.exp(-3.0 * v / 1e-3)) if v < 1e-3 else MU * 0.950212931632136, (1e-3,)),
+    "threlfall": (
+        {"mu": MU, "v_r": 1e-3},
+        lambda v: MU * (1.0 - np.exp(-3.0 * v / 1e-3)) if v < 1e-3 else MU * 0.950212931632136,
+        (1e-3,),
+    ),
     "bengisu_akay": ({"mu": MU, "mu_s": MU_S, "v0": 1e-3, "decay": 5e-3}, bengisu_akay, (1e-3,)),
-    "stribeck": ({"mu": MU, "mu_s": MU_S, "v_s": 0.02, "v0": 1e-3},
-                 lambda v: (MU + (MU_S - MU) * np.exp(-(v**2) / 4e-4)) * np.tanh(v / 1e-3), ()),
-    "brown_mcphee": ({"mu": MU, "mu_s": MU_S, "v0": 1e-3},
-                     lambda v: MU * np.tanh(4e3 * v) + (MU_S - MU) * 1e3 * v / (0.25 * (1e3 * v) ** 2 + 0.75) ** 2, ()),
-}  # fmt: skip
+    "stribeck": (
+        {"mu": MU, "mu_s": MU_S, "v_s": 0.02, "v0": 1e-3},
+        lambda v: (MU + (MU_S - MU) * np.exp(-(v**2) / 4e-4)) * np.tanh(v / 1e-3),
+        (),
+    ),
+    "brown_mcphee": (
+        {"mu": MU, "mu_s": MU_S, "v0": 1e-3},
+        lambda v: MU * np.tanh(4e3 * v) + (MU_S - MU) * 1e3 * v / (0.25 * (1e3 * v) ** 2 + 0.75) ** 2,
+        (),
+    ),
+}
 
 
 def test_none_is_left_out() -> None:

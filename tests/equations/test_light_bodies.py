@@ -126,9 +126,13 @@ start: {guess: {piston.x: 180 mm}}
 """
 
 
-@pytest.mark.parametrize(("light", "pair"), [
-    ("crank", "rod (0.15 kg) and crank (1e-14 kg)"), ("piston", "crank (0.15 kg) and piston (1e-14 kg)"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("light", "pair"),
+    [
+        ("crank", "rod (0.15 kg) and crank (1e-14 kg)"),
+        ("piston", "crank (0.15 kg) and piston (1e-14 kg)"),
+    ],
+)
 def test_bodies_without_inertia_are_refused_by_their_masses(light: str, pair: str, tmp_path: Path) -> None:
     """The inertias of crank (0) and crank (0) were reported as too far apart. Masses within the ratio are accepted."""
     file = tmp_path / "points.yaml"

@@ -51,6 +51,7 @@ def test_christensens_heights_have_the_roughness_that_is_named() -> None:
 
 def test_greenwood_and_tripps_share_is_their_integral() -> None:
     """Of normal heights, within what is said of the fit."""
+
     def load(ratio: float) -> float:
         return float(quad(lambda u: (u - ratio) ** 2.5 * math.exp(-u * u / 2.0), ratio, 12.0, epsabs=0.0)[0])
 

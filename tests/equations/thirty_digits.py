@@ -73,9 +73,14 @@ class Reference:
     def wrench(self, clearance: Clearance, stored: float) -> tuple[list[Any], tuple[Any, Any]]:
         """Force on the journal (ground axes) and moments about bearing centre and journal centre."""
         ex, ey, ux, uy, w_i, w_j, c = self.values(
-            (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega,
-             clearance.pair.c)
-        )  # fmt: skip
+            (
+                *clearance.eccentricity,
+                *clearance.eccentricity_rate,
+                clearance.first.omega,
+                clearance.second.omega,
+                clearance.pair.c,
+            )
+        )
         with mp.workdps(DIGITS):
             e = mp.hypot(ex, ey)
             n = (ex / e, ey / e)

@@ -16,18 +16,27 @@ import gudgeon
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-11)
 SCENES = (
-    ("andrews_squeezer", "ideal", 0.03, "OF.theta"), ("nine_bar_press", "lubricated", 0.05, "A.ex"),
-    ("nine_bar_press", "dry", 0.02, "A.ex"), ("slider_crank", "dry", 0.02, "slider.x"),
-)  # fmt: skip
+    ("andrews_squeezer", "ideal", 0.03, "OF.theta"),
+    ("nine_bar_press", "lubricated", 0.05, "A.ex"),
+    ("nine_bar_press", "dry", 0.02, "A.ex"),
+    ("slider_crank", "dry", 0.02, "slider.x"),
+)
 
 
 def error(fmu: str, kind: str, rtol: float, series: str, reference: gudgeon.Result) -> float:
     """Of one run by FMPy; by CVODE where it integrates."""
     t_end = reference.t[-1]
     found = fmpy.simulate_fmu(
-        fmu, stop_time=t_end, step_size=t_end / 50 if kind == "CoSimulation" else None, output_interval=t_end / 50,
-        relative_tolerance=rtol, output=[series], fmi_type=kind, solver="CVode", record_events=False,
-    )  # fmt: skip
+        fmu,
+        stop_time=t_end,
+        step_size=t_end / 50 if kind == "CoSimulation" else None,
+        output_interval=t_end / 50,
+        relative_tolerance=rtol,
+        output=[series],
+        fmi_type=kind,
+        solver="CVode",
+        record_events=False,
+    )
     assert np.allclose(found["time"], reference.t, rtol=0.0, atol=1e-12)
     return float(abs(found[series] - reference[series]).max() / abs(reference[series]).max())
 

@@ -29,8 +29,18 @@ fmpy = pytest.importorskip("fmpy")
 pytestmark = [needs_compiler, pytest.mark.plain]
 RTOL = 1e-10
 # Largest differences of a kind, over the largest of that kind in the run.
-KINDS = {"m": 1e-9, "rad": 1e-9, "m/s": 1e-9, "rad/s": 1e-9, "m/s^2": 1e-7, "rad/s^2": 1e-7, "N": 1e-7, "N*m": 1e-7,
-         "J": 1e-8, "": 1e-8}  # fmt: skip
+KINDS = {
+    "m": 1e-9,
+    "rad": 1e-9,
+    "m/s": 1e-9,
+    "rad/s": 1e-9,
+    "m/s^2": 1e-7,
+    "rad/s^2": 1e-7,
+    "N": 1e-7,
+    "N*m": 1e-7,
+    "J": 1e-8,
+    "": 1e-8,
+}
 STOPPING = """
 format: gudgeon/1
 name: falling
@@ -65,9 +75,11 @@ def instance(fmu: str, t_end: float = 1.0, tolerance: float | None = None, **num
     description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
     place = {variable.name: variable.valueReference for variable in description.modelVariables}
     slave = fmpy.fmi3.FMU3Slave(
-        guid=description.guid, unzipDirectory=unpacked, instanceName="one",
+        guid=description.guid,
+        unzipDirectory=unpacked,
+        instanceName="one",
         modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
+    )
     slave.instantiate()
     if "relative_tolerance" in numbers:
         slave.setFloat64([place["relative_tolerance"]], [numbers.pop("relative_tolerance")])
@@ -83,11 +95,15 @@ def instance(fmu: str, t_end: float = 1.0, tolerance: float | None = None, **num
 
 LARGE = (("nine_bar_press", "dry"), ("andrews_squeezer", "ideal"))
 CASES: tuple[tuple[str, str, float, dict[str, float]], ...] = (
-    ("nine_bar_press", "lubricated", 0.1, {"parameters.c": 5e-4}), ("four_bar", "ideal", 0.5, {}),
-    ("four_bar", "ideal", 0.5, {"parameters.omega": 9.0}), ("pendulum", "ideal", 1.0, {"parameters.g": 3.7}),
-    ("nine_bar_press", "dry", 0.004, {}), ("shaker", "ideal", 0.3, {}), ("andrews_squeezer", "ideal", 0.03, {}),
+    ("nine_bar_press", "lubricated", 0.1, {"parameters.c": 5e-4}),
+    ("four_bar", "ideal", 0.5, {}),
+    ("four_bar", "ideal", 0.5, {"parameters.omega": 9.0}),
+    ("pendulum", "ideal", 1.0, {"parameters.g": 3.7}),
+    ("nine_bar_press", "dry", 0.004, {}),
+    ("shaker", "ideal", 0.3, {}),
+    ("andrews_squeezer", "ideal", 0.03, {}),
     ("belt_block", "ideal", 0.5, {}),  # friction, whose mode is known from the start on
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize(
@@ -106,9 +122,15 @@ def test_it_is_valid_and_moves_as_the_native_run(
     assert validate_fmu(fmu) == []
     names = [one for one, *_ in outputs(simulation.source)]
     found = fmpy.simulate_fmu(
-        fmu, stop_time=t_end, step_size=t_end / 50, output_interval=t_end / 50, relative_tolerance=RTOL,
-        start_values=numbers, output=names, fmi_type="CoSimulation",
-    )  # fmt: skip
+        fmu,
+        stop_time=t_end,
+        step_size=t_end / 50,
+        output_interval=t_end / 50,
+        relative_tolerance=RTOL,
+        start_values=numbers,
+        output=names,
+        fmi_type="CoSimulation",
+    )
     run = simulation.simulate(output=found["time"], rtol=RTOL, parameters=numbers)
     units = {one: unit for one, unit, *_ in outputs(simulation.source)}
     largest: dict[str, float] = {}
@@ -157,19 +179,27 @@ def test_what_is_set_after_initialization_is_refused_and_changes_nothing(
                         slave.setFloat64([slave.place[name]], [6e-4])
                     assert f"{name} is fixed" in capsys.readouterr().out
                     assert slave.getFloat64([slave.place[name]]) == kept
-            ways.append(slave.getFloat64([slave.place[name] for name in ("S9.y", "A.ex", "B.ey", "A.F_n")
-                                          if name in slave.place]))  # fmt: skip
+            ways.append(
+                slave.getFloat64(
+                    [slave.place[name] for name in ("S9.y", "A.ex", "B.ey", "A.F_n") if name in slave.place]
+                )
+            )
     assert ways[0] == ways[1]
 
 
 @pytest.mark.parametrize(
     ("name", "value"),
     [
-        ("parameters.c", -1e-4), ("parameters.c", 0.5), ("parameters.c", 1e-17), ("bodies.L1.mass", -1.0),
-        ("contacts.dry.normal.restitution", 1.5), ("contacts.dry.normal.restitution", 0.0),
-        ("contacts.dry.friction.v0", 1.0), ("bodies.L1.length", 1e200),
+        ("parameters.c", -1e-4),
+        ("parameters.c", 0.5),
+        ("parameters.c", 1e-17),
+        ("bodies.L1.mass", -1.0),
+        ("contacts.dry.normal.restitution", 1.5),
+        ("contacts.dry.normal.restitution", 0.0),
+        ("contacts.dry.friction.v0", 1.0),
+        ("bodies.L1.length", 1e200),
     ],
-)  # fmt: skip
+)
 def test_numbers_that_the_native_run_refuses_end_initialization(
     name: str, value: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -179,8 +209,9 @@ def test_numbers_that_the_native_run_refuses_end_initialization(
     press = scene("nine_bar_press", "dry")
     with pytest.raises(BadValueError) as native:
         press.simulate(1e-3, parameters={name: value})
-    with pytest.raises(FMICallException, match="ExitInitializationMode"), instance(
-        written(press, tmp_path), **{name: value}
+    with (
+        pytest.raises(FMICallException, match="ExitInitializationMode"),
+        instance(written(press, tmp_path), **{name: value}),
     ):
         pass
     said = capsys.readouterr().out
@@ -230,9 +261,11 @@ def test_what_cannot_be_is_refused(tmp_path: Path) -> None:
     fmu = written(scene("pendulum", "ideal"), tmp_path)
     description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
     slave = FMU3Slave(
-        guid="{another}", unzipDirectory=unpacked, instanceName="one",
+        guid="{another}",
+        unzipDirectory=unpacked,
+        instanceName="one",
         modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
+    )
     with pytest.raises(Exception, match="instantiate"):
         slave.instantiate(logMessage=lambda *_: None)
     with instance(fmu) as slave:

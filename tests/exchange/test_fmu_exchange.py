@@ -39,9 +39,11 @@ def model(fmu: str, c: float | None = None) -> Iterator[Any]:
     """One that others integrate, past its initialization and its first event; `c` in place of its parameters.c."""
     description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
     made = fmpy.fmi3.FMU3Model(
-        guid=description.guid, unzipDirectory=unpacked, instanceName="one",
+        guid=description.guid,
+        unzipDirectory=unpacked,
+        instanceName="one",
         modelIdentifier=description.modelExchange.modelIdentifier,
-    )  # fmt: skip
+    )
     made.instantiate()
     for variable in description.modelVariables if c is not None else ():
         if variable.name == "parameters.c":
@@ -80,9 +82,14 @@ def test_it_is_valid_and_moves_as_the_native_run(
     assert validate_fmu(fmu) == []
     series = [one for one in series if one in {name for name, *_ in outputs(simulation.source)}]
     found = fmpy.simulate_fmu(
-        fmu, stop_time=t_end, output_interval=t_end / 50, relative_tolerance=1e-10, output=series,
-        fmi_type="ModelExchange", solver="CVode",
-    )  # fmt: skip
+        fmu,
+        stop_time=t_end,
+        output_interval=t_end / 50,
+        relative_tolerance=1e-10,
+        output=series,
+        fmi_type="ModelExchange",
+        solver="CVode",
+    )
     found = found[np.unique(np.round(found["time"], 12), return_index=True)[1]]
     run = simulation.simulate(output=found["time"], rtol=1e-10)
     assert len(series) >= 2
@@ -253,9 +260,15 @@ def test_a_jump_of_a_force_is_an_event(tmp_path: Path) -> None:
     file.write_text(SWITCHED, encoding="utf-8")
     fmu = written(gudgeon.load(file), tmp_path)
     found = fmpy.simulate_fmu(
-        fmu, stop_time=2.0, output_interval=0.04, relative_tolerance=1e-9, output=["block.x"],
-        fmi_type="ModelExchange", solver="CVode", record_events=False,
-    )  # fmt: skip
+        fmu,
+        stop_time=2.0,
+        output_interval=0.04,
+        relative_tolerance=1e-9,
+        output=["block.x"],
+        fmi_type="ModelExchange",
+        solver="CVode",
+        record_events=False,
+    )
     t = found["time"]
     x = np.where(t < 0.5, 1 - 4 * t**2, np.where(t < 1.5, 4 * (t - 1) ** 2 - 1, 1 - 4 * (t - 2) ** 2))
     assert len(t) == 51 and abs(found["block.x"] - x).max() < 1e-8

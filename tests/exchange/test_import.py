@@ -115,12 +115,23 @@ def test_what_is_not_said_is_told(tmp_path: Path) -> None:
     assert "\n" not in mechanism_text(of_pylinkage({**stored["file"], "name": "a\nname: b"})).split("format:")[0][1:20]
 
 
-MOVED = {"joints": [
-    {"type": "Static", "name": "A", "x": 0, "y": 0}, {"type": "Static", "name": "D", "x": 4, "y": 0},
-    {"type": "Crank", "name": "B", "x": 1, "y": 0, "joint0": {"ref": "A"}, "distance": 1, "angle": 0.1},
-    {"type": "Revolute", "name": "C", "x": 3, "y": 2, "joint0": {"ref": "B"}, "joint1": {"ref": "D"},
-     "distance0": 3, "distance1": 2.5},
-]}  # fmt: skip
+MOVED = {
+    "joints": [
+        {"type": "Static", "name": "A", "x": 0, "y": 0},
+        {"type": "Static", "name": "D", "x": 4, "y": 0},
+        {"type": "Crank", "name": "B", "x": 1, "y": 0, "joint0": {"ref": "A"}, "distance": 1, "angle": 0.1},
+        {
+            "type": "Revolute",
+            "name": "C",
+            "x": 3,
+            "y": 2,
+            "joint0": {"ref": "B"},
+            "joint1": {"ref": "D"},
+            "distance0": 3,
+            "distance1": 2.5,
+        },
+    ]
+}
 
 
 def changed(k: int, **values: Any) -> dict[str, Any]:
@@ -132,18 +143,22 @@ def changed(k: int, **values: Any) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("data", "told"),
     [
-        ([], "no joints"), ({"joints": []}, "no joints"), ({"joints": [1]}, "no joints"),
+        ([], "no joints"),
+        ({"joints": []}, "no joints"),
+        ({"joints": [1]}, "no joints"),
         (changed(3, type="Cam"), "'Cam' is no joint of pylinkage"),
         (changed(3, joint0={"ref": "X"}), "hangs on .X., which is not in the file"),
-        (changed(3, joint1=None), "too few joints"), (changed(2, distance="long"), "distance is 'long'"),
-        (changed(2, distance=True), "distance is True"), (changed(2, distance=float("nan")), "distance is nan"),
+        (changed(3, joint1=None), "too few joints"),
+        (changed(2, distance="long"), "distance is 'long'"),
+        (changed(2, distance=True), "distance is True"),
+        (changed(2, distance=float("nan")), "distance is nan"),
         (changed(3, type="Fixed", distance=1, angle=0.2), "which nothing holds at a distance"),
         (changed(3, type="Prismatic", revolute_radius=3, joint1={"ref": "B"}, joint2={"ref": "D"}), "no body holds"),
         ({"joints": [{"id": "A", "type": "ground", "position": [0, 0]}]}, "no links"),
         ({"joints": [{"id": "A", "type": "ground", "position": None}], "links": []}, "has no position"),
         ({"joints": [{"id": "A", "type": "ground", "position": [0, 0]}], "links": []}, "nothing in it moves"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_read_is_refused(data: Any, told: str, tmp_path: Path) -> None:
     file = tmp_path / "odd.json"
     file.write_text(json.dumps(data), encoding="utf-8")
@@ -155,9 +170,17 @@ def test_what_cannot_be_read_is_refused(data: Any, told: str, tmp_path: Path) ->
 
 @pytest.mark.parametrize(
     "text",
-    ["", "{", "\x00", "[" * 100_000, "https://app.pmksplus.com/?1.2", "https://app.pmksplus.com/?0.S.K,0.101.ZA,A..x...",
-     SIX_BAR.replace(",A,B,,", ",A,Q,,"), SIX_BAR.replace("MA,A,0wS", "MA,A,~wS")],
-)  # fmt: skip
+    [
+        "",
+        "{",
+        "\x00",
+        "[" * 100_000,
+        "https://app.pmksplus.com/?1.2",
+        "https://app.pmksplus.com/?0.S.K,0.101.ZA,A..x...",
+        SIX_BAR.replace(",A,B,,", ",A,Q,,"),
+        SIX_BAR.replace("MA,A,0wS", "MA,A,~wS"),
+    ],
+)
 def test_what_is_neither_is_refused(text: str, tmp_path: Path) -> None:
     file = tmp_path / "odd.txt"
     file.write_text(text, encoding="utf-8")

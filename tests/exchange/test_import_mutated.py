@@ -30,10 +30,18 @@ from tests.programs import needs_compiler
 
 DATA = Path(__file__).parents[1] / "data/exchange"
 LINKS = json.loads((DATA / "pmks_links.json").read_text(encoding="utf-8"))
-NAMES = (
-    ["Four-bar (test)", "pin (left) 1", "gudgeon pin", "crank-1 (drive)", "A_B", "A_B_motor", "x", "y", "theta", "t"]
-    + ["B" * 300, "ground", "tail", "omega", "Käfer", "Ω", "  ", "1", "m", "N", "kg", "__a__", "A.b", "a: b", "*/"]
-)
+NAMES = [
+    "Four-bar (test)",
+    "pin (left) 1",
+    "gudgeon pin",
+    "crank-1 (drive)",
+    "A_B",
+    "A_B_motor",
+    "x",
+    "y",
+    "theta",
+    "t",
+] + ["B" * 300, "ground", "tail", "omega", "Käfer", "Ω", "  ", "1", "m", "N", "kg", "__a__", "A.b", "a: b", "*/"]
 ODD: list[Any] = [None, True, 0, -1, 10**400, -1e300, 1e-300, math.nan, math.inf, "", "A", [], [1], {}, {"ref": 3}, 5]
 ODD += [0.5, "ground", "arc_driver", "tracker", "prismatic", "Fixed", "Linear"]
 
@@ -162,8 +170,19 @@ def test_work_grows_with_the_size_of_a_file() -> None:
 
     def chain(count: int) -> Any:
         joints = [{"type": "Static", "name": "P0", "x": 0, "y": 0}, {"type": "Static", "name": "Q", "x": 1, "y": 9}]
-        joints += [{"type": "Revolute", "name": f"P{k}", "x": k, "y": 0, "joint0": {"ref": f"P{k - 1}"},
-                    "joint1": {"ref": "Q"}, "distance0": 1, "distance1": 9} for k in range(1, count)]  # fmt: skip
+        joints += [
+            {
+                "type": "Revolute",
+                "name": f"P{k}",
+                "x": k,
+                "y": 0,
+                "joint0": {"ref": f"P{k - 1}"},
+                "joint1": {"ref": "Q"},
+                "distance0": 1,
+                "distance1": 9,
+            }
+            for k in range(1, count)
+        ]
         return {"joints": joints[::-1]}
 
     def calls(document: Any) -> int:

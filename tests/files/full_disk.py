@@ -258,8 +258,14 @@ def fill(name: str, disk: Path, count: int) -> dict[str, Any]:
         if os.getpid() == owner:  # a child ends through here too
             shutil.rmtree(room)
     statuses, wrong = [status for status, _ in found], [text for _, texts in found for text in texts]
-    return {"task": name, "sizes": count, "refused": sum(s != 0 for s in statuses), "written": statuses.count(0),
-            "signals": sum(s < 0 for s in statuses), "wrong": wrong}  # fmt: skip
+    return {
+        "task": name,
+        "sizes": count,
+        "refused": sum(s != 0 for s in statuses),
+        "written": statuses.count(0),
+        "signals": sum(s < 0 for s in statuses),
+        "wrong": wrong,
+    }
 
 
 if __name__ == "__main__":

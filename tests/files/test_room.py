@@ -82,9 +82,11 @@ def test_a_limit_of_the_process_counts() -> None:
     code += "gudgeon.load('pendulum').simulate(1.0, output=2 * 10**7)"
     limit = 3 << 29
     done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True,
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
-    )  # fmt: skip
+    )
     assert 0.0 < float(done.stdout) < limit
     assert done.stderr.splitlines()[-1].startswith("MemoryError: 20000001 samples would take ")
 
@@ -97,7 +99,12 @@ def test_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(room, "free_memory", lambda: pytest.fail("little is not asked about"))
     check_memory(1e6, "x")
     assert [in_bytes(size) for size in (12, 3400, 5.6e6, 7.8e9, 2.5e13)] == [
-        "12 bytes", "3.4 kB", "5.6 MB", "7.8 GB", "25 TB"]  # fmt: skip
+        "12 bytes",
+        "3.4 kB",
+        "5.6 MB",
+        "7.8 GB",
+        "25 TB",
+    ]
 
 
 def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -146,9 +153,11 @@ def test_runs_that_do_not_fit_into_memory(pendulum: Simulation) -> None:
         ("1000 runs of 100001", lambda: pendulum.simulate_many(sets, 1.0, output=100_000, keep=["swing"], threads=1)),
         ("1000 runs of 20001", lambda: pendulum.simulate_many(sets, 1.0, output=20_000, method="scipy:DOP853")),
         ("1000 rows of times, 100001 each,", lambda: pendulum.simulate_many(sets, own, output=100_000)),
-        ("2 runs of 4000001 samples, under way at once",
-         lambda: gudgeon.study(STUDY | {"output": 4_000_000, "measures": {"top": {"max": "swing"}}}, threads=2)),
-    ):  # fmt: skip
+        (
+            "2 runs of 4000001 samples, under way at once",
+            lambda: gudgeon.study(STUDY | {"output": 4_000_000, "measures": {"top": {"max": "swing"}}}, threads=2),
+        ),
+    ):
         with pytest.raises(MemoryError, match=told):
             begin()
 
@@ -203,9 +212,11 @@ def test_a_study_that_does_not_fit_on_the_disk(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("small")
 @pytest.mark.parametrize(
     ("output", "told"),
-    [("10000000", "not enough memory: 2 scenes of 10000001 samples would take "),
-     ("100000", "No space left on device: the results, 2 scenes of 100001 samples, would take ")],
-)  # fmt: skip
+    [
+        ("10000000", "not enough memory: 2 scenes of 10000001 samples would take "),
+        ("100000", "No space left on device: the results, 2 scenes of 100001 samples, would take "),
+    ],
+)
 def test_a_command_whose_results_fit_nowhere(call: Gudgeon, output: str, told: str, tmp_path: Path) -> None:
     done = call("run", "pendulum", "--output", output)
     assert done.exit_code == 1 and done.stderr.startswith("error: ") and told in done.stderr

@@ -148,9 +148,16 @@ def make(path: Path, what: str) -> Path:
 
 @pytest.mark.parametrize(
     ("what", "told"),
-    [("pipe", "a pipe"), ("folder", "a folder"), ("device", "a device"), ("protected", "write-protected"),
-     ("the system's link", "system"), ("too long", "File name too long"), ("below a file", "Not a directory|exists")],
-)  # fmt: skip
+    [
+        ("pipe", "a pipe"),
+        ("folder", "a folder"),
+        ("device", "a device"),
+        ("protected", "write-protected"),
+        ("the system's link", "system"),
+        ("too long", "File name too long"),
+        ("below a file", "Not a directory|exists"),
+    ],
+)
 def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, told: str) -> None:
     path = make(tmp_path / "x", what)
     before = [(p.name, p.lstat().st_mode) for p in tmp_path.iterdir()], os.lstat("/dev/null")[:2]
@@ -165,10 +172,17 @@ def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, told: str
     assert ([(p.name, p.lstat().st_mode) for p in tmp_path.iterdir()], os.lstat("/dev/null")[:2]) == before
 
 
-@pytest.mark.parametrize(("path", "told"), [
-    ("", "cannot write '': the name is empty\n"), (".", r"cannot write \.: it is a folder"), ("/", "it is a folder"),
-    ("./", "it is a folder"), ("..", "it is a folder"), (Path(), "it is a folder"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("path", "told"),
+    [
+        ("", "cannot write '': the name is empty\n"),
+        (".", r"cannot write \.: it is a folder"),
+        ("/", "it is a folder"),
+        ("./", "it is a folder"),
+        ("..", "it is a folder"),
+        (Path(), "it is a folder"),
+    ],
+)
 def test_a_folder_or_no_name_is_reported_as_such(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str | Path, told: str
 ) -> None:

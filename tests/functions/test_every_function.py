@@ -54,8 +54,12 @@ def test_it_is_parsed_with_its_arguments_alone(function: Function) -> None:
 @every_function
 def test_dimensions(function: Function) -> None:
     """Of arguments in metres; of one in seconds among them."""
-    expected = {Units.SAME: LENGTH, Units.RATIO: DIMENSIONLESS, Units.CHOICE: LENGTH,
-                Units.ROOT: parse_dimension("sqrt(1 m)")}  # fmt: skip
+    expected = {
+        Units.SAME: LENGTH,
+        Units.RATIO: DIMENSIONLESS,
+        Units.CHOICE: LENGTH,
+        Units.ROOT: parse_dimension("sqrt(1 m)"),
+    }
     if function.units is Units.PURE:
         with pytest.raises(UnitError, match="pure number"):
             check_dimension(tree(function), None, lambda name: LENGTH, HERE)
@@ -83,8 +87,10 @@ def parse_dimension(text: str) -> Any:
 def test_values_of_numpy_and_sympy(function: Function) -> None:
     """Outputs and the NumPy target against SymPy in 30 digits; undefined outside the domain."""
     expression, arguments = in_sympy(function), draw(function)
-    exact = [float(expression.subs(dict(zip(sorted_symbols(function), map(sp.Float, row.tolist()), strict=True))).n(30))
-             for row in arguments]  # fmt: skip
+    exact = [
+        float(expression.subs(dict(zip(sorted_symbols(function), map(sp.Float, row.tolist()), strict=True))).n(30))
+        for row in arguments
+    ]
     np.testing.assert_allclose(values(function, arguments), exact, rtol=1e-14, atol=1e-15)
     code = NumPyPrinter(Readable(())).doprint(expression)
     known = dict(zip(names(function), arguments.T, strict=True))

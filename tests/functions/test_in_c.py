@@ -52,7 +52,9 @@ def c_code() -> str:
     for kind in ("double", "Lanes", "Range"):
         cases = ", ".join(f"{kind}_{k}" for k in range(len(FUNCTIONS)))
         text.append(f"static {kind} (*const of_{kind}[])(const {kind} *) = {{{cases}}};\n")
-    return "".join(text) + """
+    return (
+        "".join(text)
+        + """
 double value(int k, const double *x) { return of_double[k](x); }
 double lane(int k, const double *x, int n, int at)
 {
@@ -70,6 +72,7 @@ void bounds(int k, const double *from, const double *way, int n, double *out)
     out[0] = y.lo, out[1] = y.hi, out[2] = y.down, out[3] = y.up, out[4] = y.partly;
 }
 """
+    )
 
 
 @pytest.fixture(scope="module")
@@ -130,8 +133,10 @@ def scene_of_all() -> bytes:
     calls = []
     for function in FUNCTIONS.values():
         low, high = interval(function)
-        arguments = [f"{(low + high) / 2 + 0.05 * k:g} + {(high - low) / 7:g}*sin(bob.theta + {k})"
-                     for k in range(len(function.arguments))]  # fmt: skip
+        arguments = [
+            f"{(low + high) / 2 + 0.05 * k:g} + {(high - low) / 7:g}*sin(bob.theta + {k})"
+            for k in range(len(function.arguments))
+        ]
         calls.append(function.call(*arguments[:-1], "0.7" if function.divides else arguments[-1]))
     forces = "\n".join(f"  f{k}: {{torque: bob, value: 0.1 N*m * {call}}}" for k, call in enumerate(calls))
     outputs = "\n".join(f"  out{k}: {call}" for k, call in enumerate(calls))

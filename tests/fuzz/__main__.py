@@ -58,10 +58,17 @@ def _prepare(folder: Path, tokens: tuple[str, ...], seeds: list[bytes], argument
     words = ("".join(f"\\x{byte:02x}" for byte in token.encode()) for token in tokens if token)
     (folder / "words").write_text("".join(f'"{word}"\n' for word in words))
     return [
-        f"-runs={arguments.count}", f"-max_total_time={arguments.seconds}", f"-seed={arguments.seed}", "-timeout=10",
-        "-max_len=4000", "-rss_limit_mb=4096", "-print_final_stats=1", f"-dict={folder / 'words'}",
-        f"-artifact_prefix={folder}/", str(corpus),
-    ]  # fmt: skip
+        f"-runs={arguments.count}",
+        f"-max_total_time={arguments.seconds}",
+        f"-seed={arguments.seed}",
+        "-timeout=10",
+        "-max_len=4000",
+        "-rss_limit_mb=4096",
+        "-print_final_stats=1",
+        f"-dict={folder / 'words'}",
+        f"-artifact_prefix={folder}/",
+        str(corpus),
+    ]
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH, RATE, TIME, Dimension,
 
 OF_A_NUMBER = tuple(
     name for name, f in FUNCTIONS.items() if len(f.arguments) == 1 and f.units in (Units.PURE, Units.ROOT)
-)  # fmt: skip
+)
 _NAME = re.compile(r"[A-Za-z_][\w.]*")
 _NUMBERS = ("0.5", "2", "0.1", "3.7", "1e-3", "1", "12", "0.25", "1.5e2", "7")
 _ANGLES = ("rad", "deg", "mrad", "rev")

@@ -11,10 +11,44 @@ from tests.fuzz.expressions import Writer
 
 # names that emitted code has, or might have
 NAMES = (
-    "a_K", "k", "rare", "all_of", "pick", "angles_0", "sines_1", "sine_0", "cosine_0", "cosines_of", "value", "Lanes",
-    "lanes_sin", "side_0", "side_1", "g1", "h", "time_1", "now", "lane", "run", "omega", "passed", "passed_", "share",
-    "lambda_", "found", "width", "Four", "margin", "event", "aside_", "motion", "motor_value", "hold", "of", "LaneBits",
-)  # fmt: skip
+    "a_K",
+    "k",
+    "rare",
+    "all_of",
+    "pick",
+    "angles_0",
+    "sines_1",
+    "sine_0",
+    "cosine_0",
+    "cosines_of",
+    "value",
+    "Lanes",
+    "lanes_sin",
+    "side_0",
+    "side_1",
+    "g1",
+    "h",
+    "time_1",
+    "now",
+    "lane",
+    "run",
+    "omega",
+    "passed",
+    "passed_",
+    "share",
+    "lambda_",
+    "found",
+    "width",
+    "Four",
+    "margin",
+    "event",
+    "aside_",
+    "motion",
+    "motor_value",
+    "hold",
+    "of",
+    "LaneBits",
+)
 _BODY = {"x": LENGTH, "y": LENGTH, "theta": DIMENSIONLESS, "vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 _POINT = {"x": LENGTH, "y": LENGTH, "vx": VELOCITY, "vy": VELOCITY}
 _MATERIALS = """materials: {steel: {E: 206 GPa, nu: 0.3}}
@@ -45,8 +79,9 @@ def _bar(name: str, length: str = "0.2 m", more: str = "") -> str:
 
 
 def _pendulum(rng: random.Random) -> Linkage:
-    return Linkage([_bar("a")], ["a.head"], "O: [0, 0]", ["O: {revolute: [ground.O, a.tail]}"],
-                   [("angle: a", DIMENSIONLESS)])  # fmt: skip
+    return Linkage(
+        [_bar("a")], ["a.head"], "O: [0, 0]", ["O: {revolute: [ground.O, a.tail]}"], [("angle: a", DIMENSIONLESS)]
+    )
 
 
 def _double(rng: random.Random) -> Linkage:
@@ -58,18 +93,30 @@ def _double(rng: random.Random) -> Linkage:
 
 
 def _four_bar(rng: random.Random) -> Linkage:
-    joints = ["O: {revolute: [ground.O, a.tail]}", "A: {revolute: [a.head, b.tail]}",
-              "B: {revolute: [b.head, c.head]}", "P: {revolute: [ground.P, c.tail]}"]  # fmt: skip
-    return Linkage([_bar("a", "0.1 m"), _bar("b", "0.3 m"), _bar("c", "0.25 m")], ["b.com", "c.head"],
-                   "O: [0, 0], P: [0.3 m, 0]", joints, [("angle: a", DIMENSIONLESS)], ["A", "B"],
-                   "guess: {a.theta: 40 deg, b.theta: 30 deg, c.theta: 70 deg}")  # fmt: skip
+    joints = [
+        "O: {revolute: [ground.O, a.tail]}",
+        "A: {revolute: [a.head, b.tail]}",
+        "B: {revolute: [b.head, c.head]}",
+        "P: {revolute: [ground.P, c.tail]}",
+    ]
+    return Linkage(
+        [_bar("a", "0.1 m"), _bar("b", "0.3 m"), _bar("c", "0.25 m")],
+        ["b.com", "c.head"],
+        "O: [0, 0], P: [0.3 m, 0]",
+        joints,
+        [("angle: a", DIMENSIONLESS)],
+        ["A", "B"],
+        "guess: {a.theta: 40 deg, b.theta: 30 deg, c.theta: 70 deg}",
+    )
 
 
 def _slider_crank(rng: random.Random) -> Linkage:
     joints = [
-        "O: {revolute: [ground.O, a.tail]}", "A: {revolute: [a.head, b.tail]}", "W: {revolute: [b.head, s.origin]}",
+        "O: {revolute: [ground.O, a.tail]}",
+        "A: {revolute: [a.head, b.tail]}",
+        "W: {revolute: [b.head, s.origin]}",
         "G: {translational: [ground.O, s.origin], axis: [1, 0]}",
-    ]  # fmt: skip
+    ]
     drive = rng.choice((("angle: a", DIMENSIONLESS), ("coordinate: s.x", LENGTH), ("angle: [b, a]", DIMENSIONLESS)))
     bodies = [_bar("a", "0.1 m"), _bar("b", "0.3 m"), _MASS]
     guess = "guess: {a.theta: 40 deg, s.x: 0.35 m}"
@@ -88,8 +135,9 @@ def _shaker(rng: random.Random) -> Linkage:
 
 def _block(rng: random.Random) -> Linkage:
     friction = "rub: {dry_friction: [ground.O, s.origin], direction: [1, 0], speed: 0.1 m/s, static: 5 N, kinetic: 4 N}"
-    made = Linkage([_MASS], ["s.origin"], "O: [0, 0]",
-                   ["G: {translational: [ground.O, s.origin], axis: [1, 0]}"], [], [])  # fmt: skip
+    made = Linkage(
+        [_MASS], ["s.origin"], "O: [0, 0]", ["G: {translational: [ground.O, s.origin], axis: [1, 0]}"], [], []
+    )
     if rng.random() < 0.7:
         made.forces.append(friction)
     if rng.random() < 0.4:
@@ -101,16 +149,24 @@ def _block(rng: random.Random) -> Linkage:
 
 
 def _free(rng: random.Random) -> Linkage:
-    made = Linkage([_bar("a"), "s: {mass: 1 kg, inertia: 1e-3 kg*m^2, points: {p: [10 mm, 20 mm]}}"], ["a.head", "s.p"],
-                   "O: [0, 0]", [], [("coordinate: s.y", LENGTH)])  # fmt: skip
+    made = Linkage(
+        [_bar("a"), "s: {mass: 1 kg, inertia: 1e-3 kg*m^2, points: {p: [10 mm, 20 mm]}}"],
+        ["a.head", "s.p"],
+        "O: [0, 0]",
+        [],
+        [("coordinate: s.y", LENGTH)],
+    )
     if rng.random() < 0.5:
         made.drives = [("distance: [a.head, ground.O]", LENGTH)]
     return made
 
 
 def _gears(rng: random.Random) -> Linkage:
-    joints = ["O: {revolute: [ground.O, a.tail]}", "P: {revolute: [ground.P, w.origin]}",
-              "mesh: {gear: [a, w], radii: [40 mm, 60 mm], carrier: ground}"]  # fmt: skip
+    joints = [
+        "O: {revolute: [ground.O, a.tail]}",
+        "P: {revolute: [ground.P, w.origin]}",
+        "mesh: {gear: [a, w], radii: [40 mm, 60 mm], carrier: ground}",
+    ]
     bodies, ground = [_bar("a"), "w: {mass: 1 kg, inertia: 1e-3 kg*m^2}"], "O: [0, 0], P: [100 mm, 0]"
     made = Linkage(bodies, ["a.head"], ground, joints, [("angle: w", DIMENSIONLESS)])
     if rng.random() < 0.5:
@@ -122,9 +178,15 @@ def _gears(rng: random.Random) -> Linkage:
 
 
 LINKAGES: tuple[Callable[[random.Random], Linkage], ...] = (
-    *(_pendulum,) * 14, *(_block,) * 8, *(_free,) * 3, *(_gears,) * 2, *(_double,) * 2,
-    _four_bar, _slider_crank, _shaker,
-)  # fmt: skip
+    *(_pendulum,) * 14,
+    *(_block,) * 8,
+    *(_free,) * 3,
+    *(_gears,) * 2,
+    *(_double,) * 2,
+    _four_bar,
+    _slider_crank,
+    _shaker,
+)
 
 
 @dataclass(frozen=True)
@@ -146,7 +208,8 @@ def random_file(seed: int) -> RandomFile:
     moving = {f"{body}.{part}": of for body in names for part, of in _BODY.items()}
     moving |= {f"{point}.{part}": of for point in made.points for part, of in _POINT.items()}
     driving, watching = (
-        Writer(rng, alone | parameters, alone, jumps=False), Writer(rng, alone | moving | parameters, alone | moving)
+        Writer(rng, alone | parameters, alone, jumps=False),
+        Writer(rng, alone | moving | parameters, alone | moving),
     )
     numbers = {DIMENSIONLESS: "1.3", LENGTH: "0.2 m", TIME: "0.7 s", RATE: "2.1 rad/s"}
     lines = ["format: gudgeon/1", "name: fuzz", "parameters:"]

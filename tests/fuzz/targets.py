@@ -106,9 +106,17 @@ def files() -> list[bytes]:
 
 
 EXPRESSIONS = (
-    "80 mm", "-39.52 deg + omega * t", "2*pi rad/s", "-(a + b)**2 / 3", "atan2(a, 2 m) * -k**-0.5",
-    "smooth_step(t, 0, 1 s)", "min(max(a, 1 mm), 3*L1.x)", "1e-308", "1 N*m*s/rad", "hypot(a, a) + (3 m)**2/a",
-)  # fmt: skip
+    "80 mm",
+    "-39.52 deg + omega * t",
+    "2*pi rad/s",
+    "-(a + b)**2 / 3",
+    "atan2(a, 2 m) * -k**-0.5",
+    "smooth_step(t, 0, 1 s)",
+    "min(max(a, 1 mm), 3*L1.x)",
+    "1e-308",
+    "1 N*m*s/rad",
+    "hypot(a, a) + (3 m)**2/a",
+)
 
 TARGETS: Mapping[str, tuple[Callable[[bytes], None], tuple[str, ...], Callable[[], list[bytes]]]] = {
     "expression": (expression, TOKENS, lambda: [text.encode() for text in EXPRESSIONS]),

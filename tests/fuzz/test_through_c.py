@@ -24,25 +24,33 @@ def test_hundreds_of_files(files: int) -> None:
 
 
 HEAD = "format: gudgeon/1\nname: fuzz\nparameters: {rare: 1.3, Lanes: 0.2 m, all_of: 2, sine_0: 1}\n"
-BAR = HEAD + """bodies: {a: {length: 0.2 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}}
+BAR = (
+    HEAD
+    + """bodies: {a: {length: 0.2 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}}
 ground: {O: [0, 0]}
 joints: {O: {revolute: [ground.O, a.tail]}}
 """
+)
 MASS = HEAD + "bodies: {s: {mass: 1 kg, inertia: 1e-3 kg*m^2}}\nground: {O: [0, 0]}\n"
 FAILED = {
-    "a driven bar's event": BAR + """drives: {d: {angle: a, value: 2*pi*t}}
+    "a driven bar's event": BAR
+    + """drives: {d: {angle: a, value: 2*pi*t}}
 events: {e: {zero: "rare + a.head.y * 2 1/m"}}
 """,
-    "names of the C of lanes": BAR + """events:
+    "names of the C of lanes": BAR
+    + """events:
   e: {zero: cos(a.theta) + rare * all_of * sin(sine_0 * t) + a.x / Lanes}
 """,
-    "a corner that only the event has": MASS + """joints: {G: {translational: [ground.O, s.origin], axis: [1, 0]}}
+    "a corner that only the event has": MASS
+    + """joints: {G: {translational: [ground.O, s.origin], axis: [1, 0]}}
 events: {e: {zero: "abs(s.x) - Lanes"}}
 """,
-    "no rows at all, a force with a corner": MASS + """forces: {f: {torque: s, value: "-abs(s.x * 150 N)"}}
+    "no rows at all, a force with a corner": MASS
+    + """forces: {f: {torque: s, value: "-abs(s.x * 150 N)"}}
 events: {e: {zero: cos(s.theta)}}
 """,
-    "a factor of Newton's matrix that is eta": HEAD + """bodies:
+    "a factor of Newton's matrix that is eta": HEAD
+    + """bodies:
   a: {length: 0.1 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}
   b: {length: 0.3 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}
   s: {mass: 1 kg, inertia: 1e-3 kg*m^2}

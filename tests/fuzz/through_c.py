@@ -212,15 +212,21 @@ def _both(reduced: Reduced, t: float, s: Array, rate: Array, memory: Array) -> t
 
 
 def _check(
-    compiled: CompiledModel, file: RandomFile, reduced: Reduced, t: float, found: tuple[Array, ...],
+    compiled: CompiledModel,
+    file: RandomFile,
+    reduced: Reduced,
+    t: float,
+    found: tuple[Array, ...],
     moved: list[tuple[Array, ...]],
-) -> None:  # fmt: skip
+) -> None:
     """As near as what an error of the state in its tenth digit changes."""
     source = compiled.source
     tree, q, v, everything, of_tree, of_all, rescued = found
     with np.errstate(invalid="ignore"):
-        slack = [SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0) for b, other in
-                 zip(found, zip(*moved, strict=True), strict=True)]  # fmt: skip
+        slack = [
+            SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0)
+            for b, other in zip(found, zip(*moved, strict=True), strict=True)
+        ]
     _agree("events", of_tree, of_all, slack[4])
     if hasattr(compiled.lib, "gudgeon_reduced_rescue"):
         size = np.max(abs(tree), initial=1.0)

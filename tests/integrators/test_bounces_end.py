@@ -26,10 +26,18 @@ scenes: {hard: {play: {fall: {bearing: floor, contact: hard}}}}
 """
 
 
-@pytest.mark.parametrize("h, e, g, v0", [
-    (1e-3, 0.5, 9.81, 1e-8), (1e-3, 0.5, 9.81, 1e-13), (1e-4, 0.9, 1e5, 1e-4), (1e-4, 0.9, 1e6, 1e-4),
-    (0.3, 0.99, 1e6, 1e-6), (1e-6, 0.95, 0.01, 1e-9), (0.1, 0.8, 9.81, 1e-4),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "h, e, g, v0",
+    [
+        (1e-3, 0.5, 9.81, 1e-8),
+        (1e-3, 0.5, 9.81, 1e-13),
+        (1e-4, 0.9, 1e5, 1e-4),
+        (1e-4, 0.9, 1e6, 1e-4),
+        (0.3, 0.99, 1e6, 1e-6),
+        (1e-6, 0.95, 0.01, 1e-9),
+        (0.1, 0.8, 9.81, 1e-4),
+    ],
+)
 def test_bounces_pile_up_to_a_closed_contact(tmp_path: Path, h: float, e: float, g: float, v0: float) -> None:
     """After falls of g, heights e² times as high each, and speeds that are no larger than v0, or rounding."""
     ball = loader(tmp_path)(BALL, "hard")

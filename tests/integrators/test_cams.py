@@ -60,8 +60,14 @@ def test_the_shaft_bears_the_torque_that_virtual_work_says(tmp_path: Path, form:
     assert run.diagnostics.phi_max < 1e-14
 
 
-WAYS = [("dop853", "reduced", 1e-9), ("rk4", "full", 1e-7), ("rodas5p", "reduced", 1e-7), ("dop853", "full", 1e-9),
-        ("rk4", "reduced", 1e-7), ("radau5", "full", 1e-6)]  # fmt: skip
+WAYS = [
+    ("dop853", "reduced", 1e-9),
+    ("rk4", "full", 1e-7),
+    ("rodas5p", "reduced", 1e-7),
+    ("dop853", "full", 1e-9),
+    ("rk4", "reduced", 1e-7),
+    ("radau5", "full", 1e-6),
+]
 
 
 @pytest.mark.parametrize(("method", "form", "within"), slow_rows_but(WAYS[:3], WAYS))

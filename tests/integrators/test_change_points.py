@@ -52,9 +52,16 @@ FORMULATIONS = slow_but(("reduced",), ("reduced", "full"))
 
 
 def load(
-    tmp_path: Path, value: str = "40 deg + 360 deg/s*t", begin: float = 40.0, rates: str = "", mass: str = "",
-    a: float = 0.35, d: float = 0.9, formulation: str = "reduced", more: str = "",
-) -> gudgeon.Simulation:  # fmt: skip
+    tmp_path: Path,
+    value: str = "40 deg + 360 deg/s*t",
+    begin: float = 40.0,
+    rates: str = "",
+    mass: str = "",
+    a: float = 0.35,
+    d: float = 0.9,
+    formulation: str = "reduced",
+    more: str = "",
+) -> gudgeon.Simulation:
     numbers = {"value": value, "begin": begin, "rates": rates, "mass": mass, "a": a, "d": d, "w": 1.0}
     file = tmp_path / "parallelogram.yaml"
     file.write_text(PARALLELOGRAM % numbers + more, encoding="utf-8")
@@ -116,8 +123,14 @@ def test_a_start_at_a_change_point_names_its_branches(tmp_path: Path, formulatio
 
 def test_a_dead_centre_has_no_branches(tmp_path: Path) -> None:
     """The crank of a linkage that reaches no further."""
-    text = (PARALLELOGRAM % {"value": "40 deg + 360 deg/s*t", "begin": 40, "rates": "", "mass": "", "a": 0.35, "d": 0.9,
-                             "w": 1}).replace("r: {length: 0.35", "r: {length: 0.3").replace("k: {length: 0.9", "k: {length: 0.85")  # fmt: skip  # noqa: E501
+    text = (
+        (
+            PARALLELOGRAM
+            % {"value": "40 deg + 360 deg/s*t", "begin": 40, "rates": "", "mass": "", "a": 0.35, "d": 0.9, "w": 1}
+        )
+        .replace("r: {length: 0.35", "r: {length: 0.3")
+        .replace("k: {length: 0.9", "k: {length: 0.85")
+    )  # noqa: E501
     file = tmp_path / "dead.yaml"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(SingularError, match="dead centre") as error:
@@ -136,7 +149,12 @@ def test_a_free_parallelogram_passes_change_points_by_every_method(tmp_path: Pat
     run = gudgeon.load(file).simulate(1.0, method=method, rtol=1e-8, output=100)
     inertia, moment = 2.0 * (3e-4 + 0.3 * 0.05**2) + 0.5 * 0.1**2, (0.3 * 0.1 + 0.5 * 0.1) * 9.81
     exact = solve_ivp(
-        lambda t, y: [y[1], -moment * np.cos(y[0]) / inertia], (0.0, 1.0), [np.pi / 3.0, 20.0],
-        method="DOP853", rtol=1e-13, atol=1e-13, t_eval=run.t,
-    )  # fmt: skip
+        lambda t, y: [y[1], -moment * np.cos(y[0]) / inertia],
+        (0.0, 1.0),
+        [np.pi / 3.0, 20.0],
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-13,
+        t_eval=run.t,
+    )
     assert run["a.theta"] == pytest.approx(exact.y[0], abs=1e-5)

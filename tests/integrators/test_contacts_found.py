@@ -30,10 +30,18 @@ def slider_crank(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Simulation
     return scene_of(tmp_path_factory.mktemp("contacts"), SLIDER_CRANK)
 
 
-@pytest.mark.parametrize("how", [
-    {"rtol": 1e-8}, {"rtol": 1e-9}, {"rtol": 1e-10}, {"rtol": 1e-8, "method": "dop853"},
-    {"rtol": 1e-8, "method": "rodas5p"}, {"rtol": 1e-8, "method": "radau5"}, {"step": 1e-6, "method": "rk4"},
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"rtol": 1e-8},
+        {"rtol": 1e-9},
+        {"rtol": 1e-10},
+        {"rtol": 1e-8, "method": "dop853"},
+        {"rtol": 1e-8, "method": "rodas5p"},
+        {"rtol": 1e-8, "method": "radau5"},
+        {"step": 1e-6, "method": "rk4"},
+    ],
+)
 def test_a_short_flight_within_a_step_is_found(slider_crank: gudgeon.Simulation, how: dict[str, object]) -> None:
     run = slider_crank.simulate(0.05, output=100, peaks=["crankpin.F"], **how)  # type: ignore[arg-type]
     assert len(run.impacts) == 9
@@ -57,9 +65,11 @@ def test_a_journal_that_leaves_its_wall_begins_no_contact(tmp_path: Path) -> Non
     numbers = ", r: 20 mm, L: 0.10158570946666343 m" + "".join(f", {name}: {m} kg" for name, m in masses.items())
     numbers += "".join(f", {name}: {J} kg*m^2" for name, J in inertias.items())
     cam = scene_of(tmp_path, CAM, numbers, weight=True)
-    found = [(63.04230356637408, 1.144093514851275e-4, 0.5, 1e-9, 0.06748355378976237),
-             (53.929027525503656, 8.290744578572464e-4, 0.3, 1e-9, 0.13656634618701458),
-             (74.00794940329101, 2.225012400357546e-4, 0.9, 1e-7, 0.10342589017236986)]  # fmt: skip
+    found = [
+        (63.04230356637408, 1.144093514851275e-4, 0.5, 1e-9, 0.06748355378976237),
+        (53.929027525503656, 8.290744578572464e-4, 0.3, 1e-9, 0.13656634618701458),
+        (74.00794940329101, 2.225012400357546e-4, 0.9, 1e-7, 0.10342589017236986),
+    ]
     contacts = 0
     for omega, c, ce, rtol, t_end in found:
         run = cam.simulate(t_end, parameters={"omega": omega, "c": c, "ce": ce, "mu": 0.0}, rtol=rtol, output=20_000)
@@ -80,10 +90,19 @@ def test_random_machines_have_no_penetration_outside_a_contact() -> None:
 # of the campaign: after a contact the steps of dop853 are tried so long that a stage of the interpolant cannot be
 # computed, where the rod no longer reaches the slider's line
 REACH = {
-    "omega": 46.515639271412496, "c": 0.0001733702097200314, "ce": 0.9, "mu": 0.0, "r": 0.0225073401946568,
-    "L": 0.10188064912078823, "m1": 0.07653529805733969, "J1": 3.672903710730944e-06, "m2": 1.1019251032937192,
-    "J2": 0.0017811030586876173, "m3": 0.2676621582289156, "J3": 6.810353566637155e-05,
-}  # fmt: skip
+    "omega": 46.515639271412496,
+    "c": 0.0001733702097200314,
+    "ce": 0.9,
+    "mu": 0.0,
+    "r": 0.0225073401946568,
+    "L": 0.10188064912078823,
+    "m1": 0.07653529805733969,
+    "J1": 3.672903710730944e-06,
+    "m2": 1.1019251032937192,
+    "J2": 0.0017811030586876173,
+    "m3": 0.2676621582289156,
+    "J3": 6.810353566637155e-05,
+}
 
 
 def test_no_event_is_sought_on_the_interpolant_of_another_step(tmp_path: Path) -> None:

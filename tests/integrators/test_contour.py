@@ -98,9 +98,12 @@ def test_an_elastic_journal_moves_by_the_potential_of_the_gap(worn: Simulation) 
     s = np.concatenate([start.q[[pin, pin + 1, ring + 2]], start.v[[pin, pin + 1, ring + 2]]])
     want = solve_ivp(rates, (0.0, t_end), s, method="DOP853", rtol=1e-11, atol=1e-14, max_step=1e-5).y[:, -1]
     for simulation, method, rtol, step in (
-        (worn, "dop853", 1e-10, None), (worn, "rodas5p", 1e-9, None), (worn, "rk4", None, 2e-6),
-        (worn.full, "dop853", 1e-10, None), (worn.full, "rodas5p", 1e-9, None),
-    ):  # fmt: skip
+        (worn, "dop853", 1e-10, None),
+        (worn, "rodas5p", 1e-9, None),
+        (worn, "rk4", None, 2e-6),
+        (worn.full, "dop853", 1e-10, None),
+        (worn.full, "rodas5p", 1e-9, None),
+    ):
         run = simulation.simulate(t_end, output=200, method=method, contour=contour, rtol=rtol, step=step)
         assert len(run.impacts) >= 5 and np.ptp(run["ring.omega"]) > 0.1
         assert np.abs(run["energy.residual"]).max() < 3e-8 * run["energy.kinetic"].max()

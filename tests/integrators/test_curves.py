@@ -38,17 +38,21 @@ drives: {{cam: {{coordinate: follower.y, value: clear + lift(omega * t)}}}}
 events: {{high: {{zero: lift(omega * t) - 9 mm}}}}
 outputs: {{lifted: lift(omega * t)}}
 """
-SLUG = """
+SLUG = (
+    """
 parameters: {k: 1}
 curves:
   pull: {points: [[-100, -50], [-50, -20], [0, 0], [50, 20], [100, 60]], x: mm, y: N, ends: not_a_knot, %s}
-  thrust: {""" + THRUST + """}
+  thrust: {"""
+    + THRUST
+    + """}
 bodies: {slug: {mass: 0.3 kg, inertia: 1e-3 kg*m^2}}
 ground: {O: [0, 0]}
 joints: {rail: {translational: [ground.O, slug.origin], axis: [1, 0]}}
 forces: {spring: {force: slug.com, value: ["%s", 0]}}
 start: {rates: {slug.vx: 1 m/s}}
-"""  # fmt: skip
+"""
+)
 
 
 def lift() -> CubicSpline:
@@ -99,7 +103,7 @@ def test_a_cam_whose_end_does_not_meet_its_beginning_is_told(tmp_path: Path, end
 def test_second_rates_are_the_differences_of_rates(tmp_path: Path) -> None:
     """A crank that a curve turns moves a rod and a slider: a square loop, whose positions follow the drive."""
     text = f"""
-curves: {{way: {{{THRUST.replace('y: N', 'y: deg')}}}}}
+curves: {{way: {{{THRUST.replace("y: N", "y: deg")}}}}}
 bodies:
   crank: {{length: 0.1 m, mass: 1 kg, inertia: 1e-3 kg*m^2}}
   rod: {{length: 0.3 m, mass: 1 kg, inertia: 1e-3 kg*m^2}}
@@ -143,8 +147,9 @@ def test_knots_in_the_state_and_the_tangent_beyond(tmp_path: Path, method: str, 
     def pull(x: float) -> float:
         return float(s(np.clip(x, -0.1, 0.1)) + s(-0.1, 1) * min(x + 0.1, 0) + s(0.1, 1) * max(x - 0.1, 0))
 
-    end = solve_ivp(lambda _, y: [y[1], -pull(y[0]) / 0.3], (0, 1), [0, 5], "DOP853", rtol=1e-13, atol=1e-15,
-                    max_step=1e-3).y[:, -1]  # fmt: skip
+    end = solve_ivp(
+        lambda _, y: [y[1], -pull(y[0]) / 0.3], (0, 1), [0, 5], "DOP853", rtol=1e-13, atol=1e-15, max_step=1e-3
+    ).y[:, -1]
     assert np.abs(run["slug.x"]).max() > 0.1
     assert run["slug.x"][-1] == pytest.approx(end[0], abs=5e-9)
     assert run["slug.vx"][-1] == pytest.approx(end[1], abs=2e-7)

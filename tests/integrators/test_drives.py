@@ -21,8 +21,16 @@ bodies: {a: {length: 0.1 m, mass: 0.3 kg, inertia: 1e-3 kg*m^2}, b: {length: 0.2
 ground: {O: [0, 0]}
 joints: {O: {revolute: [ground.O, a.tail]}, A: {revolute: [a.head, b.tail]}}
 """
-ONE = "\n".join(["format: gudgeon/1", "name: n", "bodies: {a: {length: 1, mass: 1, inertia: 1}}", "ground: {O: [0, 0]}",
-                 "joints: {O: {revolute: [ground.O, a.tail]}}", ""])  # fmt: skip
+ONE = "\n".join(
+    [
+        "format: gudgeon/1",
+        "name: n",
+        "bodies: {a: {length: 1, mass: 1, inertia: 1}}",
+        "ground: {O: [0, 0]}",
+        "joints: {O: {revolute: [ground.O, a.tail]}}",
+        "",
+    ]
+)
 
 
 def driven(text: str, value: str, folder: Path) -> gudgeon.Simulation:
@@ -31,8 +39,14 @@ def driven(text: str, value: str, folder: Path) -> gudgeon.Simulation:
     return gudgeon.load(file)
 
 
-@pytest.mark.parametrize("value", ["hypot(t - 0.5 s, 0)", "((t - 0.5 s)**2)**0.5",
-    pytest.param("sqrt(t**2 - t * 1 s + 0.25 s^2)", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "value",
+    [
+        "hypot(t - 0.5 s, 0)",
+        "((t - 0.5 s)**2)**0.5",
+        pytest.param("sqrt(t**2 - t * 1 s + 0.25 s^2)", marks=pytest.mark.slow),
+    ],
+)
 def test_a_root_of_a_square_gives_the_impulse_of_abs(value: str, tmp_path: Path) -> None:
     ends = [
         driven(PAIR, f"5 rad/s * {of}", tmp_path).simulate(rtol=1e-11, output=[0.4999, 0.5001, 0.6])["b.omega"]
@@ -69,9 +83,14 @@ def test_abs_of_what_may_be_complex(value: str, rate: Callable[[np.ndarray], np.
     np.testing.assert_allclose(run["a.omega"][1:], rate(run.t[1:]), rtol=1e-12)
 
 
-@pytest.mark.parametrize(("value", "why"), [
-    ("(0.5 - t/(1 s))**(1/3)", "the power 0.333"), ("log(0.5 - t/(1 s))", "log of 0"), ("asin(2*t/(1 s))", "asin of 1"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("value", "why"),
+    [
+        ("(0.5 - t/(1 s))**(1/3)", "the power 0.333"),
+        ("log(0.5 - t/(1 s))", "log of 0"),
+        ("asin(2*t/(1 s))", "asin of 1"),
+    ],
+)
 def test_a_drive_that_is_no_number_is_named_with_its_time(value: str, why: str, tmp_path: Path) -> None:
     with pytest.raises(NonFiniteError, match=rf"drives\.d\.value \(line 6, column \d+\) is .* t = 0\.5 s, .*: {why}"):
         driven(ONE, value, tmp_path).simulate(1.0, output=10)
@@ -87,12 +106,15 @@ PAIR_AT = PAIR + "parameters: {t0: 0.5 s}\n"
 
 
 @pytest.mark.parametrize("method", ["auto", "rk4", pytest.param("rodas5p", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("value", [
-    "drives: {d: {angle: a, value: acos(cos((t - t0) / (1 s)))}}",
-    "drives: {d: {angle: a, value: ((t0 - t)/(1 s))**(1/3)}}",
-    "forces: {f: {torque: a, value: 1 N*m*sqrt((t0 - t)/(1 s))}}",
-    "forces: {f: {torque: a, value: 1 N*m*sqrt((t - t0)/(1 s))}}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "value",
+    [
+        "drives: {d: {angle: a, value: acos(cos((t - t0) / (1 s)))}}",
+        "drives: {d: {angle: a, value: ((t0 - t)/(1 s))**(1/3)}}",
+        "forces: {f: {torque: a, value: 1 N*m*sqrt((t0 - t)/(1 s))}}",
+        "forces: {f: {torque: a, value: 1 N*m*sqrt((t - t0)/(1 s))}}",
+    ],
+)
 def test_a_batch_tells_of_them_as_a_run_alone(value: str, method: str, tmp_path: Path) -> None:
     """Jumps that no form shows were not looked for in batches."""
     file = tmp_path / "driven.yaml"
@@ -130,10 +152,13 @@ def test_outputs_and_events_that_are_no_number_are_told(drives: str, tmp_path: P
     for formulation in ("reduced", "full"):
         run = gudgeon.load(file, formulation=formulation).simulate(1.0, output=100)
         assert [note.split(":")[0] for note in run.diagnostics.notes] == [
-            "event e is no number (NaN) at t = 0.7 s", "output root is no number (nan) at t = 0.51 s",
-            "output third is no number (nan) at t = 0 s", "output pole is no number (inf) at t = 0.5 s",
-            "output force is no number (nan) at t = 0 s", "output either is no number (nan) at t = 0.51 s",
-        ]  # fmt: skip
+            "event e is no number (NaN) at t = 0.7 s",
+            "output root is no number (nan) at t = 0.51 s",
+            "output third is no number (nan) at t = 0 s",
+            "output pole is no number (inf) at t = 0.5 s",
+            "output force is no number (nan) at t = 0 s",
+            "output either is no number (nan) at t = 0.51 s",
+        ]
         assert run.diagnostics.notes[1].endswith(": sqrt of -0.01; it is none at 50 of 101 samples")
         assert run.diagnostics.notes[3].endswith(": 1 divided by 0")
     batch = gudgeon.load(file).simulate_many({"t0": [0.5, 2.0]}, 1.0, output=100)
@@ -212,8 +237,11 @@ def test_without_freedom_too_a_rate_that_is_none_ends_the_run(
     assert run.diagnostics.energy_residual < 1e-6 * max(1.0, run.diagnostics.energy_turned_over)
 
 
-SQUARES = [(c, value) for c in (0.4, 0.2202)
-           for value in ("sqrt((t/(1 s))**2 - 2*t/(1 s)*{c} + {c}**2)", "sqrt((t/(1 s) - {c})**2)")]  # fmt: skip
+SQUARES = [
+    (c, value)
+    for c in (0.4, 0.2202)
+    for value in ("sqrt((t/(1 s))**2 - 2*t/(1 s)*{c} + {c}**2)", "sqrt((t/(1 s) - {c})**2)")
+]
 
 
 @pytest.mark.parametrize(("c", "value"), slow_rows_but([SQUARES[0], SQUARES[3]], SQUARES))
@@ -258,10 +286,16 @@ def test_without_freedom_an_unbounded_second_rate_is_passed(value: str, tmp_path
     assert run.diagnostics.energy_residual < 1e-9
 
 
-UNBOUNDED = [(value, step) for step in (1e-3, 1.1e-3) for value in (
-    "((t/(1 s) - 0.5)**2)**0.75", "max(0, t/(1 s) - 0.5)**1.5 * 1e-3", "max(0, 0.5 - t/(1 s))**1.5",
-    "abs(t/(1 s) - 0.5)**0.5",
-)]  # fmt: skip
+UNBOUNDED = [
+    (value, step)
+    for step in (1e-3, 1.1e-3)
+    for value in (
+        "((t/(1 s) - 0.5)**2)**0.75",
+        "max(0, t/(1 s) - 0.5)**1.5 * 1e-3",
+        "max(0, 0.5 - t/(1 s))**1.5",
+        "abs(t/(1 s) - 0.5)**0.5",
+    )
+]
 
 
 @pytest.mark.parametrize(("value", "step"), slow_rows_but([UNBOUNDED[1], UNBOUNDED[7]], UNBOUNDED))

@@ -48,10 +48,15 @@ def mass(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
 
 def given(rng: np.random.Generator) -> dict[str, float]:
     values = {
-        "A": rng.uniform(1, 5), "w": 10 ** rng.uniform(0, 2), "T": 10 ** rng.uniform(-1.5, -0.3),
-        "k": 10 ** rng.uniform(1, 3), "v0": rng.uniform(-0.5, 0.5), "x0": rng.uniform(-0.02, 0.02),
-        "X1": rng.uniform(0, 0.01), "X2": rng.uniform(-0.01, 0),
-    }  # fmt: skip
+        "A": rng.uniform(1, 5),
+        "w": 10 ** rng.uniform(0, 2),
+        "T": 10 ** rng.uniform(-1.5, -0.3),
+        "k": 10 ** rng.uniform(1, 3),
+        "v0": rng.uniform(-0.5, 0.5),
+        "x0": rng.uniform(-0.02, 0.02),
+        "X1": rng.uniform(0, 0.01),
+        "X2": rng.uniform(-0.01, 0),
+    }
     return {name: float(value) for name, value in values.items()}
 
 

@@ -102,8 +102,10 @@ def textbook(eps: float, load: float) -> tuple[np.ndarray, np.ndarray]:
     """
     square, two = 1.0 - eps**2, np.pi**2
     h = 1.0 / (two * square + 16.0 * eps**2) ** 1.5
-    a_xx, a_yy = 4.0 * (two * (2.0 - eps**2) + 16.0 * eps**2), 4.0 * (
-        two * (1.0 + 2.0 * eps**2) + 32.0 * eps**2 * (1.0 + eps**2) / square)  # fmt: skip
+    a_xx, a_yy = (
+        4.0 * (two * (2.0 - eps**2) + 16.0 * eps**2),
+        4.0 * (two * (1.0 + 2.0 * eps**2) + 32.0 * eps**2 * (1.0 + eps**2) / square),
+    )
     a_xy = np.pi * (two * square**2 - 16.0 * eps**4) / (eps * np.sqrt(square))
     a_yx = -np.pi * (two * square * (1.0 + 2.0 * eps**2) + 32.0 * eps**2 * (1.0 + eps**2)) / (eps * np.sqrt(square))
     b_xx = 2.0 * np.pi * np.sqrt(square) * (two * (1.0 + 2.0 * eps**2) - 16.0 * eps**2) / eps

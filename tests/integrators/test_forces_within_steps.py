@@ -161,9 +161,13 @@ def test_peaks_of_forces_that_are_faster_than_the_motion(tmp_path: Path) -> None
         given = {name: float(value) for name, value in values.items()}
         t_end = float(2 * pi / given["w2"] * rng.uniform(3, 60))
         run = support.simulate(
-            t_end, parameters=given, method=("auto", "dop853")[k % 2], rtol=float(10 ** rng.uniform(-10, -4)), output=1,
+            t_end,
+            parameters=given,
+            method=("auto", "dop853")[k % 2],
+            rtol=float(10 ** rng.uniform(-10, -4)),
+            output=1,
             peaks=["pin.F"],
-        )  # fmt: skip
+        )
         t = np.linspace(0.0, t_end, 200_001)
         force = MASS * (G - given["A"] * w**2 * np.sin(w * t)) - given["B"] * np.sin(given["w2"] * t)
         peak = run.peak("pin.F")

@@ -95,11 +95,13 @@ def pairs(touching: Sequence[str], folder: Path) -> Simulation:
         return between.join(text.replace("#", str(k)) for k in range(len(touching)))
 
     text = PAIRS.format(
-        bodies=each(f"{ONE}\n{TWO}", "\n"), joints=each("J#: {revolute: [one#.hole, two#.pin]}"),
-        guess=each("one#.theta: 20 deg, two#.theta: -70 deg"), rates=each(RATES),
+        bodies=each(f"{ONE}\n{TWO}", "\n"),
+        joints=each("J#: {revolute: [one#.hole, two#.pin]}"),
+        guess=each("one#.theta: 20 deg, two#.theta: -70 deg"),
+        rates=each(RATES),
         contacts="\n".join(f"  touch{k}: {contact}" for k, contact in enumerate(touching)),
         play=each("J#: {bearing: pin, contact: touch#}"),
-    )  # fmt: skip
+    )
     file = folder / "free_pairs.yaml"
     file.write_text(text, encoding="utf-8")
     return gudgeon.load(file, scene="play")
@@ -127,9 +129,13 @@ def few(several: Sequence[str], most: int = 12) -> list[Sequence[str]]:
     return [several[k : k + most] for k in range(0, len(several), most)]
 
 
-@pytest.mark.parametrize("touching", [
-    *few(USUAL), *(pytest.param(rare, marks=pytest.mark.slow) for rare in few(sorted({*contacts()} - {*USUAL}))),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "touching",
+    [
+        *few(USUAL),
+        *(pytest.param(rare, marks=pytest.mark.slow) for rare in few(sorted({*contacts()} - {*USUAL}))),
+    ],
+)
 def test_momentum_of_free_pairs(touching: Sequence[str], tmp_path: Path) -> None:
     """The forces of a joint with play add up to nothing, and turn nothing, whatever the law."""
     scene = pairs(touching, tmp_path)
@@ -155,8 +161,14 @@ def test_momentum_of_free_pairs(touching: Sequence[str], tmp_path: Path) -> None
     assert touched.min() > 10
 
 
-@pytest.mark.parametrize("index", [0, len(variants("normal")),
-    pytest.param(len(variants("normal")) + len(variants("friction")), marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "index",
+    [
+        0,
+        len(variants("normal")),
+        pytest.param(len(variants("normal")) + len(variants("friction")), marks=pytest.mark.slow),
+    ],
+)
 def test_momentum_of_a_run(index: int, tmp_path: Path) -> None:
     """The same over a whole motion with impacts: what is left is RK4's own error."""
     run = pairs([contacts()[index]], tmp_path).simulate(0.02, output=40, step=1e-6)

@@ -161,8 +161,10 @@ def test_friction_of_what_a_drive_holds_at_rest_is_noted(tmp_path: Path) -> None
 
 
 @needs_compiler
-@pytest.mark.parametrize(("limits", "noted"), [("mu*12 N, kinetic: mu*8 N", False), ("0 N, kinetic: 0 N", False),
-                                               ("0 N + 12 N, kinetic: 0 N", True)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("limits", "noted"),
+    [("mu*12 N, kinetic: mu*8 N", False), ("0 N, kinetic: 0 N", False), ("0 N + 12 N, kinetic: 0 N", True)],
+)
 def test_friction_without_a_force_is_determined_at_rest(limits: str, noted: bool, tmp_path: Path) -> None:
     text = DWELLS.replace("12 N, kinetic: 8 N", limits).replace("bodies:", "parameters: {mu: 1}\nbodies:")
     (tmp_path / "dwells.yaml").write_text(text, encoding="utf-8")

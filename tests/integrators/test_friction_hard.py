@@ -233,8 +233,12 @@ def test_block_on_a_turning_beam_against_scipy(load: Load) -> None:
     begin = math.asin((limit + omega**2 * r0) / g) / omega
     slides = solve_ivp(
         lambda t, y: [y[1], omega**2 * y[0] - g * math.sin(omega * t) + kinetic],
-        (begin, 1.2), [r0, 0.0], "DOP853", rtol=1e-12, atol=1e-14,
-    )  # fmt: skip
+        (begin, 1.2),
+        [r0, 0.0],
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+    )
     r = np.hypot(run["bead.x"], run["bead.y"])
     assert r[-1] == pytest.approx(slides.y[0, -1], abs=1e-8)
     stuck = run["rub.mode"] == 0
@@ -250,8 +254,16 @@ def test_network_of_blocks_obeys_coulomb_everywhere(load: Load, seed: int) -> No
     """Random blocks on each other, springs, pushes, belts: within the limit in stick, against the slip in slip."""
     rng, count = np.random.default_rng(seed), 4
     carriers = ["ground.o", *(f"b{rng.integers(0, i)}.origin" for i in range(1, count))]
-    pads = [(int(i), int(rng.integers(-1, i)), float(rng.uniform(0.5, 4)), float(rng.uniform(0.5, 1)),
-             float(rng.choice([0.0, 0.0, 0.1, -0.2]))) for i in range(count)]  # fmt: skip
+    pads = [
+        (
+            int(i),
+            int(rng.integers(-1, i)),
+            float(rng.uniform(0.5, 4)),
+            float(rng.uniform(0.5, 1)),
+            float(rng.choice([0.0, 0.0, 0.1, -0.2])),
+        )
+        for i in range(count)
+    ]
     lines = ["bodies:"]
     lines += [f"  b{i}: {{mass: {rng.uniform(0.3, 2)} kg, inertia: 1 kg*m^2}}" for i in range(count)]
     lines += ["ground: {o: [0, 0]}", "joints:"]

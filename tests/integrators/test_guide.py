@@ -168,9 +168,7 @@ def test_a_corner_bounces_off_its_wall_by_newtons_law(folder: Path, formulation:
     """Λ = (1 + e) u m J/(J + m l²), l how far in front of the centre of mass the corner meets its wall."""
     given = {"parameters.tilt": 2e-3, "parameters.up": 0.4, "parameters.turning": 1.5, "parameters.v": 0.3}
     simulation = made(folder, BLOCK, "hard", formulation)
-    run = simulation.simulate(
-        output=np.array([0.0, 5e-4]), parameters=given | {"gravity.y": -1e-300}, rtol=1e-12
-    )
+    run = simulation.simulate(output=np.array([0.0, 5e-4]), parameters=given | {"gravity.y": -1e-300}, rtol=1e-12)
     (blow,) = run.impacts
     assert simulation.source.clearances[int(blow["joint"])].name == "way.front_upper"
     tilt = 2e-3 + 1.5 * blow["t_on"]
@@ -228,9 +226,16 @@ def swung() -> tuple[Any, Any]:
 
 @pytest.mark.parametrize(
     ("method", "formulation"),
-    slow_rows_but([("dop853", "reduced"), ("rodas5p", "reduced"), ("rk4", "reduced")], [
-        ("dop853", "reduced"), ("dop853", "full"), ("rodas5p", "reduced"), ("radau5", "full"), ("rk4", "reduced"),
-    ]),
+    slow_rows_but(
+        [("dop853", "reduced"), ("rodas5p", "reduced"), ("rk4", "reduced")],
+        [
+            ("dop853", "reduced"),
+            ("dop853", "full"),
+            ("rodas5p", "reduced"),
+            ("radau5", "full"),
+            ("rk4", "reduced"),
+        ],
+    ),
 )
 def test_a_slot_that_swings_against_an_oracle(folder: Path, method: str, formulation: str) -> None:
     t, expected = swung()
@@ -337,11 +342,17 @@ def test_a_run_goes_on_in_contact(folder: Path) -> None:
     np.testing.assert_allclose(rest.q[-1], whole.q[-1], atol=1e-9)
 
 
-@pytest.mark.parametrize(("numbers", "told"), [
-    ({"tilt": 3.0}, "tilt turns the slider by 171.9 deg"),
-    ({"tilt": -math.pi / 2}, "tilt turns the slider by 90 deg"),
-    ({"guides.slot.half_length": 6e-3, "guides.slot.half_height": 9e-3, "guides.slot.gap": 3e-3}, "turns over in its"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("numbers", "told"),
+    [
+        ({"tilt": 3.0}, "tilt turns the slider by 171.9 deg"),
+        ({"tilt": -math.pi / 2}, "tilt turns the slider by 90 deg"),
+        (
+            {"guides.slot.half_length": 6e-3, "guides.slot.half_height": 9e-3, "guides.slot.gap": 3e-3},
+            "turns over in its",
+        ),
+    ],
+)
 def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], told: str, folder: Path) -> None:
     """Its corners know the wall on their own side alone: it went through the other one without a word."""
     block = made(folder, BLOCK, "soft")

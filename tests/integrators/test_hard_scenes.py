@@ -90,7 +90,8 @@ def test_event_whose_expression_has_an_end(load: Load, zero: str, height: float,
 def test_what_flies_off_is_no_dead_centre(tmp_path: Path) -> None:
     """A bead on an arm that turns evenly: r = r0 cosh ωt without end."""
     file = tmp_path / "fly.yaml"
-    file.write_text("""
+    file.write_text(
+        """
 format: gudgeon/1
 name: fly
 bodies: {arm: {mass: 1 kg, inertia: 0.1 kg*m^2}, bead: {mass: 1 kg, inertia: 0.1 kg*m^2}}
@@ -100,7 +101,9 @@ joints:
   guide: {translational: [arm.origin, bead.origin], axis: [1, 0]}
 drives: {turn: {angle: arm, value: 10 rad/s * t}}
 start: {set: {bead.x: 0.1}, rates: {bead.vx: 0}}
-""", encoding="utf-8")  # fmt: skip
+""",
+        encoding="utf-8",
+    )
     with pytest.raises(SolverError, match=r"diverged|no longer advances"):
         gudgeon.load(file, formulation="full").simulate(4.0, output=5, method="dop853")
 

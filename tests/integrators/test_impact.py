@@ -53,7 +53,7 @@ def test_hertz() -> None:
         (0.7, 0.768),
         (0.8, 0.83287),
         (0.9, 0.90902),
-    ],  # fmt: skip
+    ],
 )
 def test_hunt_and_crossley_deliver(c_e: float, published: float) -> None:
     run = impact(gudgeon.load("bouncing_ball", "damped"), 3e-3, 1e-7, restitution=c_e)
@@ -74,10 +74,16 @@ def test_every_damping_factor_obeys_the_identity(name: str) -> None:
 
 # Of each damping factor, by hand: its value at c_e = 1/2, and its fall per c_e at 1, where the identity asks for 3/2
 BY_HAND = {
-    "none": (0.0, 0.0), "hunt_crossley": (3 / 4, 3 / 2), "herbert_mcwhannell": (1.0, 3 / 2), "lee_wang": (3 / 8, 3 / 4),
-    "lankarani_nikravesh": (9 / 16, 3 / 2), "gonthier": (3 / 2, 2.0), "zhiying_qishao": (9 / 16 * math.e, 3 / 2),
-    "flores": (8 / 5, 8 / 5), "hu_guo": (3 / 2, 3 / 2),
-}  # fmt: skip
+    "none": (0.0, 0.0),
+    "hunt_crossley": (3 / 4, 3 / 2),
+    "herbert_mcwhannell": (1.0, 3 / 2),
+    "lee_wang": (3 / 8, 3 / 4),
+    "lankarani_nikravesh": (9 / 16, 3 / 2),
+    "gonthier": (3 / 2, 2.0),
+    "zhiying_qishao": (9 / 16 * math.e, 3 / 2),
+    "flores": (8 / 5, 8 / 5),
+    "hu_guo": (3 / 2, 3 / 2),
+}
 
 
 @pytest.mark.parametrize("name", FACTORS)

@@ -69,8 +69,12 @@ def test_bristles_follow_the_slip(press: Press, formulation: str) -> None:
         force = -0.15 * fine[f"{joint}.Fn"] * z / PRESLIDING * closed
         np.testing.assert_allclose(fine[f"{joint}.Ft"], force, atol=1e-12)
         assert 0.5 * PRESLIDING < abs(z).max() < PRESLIDING
-        inside = closed[:-2] & closed[1:-1] & closed[2:] & (fine[f"{joint}.deltadot_minus"][:-2] ==
-                                                            fine[f"{joint}.deltadot_minus"][2:])  # fmt: skip
+        inside = (
+            closed[:-2]
+            & closed[1:-1]
+            & closed[2:]
+            & (fine[f"{joint}.deltadot_minus"][:-2] == fine[f"{joint}.deltadot_minus"][2:])
+        )
         rate = ((z[2:] - z[:-2]) / (fine.t[2:] - fine.t[:-2]))[inside]
         expected = (slip - abs(slip) * z / PRESLIDING)[1:-1][inside]
         assert inside.sum() > 50
@@ -125,8 +129,10 @@ def test_runs_side_by_side(
     monkeypatch.setattr(lanes, "WORTH", 0.0)
     c = np.linspace(2.5e-4, 5e-4, 17)
     for method in ("dop853", "rodas5p"):
-        batches = [scene.simulate_many({"c": c}, 0.008, output=30, method=method, rtol=1e-6, threads=1,
-                                       side_by_side=side) for side in (True, False)]  # fmt: skip
+        batches = [
+            scene.simulate_many({"c": c}, 0.008, output=30, method=method, rtol=1e-6, threads=1, side_by_side=side)
+            for side in (True, False)
+        ]
         for name in ("A.z", "B.z", place, "A.Ft"):
             assert batches[0][name].tobytes() == batches[1][name].tobytes(), (method, name)
         for count in ("steps", "right_hand_sides", "jacobians"):
@@ -185,7 +191,7 @@ def test_rodas5p_is_of_its_order(tmp_path: Path, formulation: str) -> None:
     off = [
         abs(journal.simulate(0.008, output=4, method="rodas5p", step=h)["A.z"] - exact["A.z"]).max()
         for h in (1.6e-4, 8e-5, 4e-5)
-    ]  # fmt: skip
+    ]
     orders = np.log2(np.divide(off[:-1], off[1:]))
     assert (orders > 4.6).all(), (off, orders)
 
@@ -232,9 +238,7 @@ def test_rk4_bends_from_the_moment_of_the_onset(tmp_path: Path) -> None:
     journal = loader(tmp_path)(JOURNAL, "m")
     exact = journal.simulate(0.0046, output=4, method="dop853", rtol=1e-13)
     assert len(exact.impacts) == 1 and exact["A.z"][-1] == 0.0  # free again: nothing is bent
-    off = [
-        abs(journal.simulate(0.0046, output=4, method="rk4", step=h).q - exact.q).max() for h in (8e-7, 1e-7)
-    ]  # fmt: skip
+    off = [abs(journal.simulate(0.0046, output=4, method="rk4", step=h).q - exact.q).max() for h in (8e-7, 1e-7)]
     assert max(off) < 4e-11  # a step ends at the onset: of order 1 it was 6e-6 and 1e-6, of order 2 still 4e-9
 
 

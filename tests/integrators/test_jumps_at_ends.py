@@ -51,8 +51,11 @@ drives: {{turn: {{angle: crank, value: "1 rad*({})"}}}}
 """
 JUMP = 0.3  # s
 VALUES = (
-    "max(0 s, t - 0.3 s)*1 m/s", "max(0 s, 0.3 s - t)*1 m/s", "abs(t - 0.3 s)*1 m/s", "max(t, 0.1 s*3)*1 m/s",
-)  # fmt: skip
+    "max(0 s, t - 0.3 s)*1 m/s",
+    "max(0 s, 0.3 s - t)*1 m/s",
+    "abs(t - 0.3 s)*1 m/s",
+    "max(t, 0.1 s*3)*1 m/s",
+)
 METHODS = ("dop853", "rodas5p", "rk4")
 
 
@@ -68,10 +71,16 @@ def by(method: str, step: float = 2e-3) -> dict[str, Any]:
 
 @pytest.mark.parametrize(
     ("value", "formulation"),
-    slow_rows_but([(VALUES[0], "reduced"), (VALUES[1], "full")], [
-        (VALUES[0], "reduced"), (VALUES[0], "full"), (VALUES[1], "full"), (VALUES[2], "reduced"),
-        (VALUES[3], "reduced"),
-    ]),
+    slow_rows_but(
+        [(VALUES[0], "reduced"), (VALUES[1], "full")],
+        [
+            (VALUES[0], "reduced"),
+            (VALUES[0], "full"),
+            (VALUES[1], "full"),
+            (VALUES[2], "reduced"),
+            (VALUES[3], "reduced"),
+        ],
+    ),
 )
 def test_two_runs_with_the_jump_on_their_seam_are_one(value: str, formulation: str, tmp_path: Path) -> None:
     """The adaptive methods ended with the state before it, and 0.57 J were in neither run; rk4 right before it too."""
@@ -90,9 +99,15 @@ def test_two_runs_with_the_jump_on_their_seam_are_one(value: str, formulation: s
 
 @pytest.mark.parametrize(
     ("value", "formulation"),
-    slow_rows_but([(VALUES[0], "full"), (VALUES[1], "reduced")], [
-        (VALUES[0], "full"), (VALUES[1], "reduced"), (VALUES[1], "full"), ("abs(t/(1 s) - 0.3)*1 m", "reduced"),
-    ]),
+    slow_rows_but(
+        [(VALUES[0], "full"), (VALUES[1], "reduced")],
+        [
+            (VALUES[0], "full"),
+            (VALUES[1], "reduced"),
+            (VALUES[1], "full"),
+            ("abs(t/(1 s) - 0.3)*1 m", "reduced"),
+        ],
+    ),
 )
 def test_a_sample_at_a_jump_holds_what_follows(value: str, formulation: str, tmp_path: Path) -> None:
     """rk4 gave the state before and the work after where the branch before it reaches to the jump's own time."""
@@ -109,9 +124,14 @@ def test_a_sample_at_a_jump_holds_what_follows(value: str, formulation: str, tmp
 
 @pytest.mark.parametrize(
     ("value", "formulation"),
-    slow_rows_but([("abs(t)*1 m/s", "full")], [
-        ("max(t, -t)*1 m/s", "reduced"), ("abs(t)*1 m/s", "full"), ("t*1 m/s + max(0 s, -t)*1 m/s", "full"),
-    ]),
+    slow_rows_but(
+        [("abs(t)*1 m/s", "full")],
+        [
+            ("max(t, -t)*1 m/s", "reduced"),
+            ("abs(t)*1 m/s", "full"),
+            ("t*1 m/s + max(0 s, -t)*1 m/s", "full"),
+        ],
+    ),
 )
 def test_a_start_at_a_jump_holds_what_follows(value: str, formulation: str, tmp_path: Path) -> None:
     """From t = 0 on all of these are t. Written one way, the start was an impulse of 0.61 J."""
@@ -162,10 +182,15 @@ def test_a_batch_whose_runs_end_at_their_jumps_is_that_of_single_runs(tmp_path: 
 T, U = "(t/(1 s))", "(t/(1 s) - 0.3)"
 # Corners within corners, which lie at the same time: U is 0 at 0.3 s, T at the start; the rate behind it.
 NESTED = {
-    "max(max(U, 2*U), 3*U)": 3.0, "max(0, max(U, 2*U))": 2.0, "abs(abs(U) - abs(2*U))": 1.0,
-    "max(abs(U), abs(2*U))": 2.0, "max(U, 0) + max(max(U, 0), 2*U)": 3.0, "max(abs(U), 0.6*U)": 1.0,
-    "min(abs(U), 0.6*U)": 0.6, "max(abs(U), 0.5*U + abs(0.1*U))": 1.0,
-}  # fmt: skip
+    "max(max(U, 2*U), 3*U)": 3.0,
+    "max(0, max(U, 2*U))": 2.0,
+    "abs(abs(U) - abs(2*U))": 1.0,
+    "max(abs(U), abs(2*U))": 2.0,
+    "max(U, 0) + max(max(U, 0), 2*U)": 3.0,
+    "max(abs(U), 0.6*U)": 1.0,
+    "min(abs(U), 0.6*U)": 0.6,
+    "max(abs(U), 0.5*U + abs(0.1*U))": 1.0,
+}
 
 
 @pytest.mark.parametrize("value", slow_but([*NESTED][2::4], NESTED))
@@ -185,11 +210,20 @@ def test_corners_within_corners_at_one_time(value: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("value", "rate"),
-    slow_rows_but([("min(ramp(T, 0, 0.5), 2*T)", 2.0), ("abs(T - T*T)", 1.0), ("min(T, 20000*T**2)", 0.0)], [
-        ("max(T, 0.5*T)", 1.0), ("max(ramp(T, 0, 0.5), ramp(T, 0, 0.4))", 2.5), ("min(ramp(T, 0, 0.5), 2*T)", 2.0),
-        ("max(sin(T), T)", 1.0), ("max(sqrt(T**2), 0.6*T)", 1.0), ("max(T, -T)", 1.0), ("abs(T - T*T)", 1.0),
-        ("min(T, 20000*T**2)", 0.0), ("0.4 - 2*min(T, 0)", 0.0),
-    ]),
+    slow_rows_but(
+        [("min(ramp(T, 0, 0.5), 2*T)", 2.0), ("abs(T - T*T)", 1.0), ("min(T, 20000*T**2)", 0.0)],
+        [
+            ("max(T, 0.5*T)", 1.0),
+            ("max(ramp(T, 0, 0.5), ramp(T, 0, 0.4))", 2.5),
+            ("min(ramp(T, 0, 0.5), 2*T)", 2.0),
+            ("max(sin(T), T)", 1.0),
+            ("max(sqrt(T**2), 0.6*T)", 1.0),
+            ("max(T, -T)", 1.0),
+            ("abs(T - T*T)", 1.0),
+            ("min(T, 20000*T**2)", 0.0),
+            ("0.4 - 2*min(T, 0)", 0.0),
+        ],
+    ),
 )
 def test_a_start_at_a_tie_has_the_rates_that_follow(value: str, rate: float, tmp_path: Path) -> None:
     """And the file's own: an impulse out of nothing changed them, and the sum of both branches tore the start."""
@@ -205,9 +239,14 @@ def test_a_start_at_a_tie_has_the_rates_that_follow(value: str, rate: float, tmp
 
 
 TIES = [
-    ("min(2*T, T + 0.5)", 1.0), ("max(2*T, T + 0.5)", 2.0), ("max(sin(3*T - 1.5), 2*T - 1)", 3.0),
-    ("abs(T - 0.5) + min(T, 1 - T)", 0.0), ("min(T, 0.5)", 0.0), ("ramp(T, 0.25, 0.25)", 0.0), ("abs(T - 0.5)", 1.0),
-]  # fmt: skip
+    ("min(2*T, T + 0.5)", 1.0),
+    ("max(2*T, T + 0.5)", 2.0),
+    ("max(sin(3*T - 1.5), 2*T - 1)", 3.0),
+    ("abs(T - 0.5) + min(T, 1 - T)", 0.0),
+    ("min(T, 0.5)", 0.0),
+    ("ramp(T, 0.25, 0.25)", 0.0),
+    ("abs(T - 0.5)", 1.0),
+]
 
 
 @pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])

@@ -49,7 +49,7 @@ def discs(tmp_path_factory: pytest.TempPathFactory) -> Discs:
 
 def impact(
     disc: gudgeon.Simulation, zeta: float, t_end: float = 4e-3, ahead: float = 1e-4, **how: float | str | None
-) -> Result:  # fmt: skip
+) -> Result:
     """Straight outwards, first `ahead` (m) of the wall."""
     name, start = disc.source.scene, disc.start()
     q, v = start.q.copy(), np.array([0.6 * SPEED, -0.8 * SPEED, 0.0])

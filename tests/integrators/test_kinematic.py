@@ -32,8 +32,9 @@ start: {{guess: {{b.theta: {guess_b}, c.theta: {guess_c}}}}}
 """
 
 
-@pytest.mark.parametrize("excess", [1e-2,
-    pytest.param(1e-3, marks=pytest.mark.slow), pytest.param(1e-4, marks=pytest.mark.slow), 1e-5])
+@pytest.mark.parametrize(
+    "excess", [1e-2, pytest.param(1e-3, marks=pytest.mark.slow), pytest.param(1e-4, marks=pytest.mark.slow), 1e-5]
+)
 def test_branch_is_kept_near_a_change_point(load: Load, excess: float) -> None:
     """A parallelogram whose rocker is a little too long folds nearly flat: the coupler keeps its side."""
     text = FOUR_BAR.format(

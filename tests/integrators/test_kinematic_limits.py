@@ -78,9 +78,10 @@ def test_a_drive_that_is_a_number_stands_beside(tmp_path: Path) -> None:
     """It has no value of time to be told: a KeyError, and nothing of the run was kept."""
     file = tmp_path / "table.yaml"
     text = SHORT_ROD.replace("  block: {", "  table: {" + BODY + "}\n  block: {").replace(
-        "drives: {", "  lift: {translational: [ground.G, table.origin], axis: [0, 1]}\n"
-        "drives: {hold: {coordinate: table.y, value: 50 mm}, "
-    )  # fmt: skip
+        "drives: {",
+        "  lift: {translational: [ground.G, table.origin], axis: [0, 1]}\n"
+        "drives: {hold: {coordinate: table.y, value: 50 mm}, ",
+    )
     file.write_text(text, encoding="utf-8")
     with pytest.raises(SolverError, match="beyond t = ") as caught:
         gudgeon.load(file).simulate(2.0)

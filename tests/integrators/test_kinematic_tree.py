@@ -63,8 +63,9 @@ def scene(name: str, folder: Path) -> Simulation:
     return gudgeon.load(path)
 
 
-@pytest.mark.parametrize("name", ["nine_bar_press", "slider_crank", "four_bar",
-    pytest.param("plate", marks=pytest.mark.slow), "pin"])
+@pytest.mark.parametrize(
+    "name", ["nine_bar_press", "slider_crank", "four_bar", pytest.param("plate", marks=pytest.mark.slow), "pin"]
+)
 @pytest.mark.parametrize("output", [4, pytest.param(300, marks=pytest.mark.slow)])
 def test_both_formulations_agree(name: str, output: int, tmp_path: Path) -> None:
     """Positions, velocities, accelerations, works, reactions; however far the samples lie apart."""

@@ -38,9 +38,11 @@ drives: {push: {coordinate: cart.x, value: "1 m*(VALUE)"}}
 # Value, its second derivative before 1 s and after; its rate is 0 at 1 s. The curve's last piece has the values
 # 0.25, 0 and the slopes -0.75, 0 at its ends, 0.5 s apart.
 SWITCHES = [
-    ("max(1 - T, 0)**2", 2.0, 0.0), ("where(t < 1 s, (1 - T)**2, 0)", 2.0, 0.0),
-    ("where(t < 1 s, 0.5*(1 - T)**2, -(1 - T)**2)", 1.0, -2.0), ("lift(t)", 3.0, 0.0),
-]  # fmt: skip
+    ("max(1 - T, 0)**2", 2.0, 0.0),
+    ("where(t < 1 s, (1 - T)**2, 0)", 2.0, 0.0),
+    ("where(t < 1 s, 0.5*(1 - T)**2, -(1 - T)**2)", 1.0, -2.0),
+    ("lift(t)", 3.0, 0.0),
+]
 
 
 def scene(text: str, value: str, folder: Path) -> gudgeon.Simulation:

@@ -23,10 +23,12 @@ WITHIN = 0.1
 @pytest.mark.parametrize(
     ("name", "method", "rtol", "t_end"),
     [
-        ("slider_crank", "auto", 1e-4, 0.4313), ("slider_crank", "rodas5p", 1e-4, 0.4313),
-        ("four_bar", "rodas5p", 1e-5, 0.3), ("four_bar", "auto", 1e-4, 0.3),
+        ("slider_crank", "auto", 1e-4, 0.4313),
+        ("slider_crank", "rodas5p", 1e-4, 0.4313),
+        ("four_bar", "rodas5p", 1e-5, 0.3),
+        ("four_bar", "auto", 1e-4, 0.3),
     ],
-)  # fmt: skip
+)
 def test_the_largest_force_is_that_of_a_precise_run_from_shortly_before(
     name: str, method: str, rtol: float, t_end: float
 ) -> None:

@@ -86,10 +86,9 @@ def test_a_gaussian_push_is_not_stepped_over(load: Load) -> None:
     [
         ("1 N * (tanh((t - t0)/w) - tanh((t - t0 - 10*w)/w))", lambda w: 20 * w),
         ("1 N / (1 + ((t - t0)/w)**2)**2", lambda w: math.pi / 2 * w),
-        ("1 N * sin(t/(1 s)) + 3 N * exp(-((t - t0)/w)**2)",
-         lambda w: 1 - math.cos(20.0) + 3 * w * math.sqrt(math.pi)),
+        ("1 N * sin(t/(1 s)) + 3 N * exp(-((t - t0)/w)**2)", lambda w: 1 - math.cos(20.0) + 3 * w * math.sqrt(math.pi)),
     ],
-)  # fmt: skip
+)
 def test_pulses_of_other_shapes(load: Load, force: str, impulse: Callable[[float], float]) -> None:
     scene, rng = load(BLOCK.format(force=force, more="")), np.random.default_rng(4)
     for method, t0, power in itertools.product(METHODS, rng.uniform(2.0, 15.0, 3), (-3.0, -2.2, -1.5)):
@@ -149,10 +148,24 @@ def test_poles_ends_and_what_is_no_number(load: Load) -> None:
 
 ARGUMENTS = ["(t/(1 s))", "a.theta", "(a.omega/(1 rad/s))", "(a.com.x/(1 m))", "(a.com.vy/(1 m/s))"]
 SHAPES = [
-    "sin({0}*{c})", "cos({0} + {c}*t/(1 s))", "exp(-{0}**2*{c})", "tanh({c}*{0})", "atan2({0}, 2 + {1})", "{0}*{1}",
-    "{0} - {1}/{c}", "log(1.5 + {0}**2)", "hypot({0}, {1})", "max({0}, {1})", "abs({0})", "sqrt({0}**2 + .01)",
-    "1/({0}**2 + {c})", "asin(.9*sin({0}))", "(1.1 + sin({0}*{c}))**1.5", "cosh({0}/{c})", "min({0}, .3*{1})",
-]  # fmt: skip
+    "sin({0}*{c})",
+    "cos({0} + {c}*t/(1 s))",
+    "exp(-{0}**2*{c})",
+    "tanh({c}*{0})",
+    "atan2({0}, 2 + {1})",
+    "{0}*{1}",
+    "{0} - {1}/{c}",
+    "log(1.5 + {0}**2)",
+    "hypot({0}, {1})",
+    "max({0}, {1})",
+    "abs({0})",
+    "sqrt({0}**2 + .01)",
+    "1/({0}**2 + {c})",
+    "asin(.9*sin({0}))",
+    "(1.1 + sin({0}*{c}))**1.5",
+    "cosh({0}/{c})",
+    "min({0}, .3*{1})",
+]
 
 
 def test_random_expressions_against_a_dense_scan(load: Load) -> None:

@@ -222,9 +222,16 @@ def test_constraints_hold_to_rounding() -> None:
 
 @pytest.mark.parametrize(
     ("beyond", "rtol", "off"),
-    slow_rows_but([(1e-5, 1e-9, 1e-4)], [
-        (1e-8, 1e-9, 1e-3), (1e-7, 1e-8, 1e-3), (1e-6, 1e-6, 3e-2), (1e-5, 1e-5, 0.2), (1e-5, 1e-9, 1e-4),
-    ]),
+    slow_rows_but(
+        [(1e-5, 1e-9, 1e-4)],
+        [
+            (1e-8, 1e-9, 1e-3),
+            (1e-7, 1e-8, 1e-3),
+            (1e-6, 1e-6, 3e-2),
+            (1e-5, 1e-5, 0.2),
+            (1e-5, 1e-9, 1e-4),
+        ],
+    ),
 )
 def test_grazing_contacts_are_not_lost(beyond: float, rtol: float, off: float) -> None:
     """A puck on a spring turns round just beyond its bearing's clearance, 64 times in 2 s.

@@ -135,9 +135,7 @@ def test_a_ball_bounces_as_often_as_its_closed_form_and_rests(folder: Path, meth
 def test_energy_is_lost_by_the_law_and_by_nothing_else(folder: Path, e: float) -> None:
     """In a hole blows are oblique; ½ m (1 − e²) u² goes with each, nothing with e = 1, and none is ever gained."""
     simulation = made(folder, BALL)
-    run = simulation.simulate(
-        3.0, parameters=OBLIQUE | {"contacts.hard.normal.restitution": e}, stop=False, rtol=1e-11
-    )
+    run = simulation.simulate(3.0, parameters=OBLIQUE | {"contacts.hard.normal.restitution": e}, stop=False, rtol=1e-11)
     blows = run.impacts[run.impacts["t_off"] == run.impacts["t_on"]]
     energy = run["energy.kinetic"] + run["energy.potential"]
     expected = 0.5 * 0.092 * (1.0 - e * e) * (blows["deltadot"] ** 2).sum()
@@ -335,8 +333,10 @@ def test_with_friction_that_sticks_and_a_drive_that_turns_round(folder: Path) ->
     reference = made(folder, CRANK).simulate(rtol=1e-11, output=300)
     blows = reference.impacts[reference.impacts["t_off"] == reference.impacts["t_on"]]
     assert {*reference.impacts["joint"]} == {0, 1} and len(blows) > 20 and (blows["t_on"] > 0.01).any()
-    others = [made(folder, CRANK, "full").simulate(rtol=1e-11, output=300),
-              made(folder, CRANK).simulate(method="rk4", step=1e-6, output=300)]  # fmt: skip
+    others = [
+        made(folder, CRANK, "full").simulate(rtol=1e-11, output=300),
+        made(folder, CRANK).simulate(method="rk4", step=1e-6, output=300),
+    ]
     for run in (reference, *others):
         d = run.diagnostics
         assert d.energy_residual < 1e-6 * d.energy_turned_over

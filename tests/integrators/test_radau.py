@@ -77,10 +77,13 @@ def test_tables_are_those_of_the_method(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "scene", "inside", "order", "steps"),
-    [("radau5", "swing", False, 5.0, (12, 1200, 14)), ("radau5", "swing", True, 5.0, (12, 1200, 14)),
-     ("radau9", "car_axis", False, 9.0, (20, 160, 14)),
-     pytest.param("radau9", "car_axis", True, 6.0, (40, 800, 14), marks=pytest.mark.slow)],
-)  # fmt: skip
+    [
+        ("radau5", "swing", False, 5.0, (12, 1200, 14)),
+        ("radau5", "swing", True, 5.0, (12, 1200, 14)),
+        ("radau9", "car_axis", False, 9.0, (20, 160, 14)),
+        pytest.param("radau9", "car_axis", True, 6.0, (40, 800, 14), marks=pytest.mark.slow),
+    ],
+)
 def test_observed_orders(name: str, scene: str, inside: bool, order: float, steps: tuple[int, int, int]) -> None:
     """At the ends of steps the method's; between them velocities err by h⁵, with five stages by h⁶.
 
@@ -93,10 +96,14 @@ def test_a_film_costs_a_fraction_of_rodas5p() -> None:
     """The press's journals at 1e-8 of the clearance, beside rodas5p at 1e-12."""
     press = scene_of("nine_bar_press", "lubricated")
     exact = press.simulate(0.4, output=100, method="rodas5p", rtol=1e-12, parameters=LUBRICATED)
-    runs = {m: press.simulate(0.4, output=100, method=m, rtol=1e-8, parameters=LUBRICATED)
-            for m in ("rodas5p", "radau5", "radau9", "auto")}  # fmt: skip
-    errors = {m: max(abs(run[n] - exact[n]).max() for n in ("A.ex", "A.ey", "B.ex", "B.ey")) / LUBRICATED["c"]
-              for m, run in runs.items()}  # fmt: skip
+    runs = {
+        m: press.simulate(0.4, output=100, method=m, rtol=1e-8, parameters=LUBRICATED)
+        for m in ("rodas5p", "radau5", "radau9", "auto")
+    }
+    errors = {
+        m: max(abs(run[n] - exact[n]).max() for n in ("A.ex", "A.ey", "B.ex", "B.ey")) / LUBRICATED["c"]
+        for m, run in runs.items()
+    }
     asked = {m: run.diagnostics.right_hand_sides for m, run in runs.items()}
     assert max(errors.values()) < 3e-7
     assert errors["radau9"] < 2.0 * errors["rodas5p"] and 2 * asked["radau9"] < asked["rodas5p"]

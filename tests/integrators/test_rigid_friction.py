@@ -162,8 +162,10 @@ def test_ever_stiffer_springs_come_to_the_same(folder: Path, sideways: float, en
     assert off[0] < 1e-3 and off[1] < 0.13 * off[0] and off[2] < 0.13 * off[1]
 
 
-@pytest.mark.parametrize(("method", "formulation"), [("dop853", "reduced"),
-    pytest.param("dop853", "full", marks=pytest.mark.slow), ("rk4", "reduced")])
+@pytest.mark.parametrize(
+    ("method", "formulation"),
+    [("dop853", "reduced"), pytest.param("dop853", "full", marks=pytest.mark.slow), ("rk4", "reduced")],
+)
 def test_a_disc_slides_in_its_hole_until_it_rolls(folder: Path, method: str, formulation: str) -> None:
     """It spins on the wall: R φ'' and ω' by the same law, as scipy integrates them."""
     m, J, R, mu, v0, spin, end = 0.092, 7e-6, 0.014, 0.2, 1e-3, 200.0, 2.0

@@ -141,8 +141,11 @@ def test_a_jump_right_behind_a_step_that_is_rounded_beyond_it(tmp_path: Path) ->
     assert run.diagnostics.energy_residual < 3e-3
 
 
-LAWS = [(law, phase) for law in ("where(PHASE < T/2, PHASE/T, 1 - PHASE/T)", "PHASE*(T - PHASE)/T**2")
-        for phase in ("mod(t, T)", "mod(-t, T)")]  # fmt: skip
+LAWS = [
+    (law, phase)
+    for law in ("where(PHASE < T/2, PHASE/T, 1 - PHASE/T)", "PHASE*(T - PHASE)/T**2")
+    for phase in ("mod(t, T)", "mod(-t, T)")
+]
 
 
 @pytest.mark.parametrize(("law", "phase"), slow_rows_but(LAWS[:1], LAWS))

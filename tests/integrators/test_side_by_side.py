@@ -87,9 +87,11 @@ def without_chain(folder: Path) -> Path:
     file = folder / EVERY_KIND.name
     text = EVERY_KIND.read_text(encoding="utf-8")
     closer = {
-        "S9.y: -290 mm": "S9.y: -263.067 mm", "L3.theta: 20 deg": "L3.theta: 10.3284 deg",
-        "rod.theta: 60 deg": "rod.theta: 30.2961 deg", "crank.theta: 5 deg": "crank.theta: -2.78625 deg",
-    }  # fmt: skip
+        "S9.y: -290 mm": "S9.y: -263.067 mm",
+        "L3.theta: 20 deg": "L3.theta: 10.3284 deg",
+        "rod.theta: 60 deg": "rod.theta: 30.2961 deg",
+        "crank.theta: 5 deg": "crank.theta: -2.78625 deg",
+    }
     for far, near in closer.items():
         assert far in text
         text = text.replace(far, near)

@@ -98,12 +98,19 @@ def block(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
 
 def stacked(rng: np.random.Generator) -> dict[str, float]:
     values = {
-        "A": rng.uniform(0.5, 6), "w": 10 ** rng.uniform(0.3, 1.5), "B": rng.uniform(0, 3),
-        "w2": 10 ** rng.uniform(0.3, 1.5), "S1": rng.uniform(0.1, 2), "S2": rng.uniform(0.1, 2),
-        "S3": rng.uniform(0.05, 0.8), "vb": rng.choice([0.3, -0.1, 0.05]),
+        "A": rng.uniform(0.5, 6),
+        "w": 10 ** rng.uniform(0.3, 1.5),
+        "B": rng.uniform(0, 3),
+        "w2": 10 ** rng.uniform(0.3, 1.5),
+        "S1": rng.uniform(0.1, 2),
+        "S2": rng.uniform(0.1, 2),
+        "S3": rng.uniform(0.05, 0.8),
+        "vb": rng.choice([0.3, -0.1, 0.05]),
         "v1": rng.choice([0, rng.uniform(-0.5, 0.5)]),
-        "v2": rng.choice([0, rng.uniform(-0.5, 0.5)]), "k1": 10 ** rng.uniform(0, 2.5), "k2": 10 ** rng.uniform(0, 2),
-    }  # fmt: skip
+        "v2": rng.choice([0, rng.uniform(-0.5, 0.5)]),
+        "k1": 10 ** rng.uniform(0, 2.5),
+        "k2": 10 ** rng.uniform(0, 2),
+    }
     return {name: float(value) for name, value in values.items()}
 
 
@@ -166,10 +173,13 @@ def test_velocities_come_to_rest_once(block: Simulation) -> None:
     for k in range(60):
         static = rng.uniform(0.2, 2.5)
         values = {
-            "A": rng.uniform(1, 5), "w": 10 ** rng.uniform(0.3, 1.6), "S": static,
-            "Kn": static * rng.choice([1, rng.uniform(0.3, 1)]), "k": 10 ** rng.uniform(1, 3),
+            "A": rng.uniform(1, 5),
+            "w": 10 ** rng.uniform(0.3, 1.6),
+            "S": static,
+            "Kn": static * rng.choice([1, rng.uniform(0.3, 1)]),
+            "k": 10 ** rng.uniform(1, 3),
             "v0": rng.uniform(0.05, 0.5),
-        }  # fmt: skip
+        }
         given = {name: float(value) for name, value in values.items()}
         t_end, method = float(rng.uniform(1, 3) * 2 * np.pi / values["w"]), METHODS[k % len(METHODS)]
         whole = block.simulate(t_end, parameters=given, method=method, rtol=1e-9, output=4000)

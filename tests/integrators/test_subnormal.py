@@ -58,10 +58,14 @@ def test_the_same_in_a_batch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize(
     ("force", "rate"),
     [
-        ("e*f*1 N", "0 m/s"), ("e*f*1 N", "1 m/s"), ("e*f*sin(t*(40/(1 s)))*1 N", "0 m/s"), ("0 N", "e*f*1 m/s"),
-        (SPRING, "e*f*1 m/s"), ("-9 N/m*blk.x - 2 N*abs(e*f*sin(30/(1 s)*t))", "1 m/s"),
+        ("e*f*1 N", "0 m/s"),
+        ("e*f*1 N", "1 m/s"),
+        ("e*f*sin(t*(40/(1 s)))*1 N", "0 m/s"),
+        ("0 N", "e*f*1 m/s"),
+        (SPRING, "e*f*1 m/s"),
+        ("-9 N/m*blk.x - 2 N*abs(e*f*sin(30/(1 s)*t))", "1 m/s"),
     ],
-)  # fmt: skip
+)
 def test_tiny_numbers_change_nothing(tmp_path: Path, method: str, force: str, rate: str) -> None:
     """Against the run in which they are zero."""
     scene = load(tmp_path, force, rate)

@@ -37,10 +37,13 @@ MOTION = ((0.3, 0.5, -0.2, 0.1), (0.7, -0.4, 0.3, 0.05))  # x and y as polynomia
 def coefficients(value: sp.Expr, orders: int) -> list[float]:
     """Of an expression of time, x and y along MOTION, by both functions of its series."""
     lines = (
-        Statement("time", Place("t")), Statement("x", Place("q")[0]), Statement("y", Place("q")[1]),
-        Statement("w", Place("p")["w"]), Statement("result", value),
+        Statement("time", Place("t")),
+        Statement("x", Place("q")[0]),
+        Statement("y", Place("q")[1]),
+        Statement("w", Place("p")["w"]),
+        Statement("result", value),
         Statement(Place("a")[0], sp.Symbol("result", real=True)),
-    )  # fmt: skip
+    )
     made = series_of(Kernel("f", (), (), (Section("", lines),)), lambda target: target, "f")
     rows = dict[tuple[str, int], list[float]]()
     names: dict[Key, float] = {Place("p")["w"]: 0.6}
@@ -80,21 +83,33 @@ def number(value: object, known: dict[Key, float]) -> float:
 @pytest.mark.parametrize(
     "value",
     [
-        X * Y, X**2 * Y - T / Y, X / (1 + Y**2), sp.sqrt(2 + X * Y), (1 + X) ** W, Y**sp.Rational(-3, 2), X**7,
-        sp.sin(X * T) + sp.cos(Y), sp.tan(X) * sp.tanh(Y), sp.exp(-X * Y), sp.log(1 + X**2), sp.sinh(X) / sp.cosh(Y),
-        sp.asin(X * W), sp.acos(X / 2) + sp.atan(Y), sp.atan2(Y, X) + sp.atan2(X, W), 1 / sp.sqrt(X**2 + Y**2),
-        (sp.cos(X) * sp.cos(Y) + sp.sin(X) * sp.sin(Y)) / Y**3, sp.exp(sp.sin(X)) * (X + Y) * (X - Y) * (T + 2),
+        X * Y,
+        X**2 * Y - T / Y,
+        X / (1 + Y**2),
+        sp.sqrt(2 + X * Y),
+        (1 + X) ** W,
+        Y ** sp.Rational(-3, 2),
+        X**7,
+        sp.sin(X * T) + sp.cos(Y),
+        sp.tan(X) * sp.tanh(Y),
+        sp.exp(-X * Y),
+        sp.log(1 + X**2),
+        sp.sinh(X) / sp.cosh(Y),
+        sp.asin(X * W),
+        sp.acos(X / 2) + sp.atan(Y),
+        sp.atan2(Y, X) + sp.atan2(X, W),
+        1 / sp.sqrt(X**2 + Y**2),
+        (sp.cos(X) * sp.cos(Y) + sp.sin(X) * sp.sin(Y)) / Y**3,
+        sp.exp(sp.sin(X)) * (X + Y) * (X - Y) * (T + 2),
     ],
     ids=str,
-)  # fmt: skip
+)
 def test_coefficients_of_every_operation(value: sp.Expr) -> None:
     """Against derivatives by mpmath in 40 digits, to order 8."""
     function = sp.lambdify((T, X, Y, W), value, "mpmath")
     with mpmath.workdps(40):
         x, y = ([mpmath.mpf(c) for c in reversed(some)] for some in MOTION)
-        exact = mpmath.taylor(
-            lambda t: function(t, mpmath.polyval(x, t), mpmath.polyval(y, t), mpmath.mpf(0.6)), 0, 8
-        )  # fmt: skip
+        exact = mpmath.taylor(lambda t: function(t, mpmath.polyval(x, t), mpmath.polyval(y, t), mpmath.mpf(0.6)), 0, 8)
     assert coefficients(value, 8) == pytest.approx([float(c) for c in exact], rel=1e-12, abs=1e-13)
 
 
@@ -232,9 +247,12 @@ def test_loops_and_singular_positions_in_lanes(at_once: Seen) -> None:
 
 @pytest.mark.parametrize(
     ("name", "scene", "why"),
-    [("slider_crank", "dry", "wristpin has play"), ("belt_block", "ideal", "friction of rub"),
-     ("four_bar", "ideal", "nothing is integrated")],
-)  # fmt: skip
+    [
+        ("slider_crank", "dry", "wristpin has play"),
+        ("belt_block", "ideal", "friction of rub"),
+        ("four_bar", "ideal", "nothing is integrated"),
+    ],
+)
 @needs_compiler
 def test_motion_that_is_not_smooth_is_refused(name: str, scene: str, why: str) -> None:
     with pytest.raises(BadValueError, match=f"smooth motion: .*{why}"):

@@ -120,9 +120,15 @@ def test_films_of_a_micrometre(tmp_path: Path, formulation: str) -> None:
         assert run.diagnostics.notes == (), rtol
 
 
-@pytest.mark.parametrize("share, rtol, within", [
-    (1e-3, 1e-8, 1e-3), (2e-4, 1e-8, 1e-3), (2e-4, 1e-6, 2e-2), (1e-3, 1e-4, 0.1),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "share, rtol, within",
+    [
+        (1e-3, 1e-8, 1e-3),
+        (2e-4, 1e-8, 1e-3),
+        (2e-4, 1e-6, 2e-2),
+        (1e-3, 1e-4, 0.1),
+    ],
+)
 def test_films_by_rodas5p(tmp_path: Path, reaction: np.ndarray, share: float, rtol: float, within: float) -> None:
     """The dense output of order 4 errs by forces of films as well: they are a part of the step's error."""
     film = loader(tmp_path)(PENDULUM, "pinkus")
@@ -195,10 +201,13 @@ def test_no_step_of_many_steady_ones_has_another_force(tmp_path: Path) -> None:
     """
     text = ROTOR.replace("3000 N*sin", "34.8182592063717 N*sin").replace("-2100 N*cos", "-24.37278144446019 N*cos")
     numbers = {
-        "bearings.pin.clearance": 4.23183700836755e-06, "contacts.film.film.viscosity": 0.008476134571517064,
-        "bodies.rotor.inertia": 0.07698279125873865, "start.rates.rotor.omega": 46.785779971698105,
-        "start.play.A.e.x": -1.2480992850721863e-06, "start.play.A.e.y": 1.1530109731313446e-06,
-    }  # fmt: skip
+        "bearings.pin.clearance": 4.23183700836755e-06,
+        "contacts.film.film.viscosity": 0.008476134571517064,
+        "bodies.rotor.inertia": 0.07698279125873865,
+        "start.rates.rotor.omega": 46.785779971698105,
+        "start.play.A.e.x": -1.2480992850721863e-06,
+        "start.play.A.e.y": 1.1530109731313446e-06,
+    }
     times = np.linspace(0.0, 0.02, 1001)
     rotor = loader(tmp_path)(text, "wet")
     exact = rotor.simulate(0.02, output=times, rtol=1e-10, parameters=numbers)

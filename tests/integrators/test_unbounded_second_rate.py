@@ -35,8 +35,10 @@ joints:
 drives: {m: {angle: crank, value: '%s'}}
 start: {guess: {rod.theta: 0.5, rocker.theta: 1.3}}
 """
-HANGS = ("ground:", "  arm: {length: 0.2 m, mass: 0.5 kg, inertia: 0.002 kg*m^2}\nground:"), (
-    "  j4:", "  j5: {revolute: [rod.com, arm.tail]}\n  j4:")  # fmt: skip
+HANGS = (
+    ("ground:", "  arm: {length: 0.2 m, mass: 0.5 kg, inertia: 0.002 kg*m^2}\nground:"),
+    ("  j4:", "  j5: {revolute: [rod.com, arm.tail]}\n  j4:"),
+)
 Function = Callable[[np.ndarray], np.ndarray]
 DRIVES: tuple[tuple[str, Function], ...] = (
     ("abs(t/(1 s) - 0.5)**1.5", lambda t: abs(t - 0.5) ** 1.5),

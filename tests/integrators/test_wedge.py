@@ -71,8 +71,16 @@ def coupling(J: float) -> float:
     return (J - M * LEVEL**2) / (J + M * LEVEL**2)
 
 
-ENDS = [(1e-2, 0.3, True), (0.1, 0.9, True), (1.0, 0.5, True), (5e-3, 0.6, True), (2e-4, 0.6, False),
-        (5e-4, 0.98, False), (2e-4, 1.0, False), (1e-2, 1.0, False)]  # fmt: skip
+ENDS = [
+    (1e-2, 0.3, True),
+    (0.1, 0.9, True),
+    (1.0, 0.5, True),
+    (5e-3, 0.6, True),
+    (2e-4, 0.6, False),
+    (5e-4, 0.98, False),
+    (2e-4, 1.0, False),
+    (1e-2, 1.0, False),
+]
 
 
 @pytest.mark.parametrize(("J", "e", "rests"), ENDS)
@@ -126,11 +134,18 @@ def test_no_sequence_of_impacts_in_a_guide_is_without_end_or_gains(folder: Path)
     for _ in range(60):
         c, a = 10.0 ** rng.uniform(-5.0, -3.0), rng.uniform(5e-3, 60e-3)
         given: dict[str, Any] = {
-            "c": c, "a": a, "e": rng.choice([0.0, 0.3, 0.7, 0.9, 0.99, rng.uniform()]),
-            "thr": 10.0 ** rng.uniform(-6.0, -2.0), "J": 10.0 ** rng.uniform(-5.0, -1.5), "mu": rng.uniform(0.0, 0.4),
-            "v": rng.uniform(-1.0, 1.0), "lift": rng.uniform(-0.5, 0.5) * c, "tilt": rng.uniform(-0.3, 0.3) * c / a,
-            "up": rng.uniform(-0.5, 0.5), "turn": rng.uniform(-10.0, 10.0),
-        }  # fmt: skip
+            "c": c,
+            "a": a,
+            "e": rng.choice([0.0, 0.3, 0.7, 0.9, 0.99, rng.uniform()]),
+            "thr": 10.0 ** rng.uniform(-6.0, -2.0),
+            "J": 10.0 ** rng.uniform(-5.0, -1.5),
+            "mu": rng.uniform(0.0, 0.4),
+            "v": rng.uniform(-1.0, 1.0),
+            "lift": rng.uniform(-0.5, 0.5) * c,
+            "tilt": rng.uniform(-0.3, 0.3) * c / a,
+            "up": rng.uniform(-0.5, 0.5),
+            "turn": rng.uniform(-10.0, 10.0),
+        }
         run = simulation.simulate(0.02, parameters=given, output=100)
         energy = run["energy.kinetic"]
         assert np.diff(energy).max() < 1e-11 * energy[0], given
@@ -166,11 +181,18 @@ def test_gaps_are_known_to_the_rounding_of_corners(angle: float, tmp_path: Path)
     simulation, rng = gudgeon.load(file, scene="dry"), np.random.default_rng(2)
     for _ in range(25):
         g = 10.0 ** rng.uniform(-5.5, -4.0)
-        run = simulation.simulate(0.1, output=20, parameters={
-            "g": g, "en": rng.uniform(0.0, 0.9), "start.play.G.offset": g * rng.uniform(-0.5, 0.5),
-            "start.play.G.tilt": g / 0.045 * rng.uniform(-0.3, 0.3), "start.play.G.offset_rate": 0.015 * rng.normal(),
-            "start.play.G.tilt_rate": 0.35 * rng.normal(),
-        })  # fmt: skip
+        run = simulation.simulate(
+            0.1,
+            output=20,
+            parameters={
+                "g": g,
+                "en": rng.uniform(0.0, 0.9),
+                "start.play.G.offset": g * rng.uniform(-0.5, 0.5),
+                "start.play.G.tilt": g / 0.045 * rng.uniform(-0.3, 0.3),
+                "start.play.G.offset_rate": 0.015 * rng.normal(),
+                "start.play.G.tilt_rate": 0.35 * rng.normal(),
+            },
+        )
         assert max(run[f"G.{k}.delta"].max() for k in ("front_upper", "rear_lower")) < 1e-9
 
 

@@ -158,8 +158,11 @@ def test_a_motion_law_that_repeats(tmp_path: Path) -> None:
 def test_a_drive_must_not_jump(tmp_path: Path) -> None:
     """Branches that do not meet: the run ends there and says so, also without freedom, in batches, at small jumps."""
     load = loader(tmp_path)
-    cases = (("where(t < 0.3 s, t * 1 rad/s, 0.5)", "0.2", 0.3), ("mod(t * 1 rad/s, 0.25)", "0.25", 0.25),
-             ("where(t < 0.3 s, t * 1 rad/s, t * 1 rad/s + 1e-7)", "1e-07", 0.3))  # fmt: skip
+    cases = (
+        ("where(t < 0.3 s, t * 1 rad/s, 0.5)", "0.2", 0.3),
+        ("mod(t * 1 rad/s, 0.25)", "0.25", 0.25),
+        ("where(t < 0.3 s, t * 1 rad/s, t * 1 rad/s + 1e-7)", "1e-07", 0.3),
+    )
     for value, size, at in cases:
         linkage = load(ARM % value)
         with pytest.raises(SolverError, match=f"motor: it jumps by {size}.* at t = {at}") as caught:
@@ -246,8 +249,11 @@ drives: {push: {coordinate: cart.x, value: "%s"}}
 def test_a_jump_at_the_very_end_and_the_first_of_many(tmp_path: Path) -> None:
     """One turn by mod ends where it jumps; of 300 jumps the first one is told; a rate's corner there is none."""
     load = loader(tmp_path)
-    for value, t_end, at in (("mod(20*pi * t / (1 s), 2*pi)", 0.1, 0.1), ("where(t < 0.1 s, t * 1 rad/s, 0)", 0.1, 0.1),
-                             ("mod(t * 1 rad/s, 0.003)", 0.9, 0.003)):  # fmt: skip
+    for value, t_end, at in (
+        ("mod(20*pi * t / (1 s), 2*pi)", 0.1, 0.1),
+        ("where(t < 0.1 s, t * 1 rad/s, 0)", 0.1, 0.1),
+        ("mod(t * 1 rad/s, 0.003)", 0.9, 0.003),
+    ):
         with pytest.raises(SolverError, match=f"it jumps by .* at t = {at} s"):
             load(ARM % value).simulate(t_end)
     corner = "where(mod(t, 0.2 s) < 0.1 s, mod(t, 0.2 s), 0.2 s - mod(t, 0.2 s)) * 1 rad/s"
@@ -298,8 +304,11 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
 
 
 @pytest.mark.parametrize(
-    ("law", "method"), [("where(t < 0.3 s, 1, sin(U)/U)", "rk4"),
-    pytest.param("where(t < 0.3 s, sin(U)/U, 1)", "dop853", marks=pytest.mark.slow)]
+    ("law", "method"),
+    [
+        ("where(t < 0.3 s, 1, sin(U)/U)", "rk4"),
+        pytest.param("where(t < 0.3 s, sin(U)/U, 1)", "dop853", marks=pytest.mark.slow),
+    ],
 )
 def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method: str, tmp_path: Path) -> None:
     """It was a second rate that grows beyond all bounds, or no step was small enough: rates are 0/0 in binary64."""

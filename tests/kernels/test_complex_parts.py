@@ -66,8 +66,13 @@ def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> Non
     plain = kernels_of(*of)
     twins = tuple(at_complex(kernel, ("eta", "r", "u", "x", Place("lin")["lu"]), ("s",)) for kernel in plain)
     one, two = Memory(eta=ETA, s=0.0), Memory(eta=ETA.real, eta_i=ETA.imag)
-    read = {key_of(s) for section in plain[2].sections for x in section.statements for e in x.expressions
-            for s in e.free_symbols}  # fmt: skip
+    read = {
+        key_of(s)
+        for section in plain[2].sections
+        for x in section.statements
+        for e in x.expressions
+        for s in e.free_symbols
+    }
     sizes = {int(key.path[0]) for key in read if isinstance(key, Place) and key.base == "r"}
     for k in range(max(sizes) + 1):
         r = complex(random.Random(k).uniform(-1, 1), random.Random(-k - 1).uniform(-1, 1))

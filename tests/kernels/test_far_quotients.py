@@ -32,12 +32,14 @@ FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "square": ("1e160*sin(T)/(1e160 + 1e160*T**2)", lambda x: mp.sin(x) / (1 + x * x)),
     "small": ("1e-170/(1e-170 + 1e-170*T)", lambda x: 1 / (1 + x)),
     "root": ("1e110/sqrt(1e220 + 1e220*T)", lambda x: 1 / mp.sqrt(1 + x)),
-    "terms": ("T + 1e200/(1e200 + 1e200*T) - exp(-400)/(exp(-400 - T) + exp(-400))",
-              lambda x: x + 1 / (1 + x) - 1 / (mp.exp(-x) + 1)),
+    "terms": (
+        "T + 1e200/(1e200 + 1e200*T) - exp(-400)/(exp(-400 - T) + exp(-400))",
+        lambda x: x + 1 / (1 + x) - 1 / (mp.exp(-x) + 1),
+    ),
     "within": ("sin(1e200/(1e200 + 1e200*T))", lambda x: mp.sin(1 / (1 + x))),
     "logarithmic": ("asinh(T*exp(400 + T))", lambda x: mp.asinh(x * mp.exp(400 + x))),
     "angle": ("atan(cosh(400 + T)/cosh(400))", lambda x: mp.atan(mp.cosh(400 + x) / mp.cosh(400))),
-}  # fmt: skip
+}
 
 
 def wanted(name: str, order: int) -> float:
@@ -58,8 +60,12 @@ def block(beside: str, forms: Iterable[str]) -> str:
     return "\n".join(lines)
 
 
-CASES = [(beside, formulation, forms) for beside in ("", "hyperbolic") for formulation in ("reduced", "full")
-         for forms in (("hyperbolic", "root", "angle"), tuple(FORMS))]  # fmt: skip
+CASES = [
+    (beside, formulation, forms)
+    for beside in ("", "hyperbolic")
+    for formulation in ("reduced", "full")
+    for forms in (("hyperbolic", "root", "angle"), tuple(FORMS))
+]
 FEW = CASES[0], CASES[6]  # each way with few forms; forces have all of them
 
 

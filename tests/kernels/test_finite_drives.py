@@ -88,8 +88,10 @@ def test_what_hangs_on_it_is_integrated(tmp_path: Path, form: str, method: str) 
         assert not many.failures and np.array_equal(many[7].q, runs[0].q)
 
 
-CORNERS = [*(f"1/(1 + exp({half} - {2 * half}*abs(t/(1 s))))" for half in (800, 5000)),
-           "exp(-exp(max(500 - 1000*t/(1 s), -9)*10))"]  # fmt: skip
+CORNERS = [
+    *(f"1/(1 + exp({half} - {2 * half}*abs(t/(1 s))))" for half in (800, 5000)),
+    "exp(-exp(max(500 - 1000*t/(1 s), -9)*10))",
+]
 
 
 @pytest.mark.parametrize("value", slow_but(CORNERS[2:], CORNERS))

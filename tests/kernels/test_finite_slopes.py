@@ -119,9 +119,18 @@ def test_a_slope_that_is_none_is_told(tmp_path: Path, of: str) -> None:
 
 @pytest.mark.parametrize(
     ("form", "guarded"),
-    [("exp(x)", False), ("1/x", False), ("sin(x)/(2 + x**2)", False), ("sqrt(1 + x**2)", False), ("x**20", False),
-     ("exp(-x**2)", False), ("tanh(x)", False), ("1/(1 + exp(x))", True), ("exp(-1/x)", True)],
-)  # fmt: skip
+    [
+        ("exp(x)", False),
+        ("1/x", False),
+        ("sin(x)/(2 + x**2)", False),
+        ("sqrt(1 + x**2)", False),
+        ("x**20", False),
+        ("exp(-x**2)", False),
+        ("tanh(x)", False),
+        ("1/(1 + exp(x))", True),
+        ("exp(-1/x)", True),
+    ],
+)
 def test_only_what_may_overflow_is_guarded(form: str, guarded: bool) -> None:
     x = sp.Symbol("x", real=True)
     value = to_sympy(parse(form, Location("f", 1, 1)), lambda _: x)

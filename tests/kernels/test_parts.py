@@ -24,10 +24,13 @@ from tests.programs import needs_compiler
 from tests.slow import slow_but
 
 WORKS = [
-    ("slider_crank", "dry", "reduced"), ("belt_block", "ideal", "reduced"), ("n_four_bar", "ideal", "reduced"),
-    ("n_four_bar", "ideal", "full"), ("nine_bar_press", "lubricated", "reduced"),
+    ("slider_crank", "dry", "reduced"),
+    ("belt_block", "ideal", "reduced"),
+    ("n_four_bar", "ideal", "reduced"),
+    ("n_four_bar", "ideal", "full"),
+    ("nine_bar_press", "lubricated", "reduced"),
     ("andrews_squeezer", "ideal", "reduced"),
-]  # fmt: skip
+]
 
 
 def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulation:
@@ -106,8 +109,7 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
     front: tuple[Line, ...] = (Declare(Number.REAL, "b", (2,)), Call("fill", (), (Place("b"),)))
     last = Statement(Place("y")[0], a[39] + a[3])
-    kernel = Kernel("f", (), (source("x"), result("y")),
-                    (Section("", (*front, *plain, last)),))  # fmt: skip
+    kernel = Kernel("f", (), (source("x"), result("y")), (Section("", (*front, *plain, last)),))
     # every statement but the first reads b, which only the call knows: nothing may move
     assert parts.cut(kernel) == (kernel,)
     free = [first, *(Statement(f"a{k}", a[k - 1] + 1) for k in range(1, 40))]
@@ -115,5 +117,8 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
     kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
     assert [functions.Lines(printer.CPrinter()).line(line).strip() for line in kept] == [
-        "double passed[3];", "double b[2];", "fill(b);", *(f"f_part_{k}(x, y, passed);" for k in (1, 2, 3)),
-    ]  # fmt: skip
+        "double passed[3];",
+        "double b[2];",
+        "fill(b);",
+        *(f"f_part_{k}(x, y, passed);" for k in (1, 2, 3)),
+    ]

@@ -18,12 +18,22 @@ from tests.slow import slow_but
 
 MECHANISMS = Path(__file__).parents[2] / "mechanisms"
 SCENES = [
-    ("nine_bar_press", "lubricated", "reduced"), ("slider_crank", "dry", "full"), ("shaker", "ideal", "reduced"),
-    ("nine_bar_press", "ideal", "full"), ("four_bar", "ideal", "reduced"),
-]  # fmt: skip
+    ("nine_bar_press", "lubricated", "reduced"),
+    ("slider_crank", "dry", "full"),
+    ("shaker", "ideal", "reduced"),
+    ("nine_bar_press", "ideal", "full"),
+    ("four_bar", "ideal", "reduced"),
+]
 # with play, with a Taylor series, with friction that may stick, without any freedom
-ORDERS = [("bouncing_ball", "damped"), ("pendulum", "ideal"), ("belt_block", "ideal"), ("four_bar", "ideal"),
-          ("slider_crank", "dry"), ("shaker", "ideal"), ("slider_crank_spring", "ideal")]  # fmt: skip
+ORDERS = [
+    ("bouncing_ball", "damped"),
+    ("pendulum", "ideal"),
+    ("belt_block", "ideal"),
+    ("four_bar", "ideal"),
+    ("slider_crank", "dry"),
+    ("shaker", "ideal"),
+    ("slider_crank_spring", "ideal"),
+]
 
 
 def derived(name: str, scene: str) -> Model:
@@ -35,8 +45,10 @@ def derived(name: str, scene: str) -> Model:
 def tables(model: Model) -> list[dict[str, Any]]:
     """Everything in a model that grew while it was derived, in its order."""
     owners = (model.symbols, model.symbols.switches, model.slots, model.geometry, model.constraints)
-    return [{name: [*value.items()] if hasattr(value, "items") else value for name, value in vars(owner).items()}
-            for owner in owners]  # fmt: skip
+    return [
+        {name: [*value.items()] if hasattr(value, "items") else value for name, value in vars(owner).items()}
+        for owner in owners
+    ]
 
 
 def printed(model: Model, what: str) -> Any:

@@ -17,10 +17,16 @@ from tests.programs import needs_compiler
 pytestmark = needs_compiler
 # a scene, and a time by which it is somewhere: springs stretched, journals off centre, contacts closed
 CASES = (
-    ("andrews_squeezer", "ideal", 0.01), ("car_axis", "ideal", 0.3), ("slider_crank_spring", "ideal", 1.0),
-    ("n_four_bar", "ideal", 0.4), ("nine_bar_press", "lubricated", 0.05), ("nine_bar_press", "dry", 0.0068),
-    ("slider_crank", "dry", 0.011), ("pendulum", "ideal", 0.5), ("shaker", "ideal", 0.017),
-)  # fmt: skip
+    ("andrews_squeezer", "ideal", 0.01),
+    ("car_axis", "ideal", 0.3),
+    ("slider_crank_spring", "ideal", 1.0),
+    ("n_four_bar", "ideal", 0.4),
+    ("nine_bar_press", "lubricated", 0.05),
+    ("nine_bar_press", "dry", 0.0068),
+    ("slider_crank", "dry", 0.011),
+    ("pendulum", "ideal", 0.5),
+    ("shaker", "ideal", 0.017),
+)
 
 
 class Tree:

@@ -90,12 +90,22 @@ def read(text: str) -> sp.Expr:
 @pytest.mark.parametrize(
     ("form", "c", "ranges", "tex", "text"),
     [
-        ("(0.01*x)**161", "pow((0.01*x), 161.0)", "range_pow((range_times(only(0.01), x)), only(161.0))",
-         r"\left(0.01 \, x\right)^{161}", "(0.01·x)^161"),
-        ("(0.01*x)**3", "1.0000000000000002e-06*(x * x * x)",
-         "range_times(only(1.0000000000000002e-06), range_pow(x, only(3.0)))", None, None),
+        (
+            "(0.01*x)**161",
+            "pow((0.01*x), 161.0)",
+            "range_pow((range_times(only(0.01), x)), only(161.0))",
+            r"\left(0.01 \, x\right)^{161}",
+            "(0.01·x)^161",
+        ),
+        (
+            "(0.01*x)**3",
+            "1.0000000000000002e-06*(x * x * x)",
+            "range_times(only(1.0000000000000002e-06), range_pow(x, only(3.0)))",
+            None,
+            None,
+        ),
     ],
-)  # fmt: skip
+)
 def test_how_a_whole_is_written(form: str, c: str, ranges: str, tex: str | None, text: str | None) -> None:
     value = read(form)
     assert printer.expression(value) == c

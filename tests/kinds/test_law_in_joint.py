@@ -22,9 +22,22 @@ from tests.kinds.own import forgotten
 from tests.programs import needs_compiler
 
 MASS, INERTIA, CLEARANCE, SPEED, SPIN = 0.2, 1e-4, 0.2e-3, 0.05, 20.0
-KNOWN = {"stiffness": "1e6", "damping": "50", "mu": "0.1", "mu_s": "0.2", "v0": "0.01", "v1": "0.4", "v_r": "0.2",
-         "v_s": "0.2", "decay": "0.1", "viscosity": "0.01", "roughness": "4 um", "restitution": "0.7",
-         "presliding": "20 um", "force": "1e6 N/m * delta"}  # fmt: skip
+KNOWN = {
+    "stiffness": "1e6",
+    "damping": "50",
+    "mu": "0.1",
+    "mu_s": "0.2",
+    "v0": "0.01",
+    "v1": "0.4",
+    "v_r": "0.2",
+    "v_s": "0.2",
+    "decay": "0.1",
+    "viscosity": "0.01",
+    "roughness": "4 um",
+    "restitution": "0.7",
+    "presliding": "20 um",
+    "force": "1e6 N/m * delta",
+}
 SPRING, FILM = "{law: hertz, restitution: 0.7}", "{law: ocvirk, viscosity: 0.01}"
 
 
@@ -33,9 +46,14 @@ def build(s: LawInputs) -> dict[str, Any]:
 
 
 MADE_UP = Law(
-    "made_up", "normal", "a spring that loses energy", "nobody", "anywhere",
-    (number("slope", "force by penetration", STIFFNESS, required=True, bounds=POSITIVE),), build,
-)  # fmt: skip
+    "made_up",
+    "normal",
+    "a spring that loses energy",
+    "nobody",
+    "anywhere",
+    (number("slope", "force by penetration", STIFFNESS, required=True, bounds=POSITIVE),),
+    build,
+)
 
 
 def value_of(field: Field) -> str:
@@ -53,9 +71,11 @@ def contact(law: Law) -> str:
     numbers = "".join(f", {own.name}: {value_of(own)}" for own in law.parameters if own.required)
     own = f"{law.role}: {{law: {law.name}{numbers}}}"
     return {
-        "normal": own, "friction": f"normal: {SPRING}, {own}",
-        "film": f"normal: {SPRING}, {own}, transition: 20 um", "mixed": f"normal: {SPRING}, film: {FILM}, {own}",
-    }[law.role]  # fmt: skip
+        "normal": own,
+        "friction": f"normal: {SPRING}, {own}",
+        "film": f"normal: {SPRING}, {own}, transition: 20 um",
+        "mixed": f"normal: {SPRING}, film: {FILM}, {own}",
+    }[law.role]
 
 
 def discs() -> str:

@@ -123,7 +123,7 @@ def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:
 
 
 WRONG = [
-    ("return {", 'raise SystemExit(0)\n    return {', r"law dashpot: build raised SystemExit: 0"),
+    ("return {", "raise SystemExit(0)\n    return {", r"law dashpot: build raised SystemExit: 0"),
     ("LAW = Law(", "class Odd(BaseException): pass\nraise Odd\nLAW = Law(", r"the law cannot be read: Odd"),
     ("build=build,", "build=build, also=None,", r"law dashpot: its declaration is none: TypeError"),
     ('"F_n": K', '"F_n": J', r"dashpot.py:8:1: law dashpot: build raised NameError: name 'J' is not defined"),
@@ -148,28 +148,33 @@ WRONG = [
     (BUILD, SP + '    return {"a": K, "F_n": sp.Symbol("a")}\n', r"(?s)uses the symbol a\n.*real=True"),
     (BUILD, SP + '    return {"F_n": sp.gamma(K)}\n', r"(?s)F_n uses gamma, .*Min, Max"),
     (
-        BUILD, SP + '    return {"F_n": sp.Piecewise((K, s.variables["delta"] > 1), (D, True))}\n',
+        BUILD,
+        SP + '    return {"F_n": sp.Piecewise((K, s.variables["delta"] > 1), (D, True))}\n',
         "F_n uses Piecewise",
     ),
     (BUILD, SP + '    return {"F_n": K * sp.sqrt(-1)}\n', "F_n is not real"),
     (BUILD, SP + '    return {"F_n": K * sp.zoo}\n', "F_n is not finite"),
     (
-        BUILD, '    return {"F_n": K * s.pair.c**2 / s.variables["delta"]}\n',
+        BUILD,
+        '    return {"F_n": K * s.pair.c**2 / s.variables["delta"]}\n',
         r"F_n is inf at delta = 0 m, ratio = 1, with the file's",
     ),
     (BUILD, '    return {"F_n": K * s.variables["ratio"] ** 0.5 * s.pair.c}\n', r"F_n is nan at .*ratio = -0.4"),
     (BUILD, '    return {"F_n": K * s.variables["deltadot"]}\n', r"F_n is a quantity .*expected a force \(N\)"),
     (BUILD, '    return {"F_n": 1e6 * s.variables["delta"]}\n', r"(?s)F_n is a length .*a number with a unit is one"),
     (
-        BUILD, '    return {"F_n": K * s.variables["delta"] + D * s.variables["delta"]}\n',
+        BUILD,
+        '    return {"F_n": K * s.variables["delta"] + D * s.variables["delta"]}\n',
         r"F_n adds a .* and .*: D\*delta \+ K\*delta|F_n adds .*: damping\*delta \+ delta\*stiffness",
     ),
     (
-        BUILD, '    return {"F_n": K * (s.variables["delta"] + 1)}\n',
+        BUILD,
+        '    return {"F_n": K * (s.variables["delta"] + 1)}\n',
         r"(?s)F_n adds a length \(m\) and 1, a pure number: delta \+ 1.*one of the law's fields",
     ),
     (
-        BUILD, SP + '    return {"F_n": sp.Max(K * s.variables["delta"], 1e-9)}\n',
+        BUILD,
+        SP + '    return {"F_n": sp.Max(K * s.variables["delta"], 1e-9)}\n',
         r"F_n takes Max of a force \(N\) and 1e-09, a pure number",
     ),
     (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.exp(s.variables["delta"])}\n', "has an exponent of a length"),
@@ -184,7 +189,7 @@ WRONG = [
     (BUILD, DERIVED, r"derive\('h', …\) uses the symbol delta"),
     (BUILD, '    return {"damping": K, "F_n": K}\n', "build returns 'damping', which it is given"),
     (BUILD, '    return {"delta": K, "F_n": K}\n', "build returns 'delta', which it is given"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("old", "new", "told"), WRONG)
@@ -225,6 +230,7 @@ def test_names_of_two_laws(tmp_path: Path) -> None:
 
 def test_the_key_of_a_law_is_what_it_derives_to() -> None:
     """One made in Python: the same for the same law, another one for another number in a closure."""
+
     def made(factor: int) -> Law:
         def build(s: object) -> dict[str, object]:
             return {"F_n": factor * s.parameters["stiffness"] * s.variables["delta"]}  # type: ignore[attr-defined]
@@ -256,9 +262,15 @@ def test_scenes_without_it_are_as_they_were(tmp_path: Path) -> None:
     data = shipped_file("slider_crank").read_bytes().replace(b"parameters:\n", b"parameters:\n  spam: 1 m\n", 1)
     data += b"  more: spam\n"
     before = generate(data, "f.yaml", "dry")
-    text = example_text().replace('"normal"', '"friction"').replace('"stiffness"', '"spam"').replace(
-        BUILD, '    z = s.variables["eggs"]\n    return {"F_t": K * z, "eggs_rate": s.variables["v_t"] + 0 * D}\n'
-    ).replace("    build=build,\n", '    build=build,\n    states=(State("eggs", "what"),),\n')  # fmt: skip
+    text = (
+        example_text()
+        .replace('"normal"', '"friction"')
+        .replace('"stiffness"', '"spam"')
+        .replace(
+            BUILD, '    z = s.variables["eggs"]\n    return {"F_t": K * z, "eggs_rate": s.variables["v_t"] + 0 * D}\n'
+        )
+        .replace("    build=build,\n", '    build=build,\n    states=(State("eggs", "what"),),\n')
+    )
     (tmp_path / "dashpot.py").write_text(text.replace("import Law\n", "import Law, State\n"), encoding="utf-8")
     gudgeon.register(tmp_path / "dashpot.py")
     assert generate(data, "f.yaml", "dry") == before and before.laws == ()
@@ -266,9 +278,12 @@ def test_scenes_without_it_are_as_they_were(tmp_path: Path) -> None:
 
 def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:
     """A parameter `speed` and an abbreviation `speed` are two things."""
-    steps = SP + """    speed = sp.Symbol("speed", real=True)
+    steps = (
+        SP
+        + """    speed = sp.Symbol("speed", real=True)
     return {"speed": 2 * s.variables["deltadot"], "F_n": K * s.variables["delta"] + D * speed / 2}
 """
+    )
     gudgeon.register(law_file(disc.parent, BUILD, steps))
     text = disc.read_text(encoding="utf-8").replace("50 N*s/m", "speed * 50 kg/m")
     model = derive(text.encode(), "disc.yaml", "wall")
@@ -279,13 +294,21 @@ def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:
 
 def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> None:
     """Their slopes are one function of C."""
-    both = SP + """    a1 = sp.Symbol("a1", real=True)
+    both = (
+        SP
+        + """    a1 = sp.Symbol("a1", real=True)
     return {"a1": D * s.variables["deltadot"], "F_n": K * s.variables["delta"] + a1}
 """
+    )
     gudgeon.register(law_file(disc.parent, BUILD, both))
-    rubs = law_file(disc.parent, BUILD, SP + """    a1 = sp.Symbol("a1", real=True)
+    rubs = law_file(
+        disc.parent,
+        BUILD,
+        SP
+        + """    a1 = sp.Symbol("a1", real=True)
     return {"a1": D * s.variables["v_t"], "F_t": -a1 + 0 * K}
-""").read_text(encoding="utf-8")
+""",
+    ).read_text(encoding="utf-8")
     (disc.parent / "rubs.py").write_text(
         rubs.replace('"normal"', '"friction"').replace('"dashpot"', '"rubs"'), encoding="utf-8"
     )
@@ -298,8 +321,13 @@ def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> N
 @needs_compiler
 def test_from_the_command_line(disc: Path, call: Gudgeon) -> None:
     law_file(disc.parent)
-    for command in (("check", "disc.yaml"), ("run", "disc.yaml"), ("emit", "disc.yaml", "-o", "c"), ("schema",),
-                    ("equations", "disc.yaml", "--scene", "wall", "-o", "disc.txt")):  # fmt: skip
+    for command in (
+        ("check", "disc.yaml"),
+        ("run", "disc.yaml"),
+        ("emit", "disc.yaml", "-o", "c"),
+        ("schema",),
+        ("equations", "disc.yaml", "--scene", "wall", "-o", "disc.txt"),
+    ):
         done = call(*command, "--laws", "dashpot.py")
         assert done.exit_code == 0, done.output
     assert "dashpot" in done.output or (disc.parent / "disc.txt").exists()
@@ -326,9 +354,13 @@ print(disc.loading.origin, *sys.modules)
 def test_a_warm_start_runs_the_file_and_imports_no_sympy(disc: Path) -> None:
     def start() -> tuple[str, set[str]]:
         done = subprocess.run(
-            [sys.executable, "-c", CODE], env={**os.environ, "GUDGEON_CACHE": str(disc.parent / "cache")},
-            cwd=disc.parent, capture_output=True, text=True, check=True,
-        )  # fmt: skip
+            [sys.executable, "-c", CODE],
+            env={**os.environ, "GUDGEON_CACHE": str(disc.parent / "cache")},
+            cwd=disc.parent,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         origin, *modules = done.stdout.split()
         return origin, set(modules)
 

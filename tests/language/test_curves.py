@@ -32,8 +32,10 @@ def test_values_and_derivatives_are_those_of_scipy(n: int, ends: str) -> None:
         assert np.abs(curve.at(at, order) - want).max() < 1e-13 * max(1.0, np.abs(want).max()) * (1.0 + far)
 
 
-@pytest.mark.parametrize(("extrapolate", "down", "up"), [("none", np.nan, np.nan), ("hold", 1.0, 4.0),
-                                                         ("line", 1.0 - 2.0 * 0.5, 4.0 + 3.0 * 0.5)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("extrapolate", "down", "up"),
+    [("none", np.nan, np.nan), ("hold", 1.0, 4.0), ("line", 1.0 - 2.0 * 0.5, 4.0 + 3.0 * 0.5)],
+)
 def test_outside_its_range(extrapolate: str, down: float, up: float) -> None:
     """2 and 3 are the slopes at both ends."""
     x, slopes = (0.0, 1.0), (2.0, 3.0)

@@ -75,9 +75,7 @@ def test_wrong_dimension(text: str, expected: Dimension | None, message: str, of
     assert caught.value.where == Location("file.yaml", 3, 10 + offset)
 
 
-@pytest.mark.parametrize(
-    ("text", "offset"), [("2m", 1), ("0.1m/s", 3), ("3 N m", 2), ("1 + 3 kg m", 6)]
-)
+@pytest.mark.parametrize(("text", "offset"), [("2m", 1), ("0.1m/s", 3), ("3 N m", 2), ("1 + 3 kg m", 6)])
 def test_a_unit_that_may_be_a_parameter_is_refused(text: str, offset: int) -> None:
     parse(text, HERE)
     with pytest.raises(ExpressionError, match="can mean two things") as caught:
@@ -100,9 +98,17 @@ def test_white_space_around_operators_of_units_has_no_meaning() -> None:
 
 @pytest.mark.parametrize(
     ("text", "hint"),
-    [("3 Nm", r"written N\*m here"), ("2 lbs", "written lb"), ("2 degrees", "written deg"), ("3 mm2", r"written mm\^2"),
-     ("3Nm", r"write 3 N\*m"), ("2 feet", "written ft"), ("3 kgm2", r"written kg\*m\^2"), ("a²", r"\*\*: x\*\*2")],
-)  # fmt: skip
+    [
+        ("3 Nm", r"written N\*m here"),
+        ("2 lbs", "written lb"),
+        ("2 degrees", "written deg"),
+        ("3 mm2", r"written mm\^2"),
+        ("3Nm", r"write 3 N\*m"),
+        ("2 feet", "written ft"),
+        ("3 kgm2", r"written kg\*m\^2"),
+        ("a²", r"\*\*: x\*\*2"),
+    ],
+)
 def test_units_called_otherwise(text: str, hint: str) -> None:
     with pytest.raises(InputError, match=hint):
         parse(text, HERE)

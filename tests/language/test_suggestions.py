@@ -7,17 +7,32 @@ import pytest
 from gudgeon.language.names import near, nearest, unknown
 
 ADDRESSES = (
-    "omega", "c", "bodies.crank.mass", "bodies.crank.length", "bodies.rod.length", "bearings.wrist.clearance",
-    "bearings.wrist.length", "bearings.main.clearance", "contacts.dry.friction.v1", "parameters.omega",
-)  # fmt: skip
+    "omega",
+    "c",
+    "bodies.crank.mass",
+    "bodies.crank.length",
+    "bodies.rod.length",
+    "bearings.wrist.clearance",
+    "bearings.wrist.length",
+    "bearings.main.clearance",
+    "contacts.dry.friction.v1",
+    "parameters.omega",
+)
 
 
-@pytest.mark.parametrize(("name", "first"), [
-    ("wrist.c", "bearings.wrist.clearance"), ("crank.len", "bodies.crank.length"),
-    ("clearence", "bearings.main.clearance"), ("OMGA", "omega"), ("rod.lenght", "bodies.rod.length"),
-    ("wrst.clearance", "bearings.wrist.clearance"), ("bearings.wrist.clear", "bearings.wrist.clearance"),
-    ("bodies.crank.mass.x", "bodies.crank.mass"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "first"),
+    [
+        ("wrist.c", "bearings.wrist.clearance"),
+        ("crank.len", "bodies.crank.length"),
+        ("clearence", "bearings.main.clearance"),
+        ("OMGA", "omega"),
+        ("rod.lenght", "bodies.rod.length"),
+        ("wrst.clearance", "bearings.wrist.clearance"),
+        ("bearings.wrist.clear", "bearings.wrist.clearance"),
+        ("bodies.crank.mass.x", "bodies.crank.mass"),
+    ],
+)
 def test_the_near_address_stands_first(name: str, first: str) -> None:
     """By the whole of it and by its last parts; capitals decide nothing."""
     assert nearest(name, ADDRESSES) == near(name, ADDRESSES)[0] == first

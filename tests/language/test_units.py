@@ -109,9 +109,20 @@ def test_a_unit_ends_where_the_expression_goes_on() -> None:
 
 @pytest.mark.parametrize(
     ("token", "same"),
-    [("mm²", "mm^2"), ("m³", "m^3"), ("kg m²", "kg*m^2"), ("N·m", "N*m"), ("N⋅s/m", "N*s/m"), ("kg m/s^2", "kg*m/s^2"),
-     ("N/m^(3/2)", "N/m^1.5"), ("kg/m^(1/2)/s^2", "N/m^1.5"), ("inch", "in"), ("grams", "g"), ("gram", "g")],
-)  # fmt: skip
+    [
+        ("mm²", "mm^2"),
+        ("m³", "m^3"),
+        ("kg m²", "kg*m^2"),
+        ("N·m", "N*m"),
+        ("N⋅s/m", "N*s/m"),
+        ("kg m/s^2", "kg*m/s^2"),
+        ("N/m^(3/2)", "N/m^1.5"),
+        ("kg/m^(1/2)/s^2", "N/m^1.5"),
+        ("inch", "in"),
+        ("grams", "g"),
+        ("gram", "g"),
+    ],
+)
 def test_units_as_people_write_them(token: str, same: str) -> None:
     found, other = unit(token), unit(same)
     assert found is not None and found == other
@@ -154,13 +165,21 @@ def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
 @pytest.mark.parametrize(
     ("text", "column", "told"),
     [
-        ("1 N^m", 3, "'m' is not a power of the unit N"), ("1 mm^1.5/s^x", 10, "'x' is not a power of the unit s"),
-        ("1 m^99", 3, "'99'"), ("1 m^0", 3, "'0'"), ("1 m^(1/3)", 3, "(1/3)"), ("1 m^-", 3, "'-'"),
+        ("1 N^m", 3, "'m' is not a power of the unit N"),
+        ("1 mm^1.5/s^x", 10, "'x' is not a power of the unit s"),
+        ("1 m^99", 3, "'99'"),
+        ("1 m^0", 3, "'0'"),
+        ("1 m^(1/3)", 3, "(1/3)"),
+        ("1 m^-", 3, "'-'"),
         ("1 m^", 3, "without"),
-        ("1 m ^2", 3, "'2'"), ("1 (m/s)^2", 3, "brackets around the unit m/s"),
-        ("1 kg**2", 5, "two things"), ("3 N*m**3", 6, "two things"), ("1 deg^0.5", 3, "'0.5'"), ("2 kg*m^n", 6, "'n'"),
+        ("1 m ^2", 3, "'2'"),
+        ("1 (m/s)^2", 3, "brackets around the unit m/s"),
+        ("1 kg**2", 5, "two things"),
+        ("3 N*m**3", 6, "two things"),
+        ("1 deg^0.5", 3, "'0.5'"),
+        ("2 kg*m^n", 6, "'n'"),
     ],
-)  # fmt: skip
+)
 def test_a_power_that_is_none_has_a_remedy(text: str, column: int, told: str) -> None:
     """The message names the place; what its hint proposes is accepted."""
     with pytest.raises(InputError) as caught:

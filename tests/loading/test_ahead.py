@@ -122,9 +122,7 @@ def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     assert list((own_folders / "tmp").iterdir()) == []
 
 
-def test_the_engine_of_a_copy_is_begun_before_it_is_derived(
-    own_folders: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_engine_of_a_copy_is_begun_before_it_is_derived(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """That of the shipped scene of the same name, once; another linkage of that name gets its own in its place."""
     begun: list[str] = []
     begin = Ahead._begin

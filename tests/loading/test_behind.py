@@ -108,9 +108,7 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
 
 
 @pytest.mark.slow
-def test_where_the_other_process_is_killed_it_is_made_here(
-    cache: Cache, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = loaded()
     other = simulation.compiled.lib._behind
     assert isinstance(other, Behind) and other._process is not None

@@ -287,9 +287,12 @@ def test_a_compiler_that_may_not_round_is_refused(cache: Cache, monkeypatch: pyt
 
 @pytest.mark.parametrize(
     ("command", "code"),
-    [("echo 'as: BFD: cannot write: File too large' >&2; exit 1", "File too large"),
-     ("kill -XFSZ $$", "limit on the size"), ("echo 'Disk quota exceeded'; exit 4", "quota")],
-)  # fmt: skip
+    [
+        ("echo 'as: BFD: cannot write: File too large' >&2; exit 1", "File too large"),
+        ("kill -XFSZ $$", "limit on the size"),
+        ("echo 'Disk quota exceeded'; exit 4", "quota"),
+    ],
+)
 def test_a_limit_that_stops_the_compiler_is_the_folders_fault(
     cache: Cache, fake: Callable[..., Path], command: str, code: str
 ) -> None:

@@ -37,15 +37,19 @@ print(run.t[-1])
 
 
 @needs_compiler
-@pytest.mark.parametrize("inside", [
-    pytest.param("ruamel/yaml/scanner.py", marks=pytest.mark.slow), "sympy/polys/__init__.py"])
+@pytest.mark.parametrize(
+    "inside", [pytest.param("ruamel/yaml/scanner.py", marks=pytest.mark.slow), "sympy/polys/__init__.py"]
+)
 def test_ctrl_c_while_a_package_is_imported_breaks_nothing_later(inside: str, tmp_path: Path) -> None:
     file = tmp_path / "own.yaml"
     file.write_text((ROOT / "mechanisms/pendulum.yaml").read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
     done = subprocess.run(
         [sys.executable, "-c", TWICE, str(file), inside],
-        env={**os.environ, "GUDGEON_CACHE": str(tmp_path / "cache")}, cwd=tmp_path, capture_output=True, text=True,
-    )  # fmt: skip
+        env={**os.environ, "GUDGEON_CACHE": str(tmp_path / "cache")},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 0, done.stderr[-2000:]
     assert done.stdout == "interrupted\n0.01\n"
 

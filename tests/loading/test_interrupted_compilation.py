@@ -38,10 +38,19 @@ def test_nothing_is_left(ending: signal.Signals, command: bool, tmp_path: Path) 
     compiler.write_text(COMPILER.format(folder=tmp_path, real=real))
     compiler.chmod(0o755)
     (tmp_path / "temporary").mkdir()
-    more = {"CC": str(compiler), "TMPDIR": str(tmp_path / "temporary"), "GUDGEON_CACHE": str(tmp_path / "cache"),
-            "GUDGEON_QUICK": "0"}  # fmt: skip
-    with subprocess.Popen([sys.executable, *LINES[command]], env=os.environ | more, cwd=tmp_path,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as program:  # fmt: skip
+    more = {
+        "CC": str(compiler),
+        "TMPDIR": str(tmp_path / "temporary"),
+        "GUDGEON_CACHE": str(tmp_path / "cache"),
+        "GUDGEON_QUICK": "0",
+    }
+    with subprocess.Popen(
+        [sys.executable, *LINES[command]],
+        env=os.environ | more,
+        cwd=tmp_path,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as program:
         began = time.monotonic()
         while not (tmp_path / "compilers").exists() and time.monotonic() - began < 60.0:
             assert program.poll() is None

@@ -319,7 +319,7 @@ def test_damaged_committed_kernels_count_as_none(tmp_path: Path) -> None:
         path.write_bytes(damaged)
         assert read_scene(tmp_path, "ideal") is None
     text = lzma.decompress(whole)
-    unknown = text.replace(rb'\"title\"', rb'\"titel\"')  # a field that this version does not know
+    unknown = text.replace(rb"\"title\"", rb"\"titel\"")  # a field that this version does not know
     assert unknown != text
     path.write_bytes(lzma.compress(unknown))
     assert read_scene(tmp_path, "ideal") is None
@@ -351,8 +351,13 @@ def test_every_public_name_is_there() -> None:
 
 def test_importing_gudgeon_imports_nothing_else() -> None:
     code = "import sys; import gudgeon; print(*sys.modules)"
-    out = subprocess.run([sys.executable, "-S", "-c", code], text=True, capture_output=True, check=True,
-                         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}).stdout  # fmt: skip
+    out = subprocess.run(
+        [sys.executable, "-S", "-c", code],
+        text=True,
+        capture_output=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    ).stdout
     heavy = {"typing", "numpy", "json", "pathlib", "gudgeon.errors", "gudgeon.loading.find", "sympy"}
     assert heavy & set(out.split()) == set()
 

@@ -34,8 +34,12 @@ def test_what_does_not_follow_stays() -> None:
     """Other units, an order of rows or coordinates of its own."""
     source = gudgeon.load("four_bar").source
     odd = replace(
-        source, coordinates=source.coordinates[::-1], rows=(replace(source.rows[0], unit="rad"), *source.rows[:0:-1]),
-        slots=(replace(source.slots[0], unit="furlong"), *source.slots[1:]), motion_pivots=(), main="other.c",
+        source,
+        coordinates=source.coordinates[::-1],
+        rows=(replace(source.rows[0], unit="rad"), *source.rows[:0:-1]),
+        slots=(replace(source.slots[0], unit="furlong"), *source.slots[1:]),
+        motion_pivots=(),
+        main="other.c",
         bodies=tuple(replace(body, index=body.index + 1) for body in source.bodies),
-    )  # fmt: skip
+    )
     assert KernelSource.from_json(odd.to_json()) == odd

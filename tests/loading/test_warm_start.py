@@ -14,9 +14,27 @@ linkage = gudgeon.load("slider_crank", scene="dry", overrides={overrides})
 run = linkage.simulate(t_end=1e-3, output=2)
 print(linkage.loading.origin, *sys.modules)
 """
-HEAVY = {"sympy", "jinja2", "pydantic", "ruamel", "ruamel.yaml", "pint", "cffi", "pycparser", "subprocess", "filelock",
-         "xarray", "matplotlib", "scipy", "typer", "rich", "numpy.polynomial", "gudgeon.generator",
-         "gudgeon.language.units", "gudgeon.assembly.closure"}  # fmt: skip
+HEAVY = {
+    "sympy",
+    "jinja2",
+    "pydantic",
+    "ruamel",
+    "ruamel.yaml",
+    "pint",
+    "cffi",
+    "pycparser",
+    "subprocess",
+    "filelock",
+    "xarray",
+    "matplotlib",
+    "scipy",
+    "typer",
+    "rich",
+    "numpy.polynomial",
+    "gudgeon.generator",
+    "gudgeon.language.units",
+    "gudgeon.assembly.closure",
+}
 
 
 def start(cache: Path, overrides: str = "None") -> tuple[str, set[str]]:

@@ -50,8 +50,10 @@ def stephenson(t: Array) -> dict[str, Points]:
 
 
 CLOSED: dict[str, tuple[Callable[[Array], dict[str, Points]], float]] = {
-    "shaper": (shaper, 1.0), "toggle_press": (toggle, 1.0), "stephenson": (stephenson, 2 * np.pi),
-}  # fmt: skip
+    "shaper": (shaper, 1.0),
+    "toggle_press": (toggle, 1.0),
+    "stephenson": (stephenson, 2 * np.pi),
+}
 
 
 @pytest.mark.parametrize("name", slow_but(["stephenson"], FILES))

@@ -69,8 +69,9 @@ class TwoCoordinates:
             return self.gap(t, y)
 
         gap.terminal, gap.direction = True, crossing  # type: ignore[attr-defined]
-        found = solve_ivp(self, (t, t + 2e-3), y, "DOP853", events=gap, rtol=1e-11, atol=1e-13, max_step=2e-6,
-                          dense_output=True)  # fmt: skip
+        found = solve_ivp(
+            self, (t, t + 2e-3), y, "DOP853", events=gap, rtol=1e-11, atol=1e-13, max_step=2e-6, dense_output=True
+        )
         end, state = float(found.t_events[0][0]), found.y_events[0][0]
         times = np.linspace(t, end, 4001 if self.onset else 2)
         return end, state, max(float(np.hypot(*self.force(s, found.sol(s))[0])) for s in times)

@@ -109,11 +109,18 @@ def guided(t: Array, aside: float = 0.0) -> dict[str, Points]:
 
 
 CLOSED: dict[str, tuple[Callable[[Array], dict[str, Points]], float]] = {
-    "double_rocker": (chebyshev, 1.0), "scotch_yoke": (yoke, 0.2), "whitworth": (whitworth, 2.0),
-    "peaucellier": (peaucellier, 2.0), "jansen_leg": (jansen, 1.0), "scissor_lift": (lift, 4.0),
-    "toggle_clamp": (clamp, 2.0), "cylinder_boom": (boom, 6.0), "landing_gear": (gear, 2.0),
-    "flores_slider_crank": (slider_crank, 0.012), "guided_slider_crank": (guided, 0.084),
-}  # fmt: skip
+    "double_rocker": (chebyshev, 1.0),
+    "scotch_yoke": (yoke, 0.2),
+    "whitworth": (whitworth, 2.0),
+    "peaucellier": (peaucellier, 2.0),
+    "jansen_leg": (jansen, 1.0),
+    "scissor_lift": (lift, 4.0),
+    "toggle_clamp": (clamp, 2.0),
+    "cylinder_boom": (boom, 6.0),
+    "landing_gear": (gear, 2.0),
+    "flores_slider_crank": (slider_crank, 0.012),
+    "guided_slider_crank": (guided, 0.084),
+}
 
 
 @pytest.mark.parametrize("name", GALLERY)

@@ -38,9 +38,13 @@ def test_its_pages_are_of_scenes_that_there_are() -> None:
         assert not scene or f"\n  {scene}:" in shipped_file(name).read_text("utf-8"), (name, scene)
 
 
-@pytest.mark.parametrize(("line", "file"), [
-    pytest.param(line, file, marks=[pytest.mark.slow] * (place % 3 > 0)) for place, (line, _, file) in enumerate(DRAWN)
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "file"),
+    [
+        pytest.param(line, file, marks=[pytest.mark.slow] * (place % 3 > 0))
+        for place, (line, _, file) in enumerate(DRAWN)
+    ],
+)
 def test_a_drawing_is_what_its_command_writes(line: str, file: str, tmp_path: Path) -> None:
     done = CliRunner().invoke(app, [*shlex.split(line)[1:], "-o", str(tmp_path / "now.svg")])
     assert done.exit_code == 0, done.output

@@ -68,18 +68,27 @@ def nested(a: Numbers, kind: Callable[[Any], Any]) -> Any:
 
 
 FORMS: dict[str, Callable[[Numbers], Any]] = {
-    "strided": strided, "reversed": backwards, "column": column,
+    "strided": strided,
+    "reversed": backwards,
+    "column": column,
     "Fortran": lambda a: np.asfortranarray(np.stack([a, a + JUNK]))[0],
     "transposed": lambda a: np.ascontiguousarray(a.T).T,
-    "float32": lambda a: a.astype(np.float32), "strided float32": lambda a: strided(a).astype(np.float32)[::1],
-    "longdouble": lambda a: a.astype(np.longdouble), "big-endian": lambda a: a.astype(">f8"),
-    "big-endian float32": lambda a: a.astype(">f4"), "little-endian": lambda a: a.astype("<f8"),
-    "read-only": read_only, "masked": lambda a: np.ma.masked_invalid(a.copy()) if np.isfinite(a).all() else a,
-    "masked without a mask": lambda a: np.ma.array(a), "list": lambda a: nested(a, list),
-    "tuple": lambda a: nested(a, tuple), "unaligned": unaligned, "objects": lambda a: a.astype(object),
+    "float32": lambda a: a.astype(np.float32),
+    "strided float32": lambda a: strided(a).astype(np.float32)[::1],
+    "longdouble": lambda a: a.astype(np.longdouble),
+    "big-endian": lambda a: a.astype(">f8"),
+    "big-endian float32": lambda a: a.astype(">f4"),
+    "little-endian": lambda a: a.astype("<f8"),
+    "read-only": read_only,
+    "masked": lambda a: np.ma.masked_invalid(a.copy()) if np.isfinite(a).all() else a,
+    "masked without a mask": lambda a: np.ma.array(a),
+    "list": lambda a: nested(a, list),
+    "tuple": lambda a: nested(a, tuple),
+    "unaligned": unaligned,
+    "objects": lambda a: a.astype(object),
     "fractions": lambda a: np.frompyfunc(lambda x: x if np.isnan(x) else Fraction(x), 1, 1)(a),
     "xarray": lambda a: xarray.DataArray(a),
-}  # fmt: skip
+}
 ROWS: dict[str, Callable[[Numbers], Any]] = {  # of one dimension only
     "pandas column": lambda a: pandas.DataFrame({"x": a * 0.0, "a": a, "n": np.arange(len(a))})["a"],
     "pandas every second": lambda a: pandas.Series(np.repeat(a, 2))[::2],
@@ -90,11 +99,14 @@ ROWS: dict[str, Callable[[Numbers], Any]] = {  # of one dimension only
     "memoryview": lambda a: memoryview(a.copy().data),
 }
 WHOLE: dict[str, Callable[[Numbers], Any]] = {
-    "int64": lambda a: a.astype(np.int64), "int32": lambda a: a.astype(np.int32), "int8": lambda a: a.astype(np.int8),
-    "big-endian int": lambda a: a.astype(">i4"), "strided int": lambda a: strided(a).astype(np.int64),
+    "int64": lambda a: a.astype(np.int64),
+    "int32": lambda a: a.astype(np.int32),
+    "int8": lambda a: a.astype(np.int8),
+    "big-endian int": lambda a: a.astype(">i4"),
+    "strided int": lambda a: strided(a).astype(np.int64),
     "list of int": lambda a: nested(a.astype(int), list),
     "float16": lambda a: a.astype(np.float16) if (np.abs(a) < 2048).all() else a,
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -239,8 +251,14 @@ def run_arguments(
     if method == "rk4":
         steps, given = fine(2.0**-9, 2.0**-10), {**options}
         given.pop("step")
-        yield Argument("many step", steps, whole + 1.0, lambda x: raw(
-            simulation.simulate_many({parameter: [2.0, 3.0]}, threads=1, output=times, step=x, **given).q))  # fmt: skip
+        yield Argument(
+            "many step",
+            steps,
+            whole + 1.0,
+            lambda x: raw(
+                simulation.simulate_many({parameter: [2.0, 3.0]}, threads=1, output=times, step=x, **given).q
+            ),
+        )
 
     def going_on(name: str, values: Any) -> bytes:
         return raw(simulation.simulate(output=times, start=replace(state, **{name: values}), **options))
@@ -286,10 +304,20 @@ def arguments(group: str) -> tuple[Argument, ...]:
 
 
 GROUPS = (
-    "pendulum model", "pendulum-full model", "ball model", "ball-full model", "crank model",
-    *(f"pendulum {method}" for method in (*OWN, *CHECKS)), "pendulum-full auto", "ball auto", "ball rk4",
-    "ball rodas5p", "pendulum taylor", "crank auto", "crank kinematic",
-)  # fmt: skip
+    "pendulum model",
+    "pendulum-full model",
+    "ball model",
+    "ball-full model",
+    "crank model",
+    *(f"pendulum {method}" for method in (*OWN, *CHECKS)),
+    "pendulum-full auto",
+    "ball auto",
+    "ball rk4",
+    "ball rodas5p",
+    "pendulum taylor",
+    "crank auto",
+    "crank kinematic",
+)
 
 
 # what the others are sent through is what these are sent through

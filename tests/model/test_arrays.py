@@ -85,12 +85,19 @@ def odd(n: int) -> Any:
 @pytest.mark.parametrize(
     ("array", "kind"),
     [
-        (np.zeros(8)[::2], "double *"), (np.zeros((3, 3)).T, "double *"), (np.zeros(4, np.float32), "double *"),
-        (np.zeros(4, ">f8"), "double *"), (odd(4), "double *"), (np.zeros(4, np.int64), "double *"),
-        (np.zeros(4), "long *"), (np.zeros(4, np.int32), "long *"), (np.zeros(4, np.int8), "void *"),
-        (np.zeros((4, 4), np.uint8)[:, 1], "void *"), (np.zeros(4, np.uint8), "signed char *"),
+        (np.zeros(8)[::2], "double *"),
+        (np.zeros((3, 3)).T, "double *"),
+        (np.zeros(4, np.float32), "double *"),
+        (np.zeros(4, ">f8"), "double *"),
+        (odd(4), "double *"),
+        (np.zeros(4, np.int64), "double *"),
+        (np.zeros(4), "long *"),
+        (np.zeros(4, np.int32), "long *"),
+        (np.zeros(4, np.int8), "void *"),
+        (np.zeros((4, 4), np.uint8)[:, 1], "void *"),
+        (np.zeros(4, np.uint8), "signed char *"),
     ],
-)  # fmt: skip
+)
 def test_a_pointer_is_given_of_nothing_else(ball: gudgeon.Simulation, array: Any, kind: str) -> None:
     with pytest.raises(ArrayError):
         ball.compiled.pointer(array, kind)
@@ -113,7 +120,8 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
     t, rows, latched = np.zeros(2), np.zeros((2, model.n)), np.full((2, model.n_memory), np.nan)
     slots = len(model.source.slots)
     return {
-        "y": (2 * model.n, lambda x: model.rhs(0.0, x, p)), "p": (len(p), lambda x: model.rhs(0.0, y, x)),
+        "y": (2 * model.n, lambda x: model.rhs(0.0, x, p)),
+        "p": (len(p), lambda x: model.rhs(0.0, y, x)),
         "memory": (model.n_memory, lambda x: model.rhs(0.0, y, p, x)),
         "jacobian y": (2 * model.n, lambda x: model.jacobian(0.0, x, p)),
         "jacobian p": (len(p), lambda x: model.jacobian(0.0, y, x)),
@@ -122,11 +130,15 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
         "newton memory": (model.n_memory, lambda x: model.newton(0.0, y, p, 0.1, 1.0, r, x)),
         "given": (slots, lambda x: model.prepare(x, np.zeros(slots))),
         "is_given": (slots, lambda x: model.prepare(np.zeros(slots), x)),
-        "mass": (len(p), model.mass), "start_values": (len(p), model.start_values),
+        "mass": (len(p), model.mass),
+        "start_values": (len(p), model.start_values),
         "close": (len(p), lambda x: model.close(0.0, x, 1.0)),
-        "phi q": (model.n, lambda x: model.phi(0.0, x, p)), "phi p": (len(p), lambda x: model.phi(0.0, q, x)),
-        "phi_q q": (model.n, lambda x: model.phi_q(0.0, x, p)), "phi_q p": (len(p), lambda x: model.phi_q(0.0, q, x)),
-        "nu q": (model.n, lambda x: model.nu(0.0, x, p)), "nu p": (len(p), lambda x: model.nu(0.0, q, x)),
+        "phi q": (model.n, lambda x: model.phi(0.0, x, p)),
+        "phi p": (len(p), lambda x: model.phi(0.0, q, x)),
+        "phi_q q": (model.n, lambda x: model.phi_q(0.0, x, p)),
+        "phi_q p": (len(p), lambda x: model.phi_q(0.0, q, x)),
+        "nu q": (model.n, lambda x: model.nu(0.0, x, p)),
+        "nu p": (len(p), lambda x: model.nu(0.0, q, x)),
         "gamma q": (model.n, lambda x: model.gamma(0.0, x, q, p)),
         "gamma v": (model.n, lambda x: model.gamma(0.0, q, x, p)),
         "gamma p": (len(p), lambda x: model.gamma(0.0, q, q, x)),
@@ -136,7 +148,7 @@ def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any]
         "evaluate v": (model.n, lambda x: model.evaluate(t, rows, np.tile(x, (2, 1)), latched, p)),
         "evaluate memory": (model.n_memory, lambda x: model.evaluate(t, rows, rows, np.tile(x, (2, 1)), p)),
         "memory_array": (model.n_memory, model.memory_array),
-    }  # fmt: skip
+    }
 
 
 @needs_compiler
@@ -183,13 +195,20 @@ def test_no_other_length_of_a_start(ball: gudgeon.Simulation, method: str) -> No
 @pytest.mark.parametrize(
     ("output", "told"),
     [
-        ([0.0, 0.2, 0.1], "increasing times.*0.1 s after 0.2 s"), ([0.0, 0.0], "increasing"), ([], "at least one"),
-        ([-0.1, 0.1], "begin at 0.0 s, got -0.1 s"), ([0.0, np.nan], r"output\[1\] is nan"), (True, "output is True"),
-        ([0.0, np.inf], r"output\[1\] is inf"), ([[[0.0, 0.1]]], "has shape"), ("10", "expected real numbers"),
-        (np.ma.array([0.0, 0.1], mask=[False, True]), r"output\[1\] is masked"), (0, "output is 0"),
+        ([0.0, 0.2, 0.1], "increasing times.*0.1 s after 0.2 s"),
+        ([0.0, 0.0], "increasing"),
+        ([], "at least one"),
+        ([-0.1, 0.1], "begin at 0.0 s, got -0.1 s"),
+        ([0.0, np.nan], r"output\[1\] is nan"),
+        (True, "output is True"),
+        ([0.0, np.inf], r"output\[1\] is inf"),
+        ([[[0.0, 0.1]]], "has shape"),
+        ("10", "expected real numbers"),
+        (np.ma.array([0.0, 0.1], mask=[False, True]), r"output\[1\] is masked"),
+        (0, "output is 0"),
         (2.0, "output is 2.0: expected a whole number"),
     ],
-)  # fmt: skip
+)
 def test_output_times_that_are_none(ball: gudgeon.Simulation, output: Any, told: str) -> None:
     for call in (ball.simulate, lambda *given, **named: ball.simulate_many({}, *given, **named)):
         with pytest.raises(BadValueError, match=told):

@@ -20,11 +20,15 @@ from tests.scenes import loader
 pytestmark = needs_compiler
 PLAIN: list[dict[str, Any]] = [{"c": 3e-4, "omega": -0.0}, {"omega": np.float64(2.0), "c": 4e-4}]
 ALONE: dict[str, list[dict[Any, Any]]] = {
-    "a text": [{"c": "0.3 mm"}, {"c": 3e-4}], "an integer": [{"omega": 3}],
-    "another set": [{"c": 3e-4}, {"omega": 3.0}], "an unknown name": [{"clearance": 3e-4}],
-    "twice": [{"c": 3e-4, "parameters.c": 3e-4}], "too small": [{"c": 1e-310}],
-    "several": [{"gains": 3.0}], "no text": [{3: 3.0}],
-}  # fmt: skip
+    "a text": [{"c": "0.3 mm"}, {"c": 3e-4}],
+    "an integer": [{"omega": 3}],
+    "another set": [{"c": 3e-4}, {"omega": 3.0}],
+    "an unknown name": [{"clearance": 3e-4}],
+    "twice": [{"c": 3e-4, "parameters.c": 3e-4}],
+    "too small": [{"c": 1e-310}],
+    "several": [{"gains": 3.0}],
+    "no text": [{3: 3.0}],
+}
 
 
 def test_plain_numbers_are_read_at_once() -> None:
@@ -48,11 +52,14 @@ COLUMNS: dict[str, tuple[dict[str, Any], bool]] = {  # and whether all runs are 
     "no numbers": ({"c": np.array([3e-4, np.nan, np.inf]), "omega": [1.0, -np.inf, 2.0], "l5": 0.25}, True),
     "texts": ({"c": ["0.3 mm", "4e-4 m", 5e-4], "omega": [1.0, 2.0, np.nan]}, False),
     "integers": ({"omega": [1, 2, 3], "c": np.array([3e-4, np.nan, 5e-4], "f4")}, False),
-    "too small": ({"omega": [1.0, 1e-310, 2.0]}, False), "too small for all": ({"c": CLEARANCES, "l5": 1e-310}, False),
-    "a truth": ({"c": CLEARANCES, "omega": True}, False), "none": ({"c": CLEARANCES, "omega": None}, False),
+    "too small": ({"omega": [1.0, 1e-310, 2.0]}, False),
+    "too small for all": ({"c": CLEARANCES, "l5": 1e-310}, False),
+    "a truth": ({"c": CLEARANCES, "omega": True}, False),
+    "none": ({"c": CLEARANCES, "omega": None}, False),
     "an unknown name": ({"c": CLEARANCES, "clearance": 1.0}, False),
-    "several": ({"c": CLEARANCES, "gains": 3.0}, False), "twice": ({"c": CLEARANCES, "parameters.c": 3e-4}, False),
-}  # fmt: skip
+    "several": ({"c": CLEARANCES, "gains": 3.0}, False),
+    "twice": ({"c": CLEARANCES, "parameters.c": 3e-4}, False),
+}
 
 
 def told(read: Callable[[], tuple[Any, Any]]) -> tuple[Any, ...]:

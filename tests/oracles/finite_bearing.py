@@ -37,8 +37,10 @@ def load(eps: float, l_over_d: float, reynolds: bool, around: int = 360, along: 
     ends[0] = -1.0 if along > 1 else 0.0  # the middle, where p is even
     if not long:
         ends[-1] -= 1.0  # p = 0 half a cell further
-    side = sparse.diags([np.ones(along - 1), ends, np.ones(along - 1)], (-1, 0, 1)) if along > 1 else sparse.csr_matrix(
-        (1, 1)
+    side = (
+        sparse.diags([np.ones(along - 1), ends, np.ones(along - 1)], (-1, 0, 1))
+        if along > 1
+        else sparse.csr_matrix((1, 1))
     )
     matrix = sparse.kron(round_ / a**2, sparse.eye(along)) + sparse.kron(sparse.diags(cube), side / b**2)
     right = np.repeat(np.diff(1.0 + eps * np.cos(a * np.arange(around + 1))) / a, along)

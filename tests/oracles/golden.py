@@ -34,12 +34,17 @@ def ideal() -> dict[str, Any]:
     y, v, a = fine.q[:, 22], fine.v[:, 22], fine.a[:, 22]
     return {
         "omega": _digits(2.0 * np.pi),
-        "y_min": _digits(y.min()), "y_max": _digits(y.max()), "stroke": _digits(np.ptp(y)),
-        "v_max": _digits(abs(v).max()), "a_min": _digits(a.min()), "a_max": _digits(a.max()),
+        "y_min": _digits(y.min()),
+        "y_max": _digits(y.max()),
+        "stroke": _digits(np.ptp(y)),
+        "v_max": _digits(abs(v).max()),
+        "a_min": _digits(a.min()),
+        "a_max": _digits(a.max()),
         "t": times,
-        "y9": [_digits(x) for x in m.q[:, 22]], "v9": [_digits(x) for x in m.v[:, 22]],
+        "y9": [_digits(x) for x in m.q[:, 22]],
+        "v9": [_digits(x) for x in m.v[:, 22]],
         "a9": [_digits(x) for x in m.a[:, 22]],
-    }  # fmt: skip
+    }
 
 
 def film(step: float = 2.5e-6) -> dict[str, Any]:
@@ -47,24 +52,32 @@ def film(step: float = 2.5e-6) -> dict[str, Any]:
     run = press_dense.rk4(FILM, 0.5, step, every=round(0.1 / step))
     force = np.hypot(run.force[:, :, 0], run.force[:, :, 1])
     return {
-        "omega": _digits(3.0 * np.pi), "c": 0.6e-3, "transition": 1e-6, "step": 5e-6,
+        "omega": _digits(3.0 * np.pi),
+        "c": 0.6e-3,
+        "transition": 1e-6,
+        "step": 5e-6,
         "t": [_digits(t) for t in run.t[1:]],
         **{k: [_digits(x) for x in column[1:, 22]] for k, column in (("y9", run.q), ("v9", run.v), ("a9", run.a))},
-        "F_A": [_digits(x) for x in force[1:, 0]], "F_B": [_digits(x) for x in force[1:, 1]],
+        "F_A": [_digits(x) for x in force[1:, 0]],
+        "F_B": [_digits(x) for x in force[1:, 1]],
         "tolerance": {"y9": 1e-6, "v9": 1e-6, "force": 1e-4},
-    }  # fmt: skip
+    }
 
 
 def dry(press: Press, t_end: float, step: float = 2.5e-7) -> dict[str, Any]:
     """First contact (s) and first peak (N) of A and B, forces at one common point."""
     a, b = press_dense.rk4(replace(press, common_point=True), t_end, step, every=1000).watch
     return {
-        "omega": _digits(press.geometry.omega1), "c": press.clearance, "young": press.young,
-        "conformal": press.conformal, "t_end": t_end, "step": 1e-6,
+        "omega": _digits(press.geometry.omega1),
+        "c": press.clearance,
+        "young": press.young,
+        "conformal": press.conformal,
+        "t_end": t_end,
+        "step": 1e-6,
         "first_contact": {"A": _digits(a.first_contact), "B": _digits(b.first_contact)},
         "first_peak": {"A": _digits(a.first_peak), "B": _digits(b.first_peak)},
         "tolerance": {"first_contact_s": 2e-6, "first_peak": 2e-3},
-    }  # fmt: skip
+    }
 
 
 def main() -> None:

@@ -38,8 +38,10 @@ class HungBar:
     def pin(self, y: Array) -> tuple[Array, Array]:
         """Place and velocity of the pin."""
         s, c = np.sin(y[2]), np.cos(y[2])
-        return (np.array([y[0] - self.length * s, y[1] + self.length * c]),
-                np.array([y[3] - self.length * c * y[5], y[4] - self.length * s * y[5]]))  # fmt: skip
+        return (
+            np.array([y[0] - self.length * s, y[1] + self.length * c]),
+            np.array([y[3] - self.length * c * y[5], y[4] - self.length * s * y[5]]),
+        )
 
     def gap(self, y: Array) -> float:
         return float(self.c - np.hypot(*self.pin(y)[0]))

@@ -160,9 +160,14 @@ def motion(t: Any, data: PressData | None = None) -> Motion:
     t = np.atleast_1d(np.asarray(t, dtype=float))
     p = points(t, d)
     ends = {
-        "L1": ("O1", "A"), "L2": ("A", "P"), "L3": ("B", "P"), "L4": ("O4", "B"),
-        "L6": ("O6", "Q"), "L7": ("P", "Q"), "L8": ("Q", "S"),
-    }  # fmt: skip
+        "L1": ("O1", "A"),
+        "L2": ("A", "P"),
+        "L3": ("B", "P"),
+        "L4": ("O4", "B"),
+        "L6": ("O6", "Q"),
+        "L7": ("P", "Q"),
+        "L8": ("Q", "S"),
+    }
     bars = {name: _bar(p[tail], p[head]) for name, (tail, head) in ends.items()}
     for name, angle, speed in (("L1", d.theta1, d.omega1), ("L4", d.theta4, d.omega4)):
         bars[name][0][2], bars[name][1][2], bars[name][2][2] = angle + speed * t, speed, 0.0

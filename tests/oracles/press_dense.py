@@ -33,10 +33,33 @@ SOURCE = Path(__file__).with_name("press_dense.c")
 FLAGS = ("-std=gnu11", "-O3", "-march=native", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC")
 _EIGHT = ctypes.c_double * 8
 _SCALARS = (
-    "l5", "hx", "hy", "gravity", "theta1", "theta4", "omega1", "omega4", "alpha", "beta", "radius", "clearance",
-    "width", "young", "poisson", "exponent", "restitution", "mu", "v0", "v1", "floor", "viscosity", "transition",
-    "conformal", "film", "common_point",
-)  # fmt: skip
+    "l5",
+    "hx",
+    "hy",
+    "gravity",
+    "theta1",
+    "theta4",
+    "omega1",
+    "omega4",
+    "alpha",
+    "beta",
+    "radius",
+    "clearance",
+    "width",
+    "young",
+    "poisson",
+    "exponent",
+    "restitution",
+    "mu",
+    "v0",
+    "v1",
+    "floor",
+    "viscosity",
+    "transition",
+    "conformal",
+    "film",
+    "common_point",
+)
 
 
 class _Press(ctypes.Structure):
@@ -148,9 +171,14 @@ def rhs(
     y = np.ascontiguousarray(y, dtype=float)
     dy, multipliers, contacts = np.empty(48), np.empty(20), (Contact * 2)()
     bad = _library().press_rhs(
-        ctypes.byref(_struct(press)), ctypes.c_double(t), _pointer(y), (ctypes.c_double * 2)(*stored),
-        _pointer(dy), _pointer(multipliers), contacts,
-    )  # fmt: skip
+        ctypes.byref(_struct(press)),
+        ctypes.c_double(t),
+        _pointer(y),
+        (ctypes.c_double * 2)(*stored),
+        _pointer(dy),
+        _pointer(multipliers),
+        contacts,
+    )
     if bad:
         raise FloatingPointError(f"no pivot in column {bad - 1} at t = {t}")
     return dy, multipliers, (contacts[0], contacts[1])
@@ -174,16 +202,27 @@ def rk4(press: Press, t_end: float, step: float, every: int = 1, y: np.ndarray |
     nan = float("nan")
     watch = (Watch * 2)(Watch(nan, nan, 0.0, 0.0, 0, 0), Watch(nan, nan, 0.0, 0.0, 0, 0))
     bad = _library().press_rk4(
-        ctypes.byref(_struct(press)), ctypes.c_double(t0), _pointer(state), ctypes.c_double(step),
-        ctypes.c_long(steps), ctypes.c_long(every), _pointer(rows), watch,
-    )  # fmt: skip
+        ctypes.byref(_struct(press)),
+        ctypes.c_double(t0),
+        _pointer(state),
+        ctypes.c_double(step),
+        ctypes.c_long(steps),
+        ctypes.c_long(every),
+        _pointer(rows),
+        watch,
+    )
     if bad:
         raise FloatingPointError(f"no pivot in column {bad - 1}")
     joints = rows[:, 73:].reshape(-1, 2, 3)
     return Run(
-        rows[:, 0], rows[:, 1:25], rows[:, 25:49], rows[:, 49:73], joints[:, :, :2], joints[:, :, 2],
+        rows[:, 0],
+        rows[:, 1:25],
+        rows[:, 25:49],
+        rows[:, 49:73],
+        joints[:, :, :2],
+        joints[:, :, 2],
         (watch[0], watch[1]),
-    )  # fmt: skip
+    )
 
 
 def seconds_per_rhs(

@@ -75,9 +75,7 @@ def random_case(seed: int, bodies: int = 4, loops: int = 1, drives: int = 1, sli
         candidate = Linkage(parts, more, gravity=gravity)
         linkage = candidate if _independent(candidate, q, freedom=1) else linkage
     linkage = _with_drives(rng, linkage, q, drives)
-    return Case(
-        linkage, q, consistent_velocity(rng, linkage, q), seed, tuple(type(j).__name__ for j in linkage.joints)
-    )
+    return Case(linkage, q, consistent_velocity(rng, linkage, q), seed, tuple(type(j).__name__ for j in linkage.joints))
 
 
 def _with_drives(rng: np.random.Generator, linkage: Linkage, q: np.ndarray, wanted: int) -> Linkage:

@@ -38,8 +38,10 @@ def check(design: Design, run: Result, wrong: type[AssertionError]) -> None:
             raise wrong(f"the block stops once at {stops:.9g} s, events are {found[:5]} ({len(found)})")
     if "pulse" in design.tags:
         value = design.file["forces"]["pulse"]["value"][0]
-        top, width, at = (values[name] for name in (value.split("/")[0], value.split("/")[1].split("*")[0],
-                                                    value.split("- ")[1].split(")")[0]))  # fmt: skip
+        top, width, at = (
+            values[name]
+            for name in (value.split("/")[0], value.split("/")[1].split("*")[0], value.split("- ")[1].split(")")[0])
+        )
         gained = 0.5 * top * (math.erf((design.t_end - at) / width) + math.erf(at / width))
         expected = number("start", "rates", "block.vx") + gained / number("bodies", "block", "mass")
         if abs(run["block.vx"][-1] - expected) > 1e-6:

@@ -15,8 +15,33 @@ from tests.random_machines.numbers import Dims, Numbers
 
 # Names that are units, and names that generated code, laws or expressions use or have used
 UNIT_NAMES = ("N", "m", "s", "g", "rad", "J", "W", "Pa", "h", "min_", "kg", "Hz", "mm", "deg")
-CODE_NAMES = ("k", "next", "g_v", "root_far", "bent", "a_0_", "q", "v", "p", "t0", "order", "lane", "sine_0", "out",
-              "rows", "eta", "delta", "mu", "n", "x_0", "double_", "memory", "aside", "main", "e1")  # fmt: skip
+CODE_NAMES = (
+    "k",
+    "next",
+    "g_v",
+    "root_far",
+    "bent",
+    "a_0_",
+    "q",
+    "v",
+    "p",
+    "t0",
+    "order",
+    "lane",
+    "sine_0",
+    "out",
+    "rows",
+    "eta",
+    "delta",
+    "mu",
+    "n",
+    "x_0",
+    "double_",
+    "memory",
+    "aside",
+    "main",
+    "e1",
+)
 
 
 @dataclass

@@ -25,11 +25,19 @@ from tests.random_machines.numbers import (
     TIME,
     VISCOSITY,
     Numbers,
-)  # fmt: skip
+)
 
 STEEL = (2.07e11, 0.3)
-DISSIPATIONS = ("lankarani_nikravesh", "hunt_crossley", "flores", "gonthier", "lee_wang", "hu_guo", "zhiying_qishao",
-                "herbert_mcwhannell")  # fmt: skip
+DISSIPATIONS = (
+    "lankarani_nikravesh",
+    "hunt_crossley",
+    "flores",
+    "gonthier",
+    "lee_wang",
+    "hu_guo",
+    "zhiying_qishao",
+    "herbert_mcwhannell",
+)
 FRICTIONS = ("modified_coulomb", "coulomb", "threlfall", "stribeck", "brown_mcphee", "dahl", "lugre", "bengisu_akay")
 PROFILE = [[0, 0], [1, 0], [2, 0.6], [3, 1], [4, 0.8], [5, 0.2], [6.283185307179586, 0]]
 
@@ -145,8 +153,14 @@ class Crank:
 
     def friction(self) -> dict[str, Any]:
         law, found = str(self.rng.choice(FRICTIONS)), {"mu": self.n.add(0.1)}
-        speeds = {"coulomb": ("v0",), "stribeck": ("v0", "v_s"), "brown_mcphee": ("v0",), "threlfall": ("v_r",),
-                  "lugre": ("v_s",), "bengisu_akay": ("v0", "decay")}.get(law, ())  # fmt: skip
+        speeds = {
+            "coulomb": ("v0",),
+            "stribeck": ("v0", "v_s"),
+            "brown_mcphee": ("v0",),
+            "threlfall": ("v_r",),
+            "lugre": ("v_s",),
+            "bengisu_akay": ("v0", "decay"),
+        }.get(law, ())
         found |= {key: self.n.add(1e-2 if key != "v_s" else 5e-2, SPEED) for key in speeds}
         if law == "modified_coulomb":
             found |= {"v0": self.n.add(1e-3, SPEED), "v1": self.n.add(1e-2, SPEED)}
@@ -199,8 +213,17 @@ def crank(seed: int, rng: np.random.Generator) -> Design:
     scene = "ideal" if _some(rng, 0.15) else make.play(film, rigid and not film)
     make.file["events"] = {"turns": {"zero": "rod.omega"}}
     tags = {"film"} if film else {"rigid"} if rigid else set()
-    return Design("crank", seed, make.file, make.n, _u(rng, 0.2, 1.0) * 6.28 / omega, scene,
-                  float(10.0 ** -rng.uniform(7.0, 10.0)), size=0.2, tags=frozenset(tags))  # fmt: skip
+    return Design(
+        "crank",
+        seed,
+        make.file,
+        make.n,
+        _u(rng, 0.2, 1.0) * 6.28 / omega,
+        scene,
+        float(10.0 ** -rng.uniform(7.0, 10.0)),
+        size=0.2,
+        tags=frozenset(tags),
+    )
 
 
 def parallelogram(seed: int, rng: np.random.Generator) -> Design:
@@ -213,16 +236,28 @@ def parallelogram(seed: int, rng: np.random.Generator) -> Design:
         make.bar(name, length)
     make.file["bodies"]["rocker"]["length"] = make.file["bodies"]["crank"]["length"]
     make.file["bodies"]["coupler"]["length"] = make.file["ground"]["D"][0]
-    for name, one, two in (("A", "ground.A", "crank.tail"), ("B", "crank.head", "coupler.tail"),
-                           ("C", "coupler.head", "rocker.head"), ("D", "ground.D", "rocker.tail")):  # fmt: skip
+    for name, one, two in (
+        ("A", "ground.A", "crank.tail"),
+        ("B", "crank.head", "coupler.tail"),
+        ("C", "coupler.head", "rocker.head"),
+        ("D", "ground.D", "rocker.tail"),
+    ):
         make.pin(name, one, two)
     start, omega = _u(rng, 0.3, 1.2), _u(rng, 2.0, 9.0)
     a, w = make.n.add(start, turns=1, flips=True), make.n.add(omega, RATE, flips=True)
     make.file["drives"]["motor"] = {"angle": "crank", "value": f"{a} + {w}*t"}
     make.turned("coupler", 0.0)
     make.turned("rocker", start)
-    return Design("parallelogram", seed, make.file, make.n, _u(rng, 1.1, 2.3) * 6.28 / omega, methods=("auto",),
-                  without=frozenset({"rotate", "cut"}), tags=frozenset({"change point"}))  # fmt: skip
+    return Design(
+        "parallelogram",
+        seed,
+        make.file,
+        make.n,
+        _u(rng, 1.1, 2.3) * 6.28 / omega,
+        methods=("auto",),
+        without=frozenset({"rotate", "cut"}),
+        tags=frozenset({"change point"}),
+    )
 
 
 def cam(seed: int, rng: np.random.Generator) -> Design:
@@ -248,8 +283,17 @@ def cam(seed: int, rng: np.random.Generator) -> Design:
     make.turned("rod", -0.52)
     make.file["events"] = {"halt": {"zero": "slider.vx"}, "turns": {"zero": "rod.omega"}}
     scene = make.play(False, False) if _some(rng, 0.6) else "ideal"
-    return Design("cam", seed, make.file, make.n, _u(rng, 1.0, 2.0) * 6.28 / omega, scene, 1e-8, size=0.2,
-                  without=frozenset({"rotate"}))  # fmt: skip
+    return Design(
+        "cam",
+        seed,
+        make.file,
+        make.n,
+        _u(rng, 1.0, 2.0) * 6.28 / omega,
+        scene,
+        1e-8,
+        size=0.2,
+        without=frozenset({"rotate"}),
+    )
 
 
 def slide(seed: int, rng: np.random.Generator) -> Design:
@@ -264,9 +308,10 @@ def slide(seed: int, rng: np.random.Generator) -> Design:
         file |= {"gravity": n.vector(np.array([0.0, -9.81]), ACCELERATION)}
         k, d, rho = n.add(_u(rng, 0.3e8, 3e8), (0, 1, -2)), n.add(_u(rng, 3e3, 3e4), (0, 1, -1)), n.add(1.1, LENGTH)
         file["expressions"] = {
-            "far": "hypot(block.x, block.y)", "rate": "(block.vx*block.x + block.vy*block.y)/far",
+            "far": "hypot(block.x, block.y)",
+            "rate": "(block.vx*block.x + block.vy*block.y)/far",
             "push": f"max(0 N, {k}*({rho} - far) - {d}*rate)",
-        }  # fmt: skip
+        }
         file["forces"] = {"surface": {"force": "block.origin", "value": ["push*block.x/far", "push*block.y/far"]}}
         at = n.vector(1.1 * np.array([np.sin(0.09), np.cos(0.09)]) - [0.0, 9.8e-8], LENGTH, point=True)
         turned = n.add(0.0, turns=1, flips=True)
@@ -291,11 +336,17 @@ def slide(seed: int, rng: np.random.Generator) -> Design:
         value = f"{top}/{width}*exp(-((t - {middle})/{width})**2)/sqrt(pi)"
         file["forces"] = {"pulse": {"force": "block.origin", "value": [value, "0 N"]}}
         return Design("slide", seed, file, n, 12.0, tags=frozenset({"pulse"}), without=without)
-    file["start"] = {"rates": {"block.vx": "0 m/s"}, "play": {"way": {
-        "offset": n.add(0.0, LENGTH, flips=True), "tilt": n.add(0.0, flips=True),
-        "offset_rate": n.add(_u(rng, -0.02, 0.02), SPEED, flips=True),
-        "tilt_rate": n.add(_u(rng, -1, 1), RATE, flips=True),
-    }}}  # fmt: skip
+    file["start"] = {
+        "rates": {"block.vx": "0 m/s"},
+        "play": {
+            "way": {
+                "offset": n.add(0.0, LENGTH, flips=True),
+                "tilt": n.add(0.0, flips=True),
+                "offset_rate": n.add(_u(rng, -0.02, 0.02), SPEED, flips=True),
+                "tilt_rate": n.add(_u(rng, -1, 1), RATE, flips=True),
+            }
+        },
+    }
     del file["freedoms"]
     file["materials"] = {"steel": {"E": n.add(STEEL[0], PRESSURE), "nu": n.add(STEEL[1])}}
     sizes = {"gap": 1e-4, "half_length": _u(rng, 0.005, 0.03), "half_height": 0.01}
@@ -338,8 +389,13 @@ def swing(seed: int, rng: np.random.Generator) -> Design:
 
 
 FAMILIES: Mapping[str, Callable[[int, np.random.Generator], Design]] = {
-    "graph": graph, "crank": crank, "cam": cam, "slide": slide, "swing": swing, "parallelogram": parallelogram,
-}  # fmt: skip
+    "graph": graph,
+    "crank": crank,
+    "cam": cam,
+    "slide": slide,
+    "swing": swing,
+    "parallelogram": parallelogram,
+}
 SHARES = {"graph": 0.3, "crank": 0.3, "cam": 0.08, "slide": 0.16, "swing": 0.11, "parallelogram": 0.05}
 
 

@@ -23,7 +23,7 @@ from tests.random_machines.numbers import (
     TIME,
     Dims,
     Numbers,
-)  # fmt: skip
+)
 
 
 def _body(k: int) -> str:
@@ -117,8 +117,11 @@ class Graph:
 
     def load(self, load: Any) -> dict[str, Any]:
         if isinstance(load, Spring):
-            numbers = {"stiffness": (load.stiffness, (0, 1, -2)), "free_length": (load.free_length, LENGTH),
-                       "damping": (load.damping, (0, 1, -1))}  # fmt: skip
+            numbers = {
+                "stiffness": (load.stiffness, (0, 1, -2)),
+                "free_length": (load.free_length, LENGTH),
+                "damping": (load.damping, (0, 1, -1)),
+            }
             return {"spring_damper": self.ends(load), **{key: self.n.add(x, d) for key, (x, d) in numbers.items()}}
         if isinstance(load, RotationalSpring):
             bodies = [_body(load.first), _body(load.second)]
@@ -155,8 +158,11 @@ class Graph:
             own = {"mass": self.n.add(part.mass, MASS), "inertia": self.n.add(inertia, INERTIA)}
             bodies[f"b{k}"] = {**own, "com": self.n.vector(self.com[k], LENGTH, f"b{k}", point=True)}
         file: dict[str, Any] = {"gravity": self.n.vector(np.array(linkage.gravity), ACCELERATION), "bodies": bodies}
-        parts = {"joints": (linkage.joints, self.joint, "j"), "drives": (linkage.drives, self.drive, "d"),
-                 "forces": (linkage.loads, self.load, "f")}  # fmt: skip
+        parts = {
+            "joints": (linkage.joints, self.joint, "j"),
+            "drives": (linkage.drives, self.drive, "d"),
+            "forces": (linkage.loads, self.load, "f"),
+        }
         sections = {
             name: {f"{letter}{k}": write(x) for k, x in enumerate(of)} for name, (of, write, letter) in parts.items()
         }

@@ -26,8 +26,19 @@ MAX_EVALUATIONS = 4000  # of accelerations, some 300 µs each
 RTOL = 1e-10
 AXES = {"x": 0, "y": 1, "theta": 2}
 FLOOR = 1e-6  # m/s, the least speed of approach that a contact stores
-KNOWN_LAWS = ("hertz", "kelvin_voigt", "liu", "lankarani_nikravesh", "hunt_crossley", "flores", "gonthier", "lee_wang",
-              "herbert_mcwhannell", "zhiying_qishao", "hu_guo")  # fmt: skip
+KNOWN_LAWS = (
+    "hertz",
+    "kelvin_voigt",
+    "liu",
+    "lankarani_nikravesh",
+    "hunt_crossley",
+    "flores",
+    "gonthier",
+    "lee_wang",
+    "herbert_mcwhannell",
+    "zhiying_qishao",
+    "hu_guo",
+)
 
 
 class Unknown(Exception):
@@ -76,9 +87,7 @@ class Machine:
             self.known[name] = curve(entry["points"], entry.get("ends", "natural"))
         self.names = list(file["bodies"])
         self.com = {name: self._com(entry) for name, entry in file["bodies"].items()}
-        bodies = tuple(
-            Body(self.number(b["mass"]), self._inertia(b)) for b in file["bodies"].values()
-        )
+        bodies = tuple(Body(self.number(b["mass"]), self._inertia(b)) for b in file["bodies"].values())
         play = file.get("scenes", {}).get(scene, {}).get("play", {})
         joints = {name: entry for name, entry in file.get("joints", {}).items() if name not in play}
         gravity = [self.number(x) for x in file.get("gravity", [0, 0])]
@@ -197,9 +206,16 @@ class Machine:
         material = self.file["materials"][bearing["bearing_material"]]
         radius, clearance, length = (self.number(bearing[key]) for key in ("radius", "clearance", "length"))
         return Pin(
-            radius, clearance, length, self.number(material["E"]), self.number(material["nu"]), normal, friction,
-            self.number(film["viscosity"]) if film else 0.0, self.number(contact.get("transition", 0)),
-        )  # fmt: skip
+            radius,
+            clearance,
+            length,
+            self.number(material["E"]),
+            self.number(material["nu"]),
+            normal,
+            friction,
+            self.number(film["viscosity"]) if film else 0.0,
+            self.number(contact.get("transition", 0)),
+        )
 
     def _choice(self, value: Any) -> Any:
         try:
@@ -263,8 +279,17 @@ def simulate(machine: Machine, times: np.ndarray, q: np.ndarray, v: np.ndarray, 
         watched = [margin(k, -1.0 if pin.stored else 1.0) for k, (_, pin) in enumerate(pins)]
         ahead = float(times[min(len(found) + 40, len(times) - 1)])  # in pieces, so that some are there at the limit
         try:
-            run = solve_ivp(rhs, (t, ahead), y, "DOP853", events=watched or None, dense_output=True,
-                            rtol=rtol, atol=rtol * size, max_step=longest)  # fmt: skip
+            run = solve_ivp(
+                rhs,
+                (t, ahead),
+                y,
+                "DOP853",
+                events=watched or None,
+                dense_output=True,
+                rtol=rtol,
+                atol=rtol * size,
+                max_step=longest,
+            )
         except _TooLong as error:
             if len(found) < 6 or len(found) < len(times) / 6:
                 raise Unknown("it takes too long") from error

@@ -217,9 +217,10 @@ def scaled(base: Base) -> None:
 
 def moved(base: Base) -> None:
     shifts = {
-        name: base.trial.rng.uniform(-0.05, 0.05, 2) for name, body in base.design.file["bodies"].items()
+        name: base.trial.rng.uniform(-0.05, 0.05, 2)
+        for name, body in base.design.file["bodies"].items()
         if "length" not in body and "com" in body
-    }  # fmt: skip
+    }
     if shifts:
         base.agree(base.of(base.trial.run(base.simulation, base.design, base.design.numbers.moved(shifts))))
 
@@ -356,16 +357,26 @@ def _series(base: Base, q: np.ndarray) -> dict[str, np.ndarray]:
 
 
 RELATIONS: list[tuple[str, Callable[[Base], None]]] = [
-    ("mirror", mirrored), ("rotate", rotated), ("units", scaled), ("move origins", moved), ("cut", cut),
-    ("batch", batch), ("again", again), ("methods", methods), ("contacts", contacts),
-]  # fmt: skip
+    ("mirror", mirrored),
+    ("rotate", rotated),
+    ("units", scaled),
+    ("move origins", moved),
+    ("cut", cut),
+    ("batch", batch),
+    ("again", again),
+    ("methods", methods),
+    ("contacts", contacts),
+]
 DERIVED: list[tuple[str, Callable[[Base], None]]] = [("full", full), ("rename", renamed), ("split", split)]
 
 
 def try_seeds(
-    seeds: Iterator[int] | range, folder: Path, machines: int = 8, family: str | None = None,
+    seeds: Iterator[int] | range,
+    folder: Path,
+    machines: int = 8,
+    family: str | None = None,
     report: Callable[[Tally], None] | None = None,
-) -> Tally:  # fmt: skip
+) -> Tally:
     """Try the design of each seed with so many sets of numbers."""
     tally = Tally()
     for seed in seeds:

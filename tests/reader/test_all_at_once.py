@@ -44,15 +44,21 @@ TOGETHER: list[tuple[Patches, tuple[str, ...]]] = [
     ((("L1, value: 10", "L3, value: load * 10"),), ("'L3'", "'load'")),
     ((("restitution: 0.9}", "restitution: high}, transition: 5 um"),), ("'high'", "has a transition but no film")),
     ((("A: {bearing: pin", "C: {bearing: pen, contour: many"),), ("joint 'C'", "bearing 'pen'", "contour is 'many'")),
-    ((("0.3 mm, zero", "0.3 s, zero"), ("0.1 kg", "1 kg / zero"), ("0.3 kg", "-1 kg")),
-     ("mass is inf", "mass is -1 kg", "expected a length")),
+    (
+        (("0.3 mm, zero", "0.3 s, zero"), ("0.1 kg", "1 kg / zero"), ("0.3 kg", "-1 kg")),
+        ("mass is inf", "mass is -1 kg", "expected a length"),
+    ),
     ((("0.3 kg", "-1 kg"), ("c: 0.5 mm", "c: 20 mm")), ("mass is -1 kg", "clearance is 0.02 m in scene worn")),
     ((("[0, -9.81 m/s^2]", "[0, -9.81 m/s^2, 0]"), ("L1.tail", "L3.tail")), ("3 components", "'L3'")),
-    ((("L1: {length: 80 mm", "L1: {<<: {length: 80 mm}"), ("L2.tail", "L3.tail"), ("0.3 kg", "-1 kg")),
-     ("merge keys", "'L3'", "mass is -1 kg")),
-    ((("S: {", "x y: {"), ("{dry: {normal", "{dry-oil: {normal"), ("{O: [0", "{'1': [0")),
-     ("this body", "this point", "this contact")),
-]  # fmt: skip
+    (
+        (("L1: {length: 80 mm", "L1: {<<: {length: 80 mm}"), ("L2.tail", "L3.tail"), ("0.3 kg", "-1 kg")),
+        ("merge keys", "'L3'", "mass is -1 kg"),
+    ),
+    (
+        (("S: {", "x y: {"), ("{dry: {normal", "{dry-oil: {normal"), ("{O: [0", "{'1': [0")),
+        ("this body", "this point", "this contact"),
+    ),
+]
 
 
 @pytest.mark.parametrize(("patches", "told"), TOGETHER)
@@ -67,11 +73,14 @@ def test_they_are_told_together(patches: Patches, told: tuple[str, ...]) -> None
         assert any(words in error.message for error in errors), str(caught.value)
 
 
-@pytest.mark.parametrize(("patches", "told"), [
-    ((("0.3 mm, zero", "0.3 lengths, zero"),), "lengths"),  # and not the clearance, which follows it
-    ((("0.3 kg", "-1 kg"),), "mass is -1 kg"),  # once, and not of each scene
-    ((("name: m\n", "name: m\nexpressions: {e: foo * 1 N, g: 2*e}\n"), ("1 N, 2 N", "g, 2 N")), "'foo'"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("patches", "told"),
+    [
+        ((("0.3 mm, zero", "0.3 lengths, zero"),), "lengths"),  # and not the clearance, which follows it
+        ((("0.3 kg", "-1 kg"),), "mass is -1 kg"),  # once, and not of each scene
+        ((("name: m\n", "name: m\nexpressions: {e: foo * 1 N, g: 2*e}\n"), ("1 N, 2 N", "g, 2 N")), "'foo'"),
+    ],
+)
 def test_what_follows_from_a_mistake_is_not_told(patches: Patches, told: str) -> None:
     text = TEXT
     for old, new in patches:

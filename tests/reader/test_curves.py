@@ -37,10 +37,14 @@ def test_points_have_the_units_of_their_columns(tmp_path: Path) -> None:
     assert (curve.ends, curve.extrapolate, curve.unit) == ("natural", "none", "rad")
 
 
-@pytest.mark.parametrize("text", [
-    "x,y\n0,0\n90,1\n180,0.5\n270,0\n", "0;0\n90;1\n180;.5\n270;0", "\ufeffangle\tlift\r\n# measured\r\n0\t0\r\n\r\n"
-    " 90 \t 1e0\r\n180\t+0.5\r\n270\t0\r\n",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x,y\n0,0\n90,1\n180,0.5\n270,0\n",
+        "0;0\n90;1\n180;.5\n270;0",
+        "\ufeffangle\tlift\r\n# measured\r\n0\t0\r\n\r\n 90 \t 1e0\r\n180\t+0.5\r\n270\t0\r\n",
+    ],
+)
 def test_a_table_is_as_good_as_points(tmp_path: Path, text: str) -> None:
     (tmp_path / "data").mkdir()
     (tmp_path / "data" / "lift.csv").write_bytes(text.encode())
@@ -72,7 +76,7 @@ REFUSED = [
     ("points: 3", "lift(t)", r"a list of points"),
     (f"{PAIRS}, table: a.csv", "lift(t)", r"both points and a table"),
     ("x: mm", "lift(t)", r"neither points nor a table"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("curve", "value", "told"), REFUSED, ids=[told[:25] for _, _, told in REFUSED])
@@ -99,18 +103,43 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
     assert read(tmp_path, PAIRS, curves__lift__ends="clamped").curves["lift"].ends == "clamped"
 
 
-@pytest.mark.parametrize(("data", "told"), [
-    (b"0,1\n1,two\n", r"lift\.csv:2:3: 'two' is no number"), (b"x,y\nx,y\n0,1\n", r"lift\.csv:2:1: 'x' is no number"),
-    (b"0,1\n 1 , 2,3\n", r"lift\.csv:2:1: 3 columns"), (b"0,1\n1\n", r"lift\.csv:2:1: 1 column in"),
-    (b"0;1\n1;2,5\n", r"lift\.csv:2:3: '2,5' is no number"), (b"0,1\n\xff,2\n", r"lift\.csv:2:1: byte 0xff"),
-    (b"0,1\n2,1\n1,1\n", r"lift\.csv:3:1: .* x is 1 behind 2"), (b"", r"has 0 points"), (b"\x00\x00", r"1 column in"),
-    (b"0,1\n1," + b"9" * 5000 + b"\n", r"is no number"), (b"0,1\n1,1e999\n", r"lift\.csv:2:3: .*out of range"),
-    *((first + b"\n90,1\n200,2\n", r"lift\.csv:1:\d: '.*' is no number") for first in (
-        b"nan,nan", b"inf,-inf", b"0 mm,0 mm", b"--1,.", "\u22121,\u22122".encode(), b"(1),(2)", b'"-1","-2"',
-        "\u20131,\u20132".encode(), "\u0661,\u0662".encode(), "\u00bd,\u00be".encode(), b"$1,$2", b"(inf),-nan",
-        "\u221e,\u2212\u221e".encode(), b"-,-", b",")),
-    (b"0,=1+1\n", r"is no number"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [
+        (b"0,1\n1,two\n", r"lift\.csv:2:3: 'two' is no number"),
+        (b"x,y\nx,y\n0,1\n", r"lift\.csv:2:1: 'x' is no number"),
+        (b"0,1\n 1 , 2,3\n", r"lift\.csv:2:1: 3 columns"),
+        (b"0,1\n1\n", r"lift\.csv:2:1: 1 column in"),
+        (b"0;1\n1;2,5\n", r"lift\.csv:2:3: '2,5' is no number"),
+        (b"0,1\n\xff,2\n", r"lift\.csv:2:1: byte 0xff"),
+        (b"0,1\n2,1\n1,1\n", r"lift\.csv:3:1: .* x is 1 behind 2"),
+        (b"", r"has 0 points"),
+        (b"\x00\x00", r"1 column in"),
+        (b"0,1\n1," + b"9" * 5000 + b"\n", r"is no number"),
+        (b"0,1\n1,1e999\n", r"lift\.csv:2:3: .*out of range"),
+        *(
+            (first + b"\n90,1\n200,2\n", r"lift\.csv:1:\d: '.*' is no number")
+            for first in (
+                b"nan,nan",
+                b"inf,-inf",
+                b"0 mm,0 mm",
+                b"--1,.",
+                "\u22121,\u22122".encode(),
+                b"(1),(2)",
+                b'"-1","-2"',
+                "\u20131,\u20132".encode(),
+                "\u0661,\u0662".encode(),
+                "\u00bd,\u00be".encode(),
+                b"$1,$2",
+                b"(inf),-nan",
+                "\u221e,\u2212\u221e".encode(),
+                b"-,-",
+                b",",
+            )
+        ),
+        (b"0,=1+1\n", r"is no number"),
+    ],
+)
 def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: bytes, told: str) -> None:
     (tmp_path / "lift.csv").write_bytes(data)
     with pytest.raises(InputError, match=told):
@@ -132,10 +161,18 @@ def test_what_is_wrong_in_a_long_table_is_told_at_its_place(tmp_path: Path, rows
         read(tmp_path, "table: lift.csv")
 
 
-@pytest.mark.parametrize("first", [
-    '"angle","lift"', "x1,y2", ",lift", "\u03b8 [\u00b0],%", "influence,nanometre", "(angle),lift / 2",
-    "\u89d2,\u5347\u7a0b",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "first",
+    [
+        '"angle","lift"',
+        "x1,y2",
+        ",lift",
+        "\u03b8 [\u00b0],%",
+        "influence,nanometre",
+        "(angle),lift / 2",
+        "\u89d2,\u5347\u7a0b",
+    ],
+)
 def test_a_header_has_a_letter_before_digits(tmp_path: Path, first: str) -> None:
     (tmp_path / "lift.csv").write_text(f"{first}\n0,1\n1,2\n2,1\n", encoding="utf-8")
     assert read(tmp_path, "table: lift.csv").curves["lift"].x == (0.0, 1.0, 2.0)
@@ -150,9 +187,25 @@ def test_a_long_table_has_the_same_headers_as_a_short_one(tmp_path: Path, first:
         read(tmp_path, "table: lift.csv")
 
 
-@pytest.mark.parametrize("name", ["../a.csv", "/etc/passwd", "x/../../a.csv", "./a.csv", "x//a.csv", "''", "a\\b.csv",
-                                  "link.csv", "linked/a.csv", "pipe", "folder", "none.csv", "a.csv/b",
-                                  "a" * 300])  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../a.csv",
+        "/etc/passwd",
+        "x/../../a.csv",
+        "./a.csv",
+        "x//a.csv",
+        "''",
+        "a\\b.csv",
+        "link.csv",
+        "linked/a.csv",
+        "pipe",
+        "folder",
+        "none.csv",
+        "a.csv/b",
+        "a" * 300,
+    ],
+)
 def test_no_file_outside_the_folder_is_read(tmp_path: Path, name: str) -> None:
     home = tmp_path / "home"
     (home / "folder").mkdir(parents=True)

@@ -73,8 +73,18 @@ KINDS = [
 
 def test_kinds_that_people_call_otherwise_are_known() -> None:
     called = {(other, kind) for _, other, kind in KINDS}
-    wanted = ("pin revolute", "hinge revolute", "prismatic translational", "slider translational", "weld rigid",
-              "fixed rigid", "link distance", "rod distance", "moment torque", "spring spring_damper")  # fmt: skip
+    wanted = (
+        "pin revolute",
+        "hinge revolute",
+        "prismatic translational",
+        "slider translational",
+        "weld rigid",
+        "fixed rigid",
+        "link distance",
+        "rod distance",
+        "moment torque",
+        "spring spring_damper",
+    )
     assert {tuple(pair.split()) for pair in wanted} <= called
     for section in ("joints", "drives", "forces"):
         names = [other for where, other, _ in KINDS if where == section]
@@ -114,8 +124,10 @@ def test_three_points_in_a_revolute_are_two_joints() -> None:
     assert type(error) is BadValueError and "revolute has 3 points" in error.message
     pairs = "A: {revolute: [crank.head, rod.tail]}, B: {revolute: [crank.head, piston.origin]}"
     assert error.hint.endswith(f"3 bodies on one pin are 2 joints: {pairs}")
-    read("shaft: {revolute: [ground.O, crank.tail]}", "\n  ".join(["shaft: {revolute: [ground.O, crank.tail]}",
-         *pairs.replace("}, B", "}|B").split("|")]))  # fmt: skip
+    read(
+        "shaft: {revolute: [ground.O, crank.tail]}",
+        "\n  ".join(["shaft: {revolute: [ground.O, crank.tail]}", *pairs.replace("}, B", "}|B").split("|")]),
+    )
 
 
 @pytest.mark.parametrize(
@@ -177,12 +189,16 @@ def test_a_damping_names_a_law(name: str) -> None:
     written = read(HERTZ, f"{{law: hertz, restitution: 0.8, geometry: internal, dissipation: {name}}}")
     assert normal(own) == normal(written)
     assert normal(own) == (
-        "hertz", {"exponent": 1.5, "restitution": 0.8}, {"dissipation": name, "geometry": "internal", "pulls": False}
-    )  # fmt: skip
+        "hertz",
+        {"exponent": 1.5, "restitution": 0.8},
+        {"dissipation": name, "geometry": "internal", "pulls": False},
+    )
     given = normal(read(HERTZ, f"{{law: {name}, restitution: 0.8, stiffness: 1e9}}"))
     assert given == (
-        "hertz", {"stiffness": 1e9, "exponent": 1.5, "restitution": 0.8}, {"dissipation": name, "pulls": False}
-    )  # fmt: skip
+        "hertz",
+        {"stiffness": 1e9, "exponent": 1.5, "restitution": 0.8},
+        {"dissipation": name, "pulls": False},
+    )
 
 
 def test_a_damping_asks_for_its_restitution() -> None:
@@ -239,7 +255,7 @@ def test_none_is_no_law() -> None:
         ("restitution: 0.8", "restitution: 80 ‸%", ExpressionError, "90 % as 0.9"),
         ("contact: dry}}}", "contact: dry}}, simulate: {‸method: rk4}}", UnknownKeyError, "gudgeon run, --method"),
     ],
-)  # fmt: skip
+)
 def test_words_and_signs_of_elsewhere(old: str, new: str, kind: type[InputError], told: str) -> None:
     error = refused(old, new)
     assert type(error) is kind and told in error.hint

@@ -94,8 +94,14 @@ def test_a_name_is_one_tree_wherever_it_stands() -> None:
     error = mechanism.expressions["error"].value
     assert mechanism.outputs["miss"].value is error
     assert {name.path for name in names(mechanism.forces["u"].quantities["value"].value)} == {
-        "K", "rod.omega", "reach", "pace", "t", "k", "rod.theta",
-    }  # fmt: skip
+        "K",
+        "rod.omega",
+        "reach",
+        "pace",
+        "t",
+        "k",
+        "rod.theta",
+    }
 
 
 MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead, error, what it tells, at which text
@@ -114,13 +120,23 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
     ("lift: h*ease(t/(2 s))", "lift: [1, 2]", InputError, "lift", "[1, 2]"),
     ("lift: h*ease(t/(2 s))", "lift: ", InputError, "no value", ""),
     ("lift: h*ease(t/(2 s))", "lift: h*ease(t/(2 s)", ExpressionError, "expected ')'", ""),
-    ("error: rod.theta - target", "error: rod.theta - target/(K - K)", BadValueError,
-     "expressions.error has a part that is inf, and forces.u.value and 3 more use it", "rod.theta"),
-    ("lift: h*ease(t/(2 s))", "lift: h*ease(pace/(-1 rad/s^1))*0 + h*sqrt(h - 30 mm)/sqrt(h)", BadValueError,
-     "expressions.lift is nan, and drives.up.value and 1 more use it", "h*ease"),
+    (
+        "error: rod.theta - target",
+        "error: rod.theta - target/(K - K)",
+        BadValueError,
+        "expressions.error has a part that is inf, and forces.u.value and 3 more use it",
+        "rod.theta",
+    ),
+    (
+        "lift: h*ease(t/(2 s))",
+        "lift: h*ease(pace/(-1 rad/s^1))*0 + h*sqrt(h - 30 mm)/sqrt(h)",
+        BadValueError,
+        "expressions.lift is nan, and drives.up.value and 1 more use it",
+        "h*ease",
+    ),
     ("k: 2 1/s", "k: 2 1/s + rate/(1 rad)", ExpressionError, "'rate' is an expression, and this number", "rate/(1"),
     ("lift: h*ease(t/(2 s))", "lift:", BadValueError, "expressions.lift has no value", ""),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("text", "by", "error", "told", "at"), MISTAKES)

@@ -28,9 +28,42 @@ events: {EVENT: {zero: "BODY.theta + 20 deg + 0*EXPRESSION/(1 kg)"}}
 outputs: {OUTPUT: "BODY.x*PARAMETER + BODY.POINT.x*(1 kg) + JOINT.Fx*(1 kg)*(1 m)/(1 N)"}
 """
 ROLES = ("PARAMETER", "CURVE", "EXPRESSION", "BODY", "POINT", "PLACE", "JOINT", "FORCE", "EVENT", "OUTPUT")
-OTHERS = ("kinetic", "residual", "drives", "torque", "Phi", "Phi_dot", "max", "time", "run", "samples", "at_events",
-          "start_row", "compiled", "provenance", "series", "origin", "com", "name", "output", "q", "v", "a", "E",
-          "F", "Fx", "M", "I", "N", "S", "state", "mode", "step", "method", "parameters")  # fmt: skip
+OTHERS = (
+    "kinetic",
+    "residual",
+    "drives",
+    "torque",
+    "Phi",
+    "Phi_dot",
+    "max",
+    "time",
+    "run",
+    "samples",
+    "at_events",
+    "start_row",
+    "compiled",
+    "provenance",
+    "series",
+    "origin",
+    "com",
+    "name",
+    "output",
+    "q",
+    "v",
+    "a",
+    "E",
+    "F",
+    "Fx",
+    "M",
+    "I",
+    "N",
+    "S",
+    "state",
+    "mode",
+    "step",
+    "method",
+    "parameters",
+)
 NAMES = sorted({*FUNCTIONS, *RESERVED, *WORDS, *CLEARANCE, *(x for row in MOTION for x in row), *OTHERS})
 
 PLAY = """\

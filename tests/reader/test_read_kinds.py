@@ -92,8 +92,13 @@ def test_forces(machine: Mechanism) -> None:
     assert ends(twist.targets) == [("ground", ""), ("L1", "com")]
     assert ends(machine.forces["brake"].targets) == [("rod", "com"), ("L3", "com")]
     assert {name.path for name in names(machine.forces["brake"].quantities["value"].value)} == {
-        "drag", "rod.omega", "L3.omega", "t", "S9.y", "r1",
-    }  # fmt: skip
+        "drag",
+        "rod.omega",
+        "L3.omega",
+        "t",
+        "S9.y",
+        "r1",
+    }
     push, gust = machine.forces["push"], machine.forces["gust"]
     assert [component.address for component in push.vectors["value"]] == ["forces.push.value.x", "forces.push.value.y"]
     assert push.vectors["value"][0].dimension == FORCE
@@ -127,9 +132,15 @@ def test_overrides() -> None:
     changed = read_mechanism(
         TEXT.encode(),
         "f",
-        {"forces.coil.stiffness": "5 N/mm", "forces.push.value.x": 3, "forces.band.damping": 0.5,
-         "joints.epicycle.internal": False, "joints.mesh.radii.x": "41 mm", "forces.push.axes": "body"},
-    )  # fmt: skip
+        {
+            "forces.coil.stiffness": "5 N/mm",
+            "forces.push.value.x": 3,
+            "forces.band.damping": 0.5,
+            "joints.epicycle.internal": False,
+            "joints.mesh.radii.x": "41 mm",
+            "forces.push.axes": "body",
+        },
+    )
     assert value(changed, changed.forces["coil"].quantities["stiffness"]) == 5000.0
     assert changed.forces["push"].vectors["value"][0].value == Number(3.0, "3.0")
     assert value(changed, changed.forces["band"].quantities["damping"]) == 0.5  # the file has no such key

@@ -12,8 +12,23 @@ from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import RESERVED, WORDS, check_name
 
 WHAT = ("body", "joint", "drive", "force", "parameter", "output", "curve", "expression", "point", "mechanism")
-TRIED = (*RESERVED, *FUNCTIONS, *WORDS, "time", "a__b", "a___b__c", "my-pin", "my pin", "a - b", "a--b", "pin-",
-         "gudgeon_pin", "gudgeon", "gudgeon pin", "x" * 40 + "-" + "y" * 40)  # fmt: skip
+TRIED = (
+    *RESERVED,
+    *FUNCTIONS,
+    *WORDS,
+    "time",
+    "a__b",
+    "a___b__c",
+    "my-pin",
+    "my pin",
+    "a - b",
+    "a--b",
+    "pin-",
+    "gudgeon_pin",
+    "gudgeon",
+    "gudgeon pin",
+    "x" * 40 + "-" + "y" * 40,
+)
 
 
 @pytest.mark.parametrize("what", WHAT)

@@ -83,7 +83,7 @@ def disc(radius: float, sides: int = 20_000) -> np.ndarray:
             lambda s: np.array([[0.02, -0.07], [s, 0.0], [0.0, 0.0]]),
         ),
     ],
-)  # fmt: skip
+)
 def test_shapes_are_their_integrals(body: str, corners, s: float, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     found = run(body, tmp_path, {"s": s})
     mass, centre, inertia = plate(corners(s), 2700.0, 0.004)
@@ -171,14 +171,17 @@ WRONG: list[tuple[str, type[InputError], str]] = [
     ("mass: 1, shape: {rectangle: [s, -s]}", BadValueError, "a side is positive"),
     ("mass: 1, shape: {disc: 1e200 m}", BadValueError, "inertia is inf"),
     ("shape: {disc: 1e-200 m, density: 1, thickness: h}", BadValueError, "mass is 0"),
-    ("points: {a: [s, s], b: [2*s, 2*s]}, shape: {triangle: [origin, a, b], density: 1, thickness: h}",
-     BadValueError, "mass is 0"),
+    (
+        "points: {a: [s, s], b: [2*s, 2*s]}, shape: {triangle: [origin, a, b], density: 1, thickness: h}",
+        BadValueError,
+        "mass is 0",
+    ),
     ("mass: 1, shape: {disc: 1 kg}", InputError, "expected a length"),
     ("shape: {disc: s, density: 1 kg, thickness: h}", InputError, "expected a density"),
     ("mass: 1, inertia: automatic", InputError, "automatic"),
     ("mass: 1, inertia: 1, sides: {PQ: s, QR: s}", MissingKeyError, "has no PR"),
     ("mass: 1, inertia: 1, sides: {PQ: s, QR: s, PR: s, side: up}", BadValueError, "side is 'up'"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("body", "error", "words"), WRONG)

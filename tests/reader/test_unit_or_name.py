@@ -39,19 +39,37 @@ def parameter(parameters: str, name: str) -> float:
 FRICTION = "N: 25 N, mu: 0.3, r: 0.1 m"
 
 
-@pytest.mark.parametrize("value", ["-0.1 m*N*mu", "-N*0.1 m*mu", "-r*N*mu", "-0.1 m * N * mu", "-(0.1 m)*N*mu",
-                                   "-0.1 m *N* mu", "-0.1m*N*mu", "-mu*0.1 m*N*1"])  # fmt: skip
+@pytest.mark.parametrize(
+    "value",
+    [
+        "-0.1 m*N*mu",
+        "-N*0.1 m*mu",
+        "-r*N*mu",
+        "-0.1 m * N * mu",
+        "-(0.1 m)*N*mu",
+        "-0.1 m *N* mu",
+        "-0.1m*N*mu",
+        "-mu*0.1 m*N*1",
+    ],
+)
 def test_a_parameter_precedes_a_unit_in_a_product(value: str) -> None:
     assert torque(FRICTION, value) == pytest.approx(-0.75, rel=1e-15)
 
 
-@pytest.mark.parametrize(("parameters", "value", "right"), [
-    ("c: 1 m", "-4 N*s/m*s.omega*1 m^2", -8.0), ("c: 1 m", "-4 N*s/m * s.omega * 1 m^2", -8.0),
-    ("m: 2 kg, a: 1 m", "-3 m/s^2*m*a", -6.0), ("m: 2 kg, a: 1 m", "-3 m/s^2 * m * a", -6.0),
-    ("g: 9.81 m/s^2, a: 1 m", "-2 kg*g*a", -19.62), ("g: 9.81 m/s^2, a: 1 m", "-2 kg * g * a", -19.62),
-    ("m: 2 kg", "3 N*m^1 * s.theta", 9.0), ("m: 2 kg", "3 N·m * s.theta", 9.0),
-    ("m: 2 kg", "3 N*m*s/rad * s.omega", 6.0),  # s is a body's name alone: nothing but a unit can stand there
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("parameters", "value", "right"),
+    [
+        ("c: 1 m", "-4 N*s/m*s.omega*1 m^2", -8.0),
+        ("c: 1 m", "-4 N*s/m * s.omega * 1 m^2", -8.0),
+        ("m: 2 kg, a: 1 m", "-3 m/s^2*m*a", -6.0),
+        ("m: 2 kg, a: 1 m", "-3 m/s^2 * m * a", -6.0),
+        ("g: 9.81 m/s^2, a: 1 m", "-2 kg*g*a", -19.62),
+        ("g: 9.81 m/s^2, a: 1 m", "-2 kg * g * a", -19.62),
+        ("m: 2 kg", "3 N*m^1 * s.theta", 9.0),
+        ("m: 2 kg", "3 N·m * s.theta", 9.0),
+        ("m: 2 kg", "3 N*m*s/rad * s.omega", 6.0),  # s is a body's name alone: nothing but a unit can stand there
+    ],
+)
 def test_products_with_units_and_names(parameters: str, value: str, right: float) -> None:
     assert torque(parameters, value, s_omega=2.0, s_theta=3.0) == pytest.approx(right, rel=1e-15)
 
@@ -67,8 +85,13 @@ def test_a_number_with_its_unit_is_a_quantity() -> None:
     assert torque("N: 6 N, m: 2 m", "0.5 m*N") == 3.0  # m*N is not a usual unit
 
 
-AMBIGUOUS = [("m: 0.5 m", "3 N*m"), ("m: 0.5 m", "3 N * m"), ("m: 0.5", "-3 N*m"),
-             ("s: 2", "3 N*m*s*s.omega"), ("m: 2", "(3 N*m) * s.theta")]  # fmt: skip
+AMBIGUOUS = [
+    ("m: 0.5 m", "3 N*m"),
+    ("m: 0.5 m", "3 N * m"),
+    ("m: 0.5", "-3 N*m"),
+    ("s: 2", "3 N*m*s*s.omega"),
+    ("m: 2", "(3 N*m) * s.theta"),
+]
 
 
 @pytest.mark.parametrize(("parameters", "value"), AMBIGUOUS)
@@ -89,8 +112,24 @@ def test_a_name_of_another_dimension_is_refused_with_the_reason() -> None:
     assert caught.value.hint == "m is a name of this file here: the unit is written m^1"
 
 
-UNITS = {"N": "m*kg/s^2", "m": "m", "s": "s", "g": "g", "rad": "rad", "J": "kg*m^2/s^2", "W": "kg*m^2/s^3", "Pa": "Pa",
-         "P": "Pa*s", "kg": "kg", "t_": "s", "h": "m", "bar": "Pa", "mm": "mm", "rev": "rad", "lb": "kg"}  # fmt: skip
+UNITS = {
+    "N": "m*kg/s^2",
+    "m": "m",
+    "s": "s",
+    "g": "g",
+    "rad": "rad",
+    "J": "kg*m^2/s^2",
+    "W": "kg*m^2/s^3",
+    "Pa": "Pa",
+    "P": "Pa*s",
+    "kg": "kg",
+    "t_": "s",
+    "h": "m",
+    "bar": "Pa",
+    "mm": "mm",
+    "rev": "rad",
+    "lb": "kg",
+}
 
 
 def random_product(rng: random.Random, names: list[str], depth: int = 0) -> str:

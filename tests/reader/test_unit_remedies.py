@@ -24,8 +24,16 @@ forces:
   F: {torque: [ground, a], value: "TORQUE"}
   K: {spring_damper: [ground.O, a.head], stiffness: STIFFNESS, damping: DAMPING}
 """
-RIGHT = {"PARAMETER": "1 m/s", "LENGTH": "1 m", "MASS": "1 kg", "INERTIA": "1 kg*m^2", "ANGLE": "1 rad/s * t",
-         "TORQUE": "1 N*m", "STIFFNESS": "1 N/m", "DAMPING": "1 N*s/m"}  # fmt: skip
+RIGHT = {
+    "PARAMETER": "1 m/s",
+    "LENGTH": "1 m",
+    "MASS": "1 kg",
+    "INERTIA": "1 kg*m^2",
+    "ANGLE": "1 rad/s * t",
+    "TORQUE": "1 N*m",
+    "STIFFNESS": "1 N/m",
+    "DAMPING": "1 N*s/m",
+}
 
 
 def read(place: str, value: str) -> Mechanism:
@@ -60,20 +68,41 @@ def proposed(hint: str, value: str) -> list[str]:
 @pytest.mark.parametrize(
     ("value", "remedy", "si"),
     [
-        ("36 km/h", "36 km/(60 min)", 10.0), ("3 µs", "3 us", 3e-6), ("3 1/h", "3/(60 min)", 3 / 3600),
-        ("2 h", "120 min", 7200.0), ("3 s-1", "3 1/s", 3.0), ("3 kg m2", "3 kg*m^2", 3.0), ("3 m s⁻²", "3 m/s^2", 3.0),
-        ("3 (m/s)^3", "3 m^3/s^3", 3.0), ("3 kg.m2/s2", "3 kg*m^2/s^2", 3.0), ("2 kph", "2 km/(60 min)", 2 / 3.6),
-        ("90 °/sec", "90 deg/s", 1.5707963267948966), ("3 N-mm", "3 N*mm", 3e-3), ("2 mPas", "2 mPa*s", 2e-3),
-        ("5 kN/µm^2", None, 5e15), ("2 daN", "20 N", 20.0), ("2pi", "2*pi", 6.283185307179586),
-        ("4 m^10", "4 * (1 m)**10", 4.0), ("2 rpm^0.5", "2 * (1 rpm)**0.5", 2 * (3.141592653589793 / 30) ** 0.5),
-        ("4 kg/m**3", "4 kg/m^3", 4.0), ("4 1/mm**3", "4 1/mm^3", 4e9), ("3 m**-1", "3 1/m", 3.0),
-        ("3 per s", "3 1/s", 3.0), ("1 mile/hour", "1609.344 m/(60 min)", 0.44704),
-        ("3 ns", "3e-9 s", 3e-9), ("3 m/ns", "3 m/(1E-9 s)", 3e9), ("3 MJ", "3000000 J", 3e6), ("3 KN", "3 kN", 3e3),
-        ("3 g0", "29.41995 m/s^2", 29.41995), ("3 gn", "29.41995 m/s^2", 29.41995),
-        ("3 g_0", "29.41995 m/s^2", 29.41995), ("3 kg*gn", "29.41995 kg*m/s^2", 29.41995),
-        ("5 kg µm2", "5 kg*µm^2", 5e-12), ("30 U/min", "30 rev/min", 3.141592653589793),
+        ("36 km/h", "36 km/(60 min)", 10.0),
+        ("3 µs", "3 us", 3e-6),
+        ("3 1/h", "3/(60 min)", 3 / 3600),
+        ("2 h", "120 min", 7200.0),
+        ("3 s-1", "3 1/s", 3.0),
+        ("3 kg m2", "3 kg*m^2", 3.0),
+        ("3 m s⁻²", "3 m/s^2", 3.0),
+        ("3 (m/s)^3", "3 m^3/s^3", 3.0),
+        ("3 kg.m2/s2", "3 kg*m^2/s^2", 3.0),
+        ("2 kph", "2 km/(60 min)", 2 / 3.6),
+        ("90 °/sec", "90 deg/s", 1.5707963267948966),
+        ("3 N-mm", "3 N*mm", 3e-3),
+        ("2 mPas", "2 mPa*s", 2e-3),
+        ("5 kN/µm^2", None, 5e15),
+        ("2 daN", "20 N", 20.0),
+        ("2pi", "2*pi", 6.283185307179586),
+        ("4 m^10", "4 * (1 m)**10", 4.0),
+        ("2 rpm^0.5", "2 * (1 rpm)**0.5", 2 * (3.141592653589793 / 30) ** 0.5),
+        ("4 kg/m**3", "4 kg/m^3", 4.0),
+        ("4 1/mm**3", "4 1/mm^3", 4e9),
+        ("3 m**-1", "3 1/m", 3.0),
+        ("3 per s", "3 1/s", 3.0),
+        ("1 mile/hour", "1609.344 m/(60 min)", 0.44704),
+        ("3 ns", "3e-9 s", 3e-9),
+        ("3 m/ns", "3 m/(1E-9 s)", 3e9),
+        ("3 MJ", "3000000 J", 3e6),
+        ("3 KN", "3 kN", 3e3),
+        ("3 g0", "29.41995 m/s^2", 29.41995),
+        ("3 gn", "29.41995 m/s^2", 29.41995),
+        ("3 g_0", "29.41995 m/s^2", 29.41995),
+        ("3 kg*gn", "29.41995 kg*m/s^2", 29.41995),
+        ("5 kg µm2", "5 kg*µm^2", 5e-12),
+        ("30 U/min", "30 rev/min", 3.141592653589793),
     ],
-)  # fmt: skip
+)
 def test_the_first_proposal_means_the_same(value: str, remedy: str | None, si: float) -> None:
     if remedy is not None:
         first = proposed(hint_of("PARAMETER", value), value)[0]
@@ -86,13 +115,19 @@ def test_the_first_proposal_means_the_same(value: str, remedy: str | None, si: f
 @pytest.mark.parametrize(
     ("place", "wrong", "rest", "remedy"),
     [
-        ("INERTIA", "3 kg*mm^", "", "3 kg*mm^2"), ("LENGTH", "3 µm^10", "", "3 µm"), ("TORQUE", "3 N^m", "", "3 N*m"),
-        ("STIFFNESS", "3 kg/s^x", "", "3 kg/s^2"), ("DAMPING", "3 kg*s^", "", "3 kg/s"),
-        ("TORQUE", "3 kg*m^2/s^3.7", "", "3 kg*m^2/s^2"), ("TORQUE", "2 kgf*m", "", "19.6133 N*m"),
-        ("ANGLE", "2pi", "*t*1 rad/s", "2*pi"), ("ANGLE", "3 rad/sec", "*t", "3 rad/s"), ("ANGLE", "2w", "*t", "2*w"),
+        ("INERTIA", "3 kg*mm^", "", "3 kg*mm^2"),
+        ("LENGTH", "3 µm^10", "", "3 µm"),
+        ("TORQUE", "3 N^m", "", "3 N*m"),
+        ("STIFFNESS", "3 kg/s^x", "", "3 kg/s^2"),
+        ("DAMPING", "3 kg*s^", "", "3 kg/s"),
+        ("TORQUE", "3 kg*m^2/s^3.7", "", "3 kg*m^2/s^2"),
+        ("TORQUE", "2 kgf*m", "", "19.6133 N*m"),
+        ("ANGLE", "2pi", "*t*1 rad/s", "2*pi"),
+        ("ANGLE", "3 rad/sec", "*t", "3 rad/s"),
+        ("ANGLE", "2w", "*t", "2*w"),
         ("INERTIA", "3 kg*m**2", "", "3 kg*m^2"),
     ],
-)  # fmt: skip
+)
 def test_a_remedy_has_the_dimension_of_its_place(place: str, wrong: str, rest: str, remedy: str) -> None:
     found = proposed(hint_of(place, wrong + rest), wrong)
     assert found[0] == remedy
@@ -100,8 +135,11 @@ def test_a_remedy_has_the_dimension_of_its_place(place: str, wrong: str, rest: s
         read(place, one + rest)
 
 
-SYMBOLS = re.split(" ", "m mm µm µs s ms h hr min sec kg g t tonne lb N kN µN kgf lbf J Wh W hp Pa psi rad deg ° rpm"
-                   " Hz kHz rev foo Nm KG mpa MM mile yd dm in kph cSt Ohm")  # fmt: skip
+SYMBOLS = re.split(
+    " ",
+    "m mm µm µs s ms h hr min sec kg g t tonne lb N kN µN kgf lbf J Wh W hp Pa psi rad deg ° rpm"
+    " Hz kHz rev foo Nm KG mpa MM mile yd dm in kph cSt Ohm",
+)
 POWERS = re.split(" ", "    ^2 ² 2 -1 ⁻¹ ^-2 **2 ^ ^x ^(1/2) ^1.3 ^10 **-1")  # some are empty
 
 

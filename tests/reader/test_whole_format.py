@@ -19,8 +19,12 @@ from gudgeon.simulation.simulation import Simulation
 from tests.slow import slow_but
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
-SCENES = [("every_kind", "ideal"), ("slider_crank", "oiled"), ("shapes", "ideal"),
-          *(("press_as_designed", scene) for scene in ("fast", "ideal", "lubricated"))]
+SCENES = [
+    ("every_kind", "ideal"),
+    ("slider_crank", "oiled"),
+    ("shapes", "ideal"),
+    *(("press_as_designed", scene) for scene in ("fast", "ideal", "lubricated")),
+]
 
 
 @cache

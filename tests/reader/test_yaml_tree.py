@@ -121,9 +121,33 @@ def test_too_deep(text: str) -> None:
 
 
 FRAGMENTS = [
-    "a", "b", ": ", "\n", "  ", "- ", "[", "]", "{", "}", ",", "'", '"', "&x ", "*x", "!t ", "|", ">", "#", "%", "---",
-    "~", "\t", "?", "<<", "\\",
-]  # fmt: skip
+    "a",
+    "b",
+    ": ",
+    "\n",
+    "  ",
+    "- ",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    "'",
+    '"',
+    "&x ",
+    "*x",
+    "!t ",
+    "|",
+    ">",
+    "#",
+    "%",
+    "---",
+    "~",
+    "\t",
+    "?",
+    "<<",
+    "\\",
+]
 
 
 @given(
@@ -142,15 +166,30 @@ def test_any_bytes_give_a_tree_or_an_input_error(data: bytes) -> None:
 
 
 LINES = [
-    "format: gudgeon/1", "name: x", "title: y", "gravity: [0, 1]", "parameters: {a: b, b: 1 m}", "parameters: [1]",
-    "bodies: {L: {mass: 1, inertia: 1}}", "bodies: {L: {mass: a, inertia: b, length: 1 kg}, M: 3}", "bodies:",
-    "ground: {O: [0, 0]}", "joints: {A: {revolute: [ground.O, L.tail]}}", "joints: {A: {revolute: [{}, []]}, B: []}",
-    "joints: {A: {translational: [ground.O, L.origin], axis: 3, angle: []}}", "drives: {d: {angle: [[L]], value: {}}}",
-    "drives: {d: {angle: L, value: t * 1 rad/s}}", "start: {guess: {L.theta: 1, L: 2}}", "outputs: {o: L.x + A.F}",
-    "materials: {s: {E: 1, nu: 0.3}}", "bearings: {p: {radius: 1, clearance: 2, length: q}}",
-    "contacts: {c: {normal: {law: {}}, film: {law: pinkus_sternlicht, shear: []}}}", "contacts: {c: {extends: c}}",
-    "scenes: {s: {extends: s, play: {A: {bearing: p, contact: c}}}}", "scenes: {ideal: {simulate: {output: 0.5}}}",
-]  # fmt: skip
+    "format: gudgeon/1",
+    "name: x",
+    "title: y",
+    "gravity: [0, 1]",
+    "parameters: {a: b, b: 1 m}",
+    "parameters: [1]",
+    "bodies: {L: {mass: 1, inertia: 1}}",
+    "bodies: {L: {mass: a, inertia: b, length: 1 kg}, M: 3}",
+    "bodies:",
+    "ground: {O: [0, 0]}",
+    "joints: {A: {revolute: [ground.O, L.tail]}}",
+    "joints: {A: {revolute: [{}, []]}, B: []}",
+    "joints: {A: {translational: [ground.O, L.origin], axis: 3, angle: []}}",
+    "drives: {d: {angle: [[L]], value: {}}}",
+    "drives: {d: {angle: L, value: t * 1 rad/s}}",
+    "start: {guess: {L.theta: 1, L: 2}}",
+    "outputs: {o: L.x + A.F}",
+    "materials: {s: {E: 1, nu: 0.3}}",
+    "bearings: {p: {radius: 1, clearance: 2, length: q}}",
+    "contacts: {c: {normal: {law: {}}, film: {law: pinkus_sternlicht, shear: []}}}",
+    "contacts: {c: {extends: c}}",
+    "scenes: {s: {extends: s, play: {A: {bearing: p, contact: c}}}}",
+    "scenes: {ideal: {simulate: {output: 0.5}}}",
+]
 
 
 @given(st.lists(st.sampled_from(LINES), max_size=14, unique_by=lambda line: line.partition(":")[0]))

@@ -103,11 +103,15 @@ def test_the_shaker_holds_its_pendulum_upright_when_it_is_fast_enough() -> None:
 VARIANTS = {
     "as it is": ({}, ("coupler", "rocker")),
     "a drive with corners": (
-        {"motor": "{angle: crank, value: 0.5 + smooth_step(t, 0.1 s, 0.3 s) * 2}"}, ("coupler", "rocker"),
+        {"motor": "{angle: crank, value: 0.5 + smooth_step(t, 0.1 s, 0.3 s) * 2}"},
+        ("coupler", "rocker"),
     ),
     "a cylinder": (
-        {"motor": "{distance: [ground.W, rocker.head], value: 170 mm + 10 mm * sin(8*t)}",
-         "other": "guess: { -> guess: {crank.theta: 30 deg, "}, ("crank", "coupler", "rocker"),
+        {
+            "motor": "{distance: [ground.W, rocker.head], value: 170 mm + 10 mm * sin(8*t)}",
+            "other": "guess: { -> guess: {crank.theta: 30 deg, ",
+        },
+        ("crank", "coupler", "rocker"),
     ),
     "a spring within": (
         {"forces": "  twist: {rotational_spring_damper: [coupler, rocker], stiffness: 2 N*m/rad, free_angle: 0.2}\n"},
@@ -117,7 +121,7 @@ VARIANTS = {
     "friction within: it stays solved": ({"forces": RUB % ("crank.head", "rocker.head")}, ()),
     "a rate that jumps: it stays solved": ({"motor": "{angle: crank, value: 0.5 + ramp(t, 0.1 s, 0.3 s) * 2}"}, ()),
     "play": ({"more": PLAY, "scene": "worn"}, ("coupler", "rocker")),
-}  # fmt: skip
+}
 
 
 APART = "a drive with corners", "friction on what is free", "play"
@@ -148,10 +152,13 @@ def test_trajectories_reactions_and_drives_of_all_coordinates(name: str, tmp_pat
             assert one.diagnostics.energy_residual < 1e-7 * one.diagnostics.energy_turned_over
 
 
-@pytest.mark.parametrize(("name", "chain"), [
-    pytest.param("geared_chain", ("coupler", "rocker", "rod"), marks=pytest.mark.slow),
-    ("trammel", ("bar.x", "bar.y")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "chain"),
+    [
+        pytest.param("geared_chain", ("coupler", "rocker", "rod"), marks=pytest.mark.slow),
+        ("trammel", ("bar.x", "bar.y")),
+    ],
+)
 def test_chains_in_a_row_and_of_lengths(name: str, chain: tuple[str, ...]) -> None:
     """One group drives the next through a gear; positions of a body that no other one places."""
     reduced, full = (gudgeon.load(str(METHODS / f"{name}.yaml"), formulation=kind) for kind in ("reduced", "full"))

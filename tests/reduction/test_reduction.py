@@ -30,11 +30,20 @@ from tests.slow import slow_but
 
 pytestmark = needs_compiler
 SHIPPED = [
-    ("nine_bar_press", "ideal"), ("nine_bar_press", "dry"), ("nine_bar_press", "lubricated"),
-    ("andrews_squeezer", "ideal"), ("four_bar", "ideal"), ("slider_crank", "ideal"), ("slider_crank_spring", "ideal"),
-    ("pendulum", "ideal"), ("car_axis", "ideal"), ("belt_block", "ideal"), ("bouncing_ball", "ideal"),
-    ("n_four_bar", "ideal"), ("shaker", "ideal"),
-]  # fmt: skip
+    ("nine_bar_press", "ideal"),
+    ("nine_bar_press", "dry"),
+    ("nine_bar_press", "lubricated"),
+    ("andrews_squeezer", "ideal"),
+    ("four_bar", "ideal"),
+    ("slider_crank", "ideal"),
+    ("slider_crank_spring", "ideal"),
+    ("pendulum", "ideal"),
+    ("car_axis", "ideal"),
+    ("belt_block", "ideal"),
+    ("bouncing_ball", "ideal"),
+    ("n_four_bar", "ideal"),
+    ("shaker", "ideal"),
+]
 LARGE = [("nine_bar_press", "dry"), ("andrews_squeezer", "ideal"), ("car_axis", "ideal"), ("n_four_bar", "ideal")]
 
 

@@ -275,7 +275,7 @@ def test_ranks_do_not_depend_on_the_unit_of_length(load: Load, length: float) ->
     slider = open_pin.replace("length: 1 m", "length: 1.5 m").replace(
         "B: {revolute: [b.head, c.head]}\n  P: {revolute: [ground.p, c.tail]}",
         "B: {revolute: [b.head, c.com]}\n  P: {translational: [ground.o, c.com], axis: [1, 0]}",
-    )  # fmt: skip
+    )
     drive = "\ndrives: {D: {angle: a, value: 50 deg + 1 rad/s * t}}"
     for text, freedoms, redundant in ((third, 1, 1), (open_pin, 1, 0), (slider, 1, 0), (slider + drive, 0, 0)):
         text = text.replace(", set: {a.theta: 50 deg}", "") if drive in text else text

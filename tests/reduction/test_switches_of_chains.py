@@ -81,8 +81,12 @@ def written(tmp_path: Path, text: str) -> Path:
 
 def value(motion: str, t: np.ndarray) -> np.ndarray:
     s = np.clip((t - 0.1) / 0.4, 0.0, 1.0)
-    of = {MOTIONS[0]: s**3 * (10.0 - 15.0 * s + 6.0 * s**2), MOTIONS[1]: s, MOTIONS[2]: np.maximum(0.0, t - 0.15),
-          MOTIONS[3]: np.abs(np.sin(4.0 * t))}  # fmt: skip
+    of = {
+        MOTIONS[0]: s**3 * (10.0 - 15.0 * s + 6.0 * s**2),
+        MOTIONS[1]: s,
+        MOTIONS[2]: np.maximum(0.0, t - 0.15),
+        MOTIONS[3]: np.abs(np.sin(4.0 * t)),
+    }
     return 1.35 + 0.2 * np.asarray(of[motion])
 
 

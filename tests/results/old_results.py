@@ -18,8 +18,9 @@ NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable.%10d"
 
 def save_old(run: Result, path: Path) -> None:
     """Write `run` in the layout of before the groups."""
-    arrays: dict[str, tuple[str, Any]] = {f"{'output.' * (name in DIMENSIONS)}{name}": ("time", run[name])
-                                          for name in run.names}  # fmt: skip
+    arrays: dict[str, tuple[str, Any]] = {
+        f"{'output.' * (name in DIMENSIONS)}{name}": ("time", run[name]) for name in run.names
+    }
     arrays |= {f"impact.{name}": ("impact", run.impacts[name]) for name in IMPACTS}
     arrays |= {f"event.{name}": ("event", run.events[name]) for name in EVENTS}
     arrays["parameters.prepared"] = "prepared", run.p

@@ -19,8 +19,12 @@ from tests.valve import valve
 
 pytestmark = needs_compiler
 METHODS: list[dict[str, Any]] = [
-    {}, {"rtol": 1e-11}, {"method": "rodas5p"}, {"method": "rk4", "step": 1e-3}, {"method": "dop853", "step": 1e-3},
-]  # fmt: skip
+    {},
+    {"rtol": 1e-11},
+    {"method": "rodas5p"},
+    {"method": "rk4", "step": 1e-3},
+    {"method": "dop853", "step": 1e-3},
+]
 W, TOP, STROKE = 7.0, 25e-3, 30e-3
 
 

@@ -60,8 +60,9 @@ def worn(folder: Path, text: str = PUMP) -> gudgeon.Simulation:
     return gudgeon.load(file, "worn")
 
 
-@pytest.mark.parametrize("options", [{},
-    pytest.param({"method": "rk4", "step": 1e-3}, marks=pytest.mark.slow), {"kinematic": True}], ids=str)
+@pytest.mark.parametrize(
+    "options", [{}, pytest.param({"method": "rk4", "step": 1e-3}, marks=pytest.mark.slow), {"kinematic": True}], ids=str
+)
 def test_every_run_comes_back_bit_for_bit(options: dict[str, Any], tmp_path: Path) -> None:
     own = dict(options)
     simulation = valve(tmp_path, own.pop("kinematic", False))

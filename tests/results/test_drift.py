@@ -13,9 +13,13 @@ from tests.programs import needs_compiler
 from tests.valve import valve
 
 WAYS: list[tuple[str, dict[str, Any]]] = [
-    ("reduced", {}), ("full", {}), ("reduced", {"method": "rk4", "step": 1e-3}),
-    ("full", {"method": "rk4", "step": 1e-3}), ("full", {"method": "rodas5p"}), ("full", {"method": "scipy:RK45"}),
-]  # fmt: skip
+    ("reduced", {}),
+    ("full", {}),
+    ("reduced", {"method": "rk4", "step": 1e-3}),
+    ("full", {"method": "rk4", "step": 1e-3}),
+    ("full", {"method": "rodas5p"}),
+    ("full", {"method": "scipy:RK45"}),
+]
 
 
 def rows(run: Result) -> tuple[np.ndarray, np.ndarray]:

@@ -70,8 +70,11 @@ def test_what_signs_do_not_agree_on_is_undecided() -> None:
     """Random points that do not grow apart, turns that do, too few points, and an exponent of either sign."""
     draws = np.random.default_rng(3).standard_normal((600, 1))
     for points, rate, error in (
-        (draws, -0.5, 0.01), (turning(0.618034), 0.5, 0.01), (logistic(4.0, 30), 0.69, 0.01), (logistic(4.0), 0.2, 0.4),
-    ):  # fmt: skip
+        (draws, -0.5, 0.01),
+        (turning(0.618034), 0.5, 0.01),
+        (logistic(4.0, 30), 0.69, 0.01),
+        (logistic(4.0), 0.2, 0.4),
+    ):
         found = classify(points, 1.0, rate, error)
         assert found.kind == "undecided" and found.period == 0
 

@@ -108,7 +108,8 @@ def test_a_dataset_is_what_the_file_holds(run: Result, ideal: Result, tmp_path: 
                 xarray.testing.assert_identical(file.load(), result.to_xarray(part))
         with h5py.File(tmp_path / "run.nc") as file:
             assert {name for name in file if isinstance(file[name], h5py.Group)} == {
-                *groups[result.source.scene], "compiled"
+                *groups[result.source.scene],
+                "compiled",
             }
 
 
@@ -123,7 +124,8 @@ def test_a_table_has_a_row_a_sample_and_a_column_a_series(run: Result, ideal: Re
         assert len(result.to_xarray("impacts").to_dataframe()) == len(result.impacts)
         assert len(result.to_xarray("events").to_dataframe()) == 0
         parameters = result.to_xarray("parameters").to_dataframe()
-        assert parameters["value"].to_dict() == {slot.address: result.parameters[slot.address]
-                                                 for slot in result.source.slots}  # fmt: skip
+        assert parameters["value"].to_dict() == {
+            slot.address: result.parameters[slot.address] for slot in result.source.slots
+        }
     with pytest.raises(InputError, match="impacts"):
         run.to_xarray("impact")

@@ -24,9 +24,11 @@ from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
 SCENES: list[tuple[str, str, dict[str, Any]]] = [
-    ("nine_bar_press", "dry", {"parameters": {"c": "0.4 mm"}}), ("slider_crank", "ideal", {}),
-    ("belt_block", "ideal", {"step": 1e-3}), ("pendulum", "ideal", {"method": "scipy:DOP853"}),
-]  # fmt: skip
+    ("nine_bar_press", "dry", {"parameters": {"c": "0.4 mm"}}),
+    ("slider_crank", "ideal", {}),
+    ("belt_block", "ideal", {"step": 1e-3}),
+    ("pendulum", "ideal", {"method": "scipy:DOP853"}),
+]
 
 
 def thawed(thing: Any) -> list[Any]:
@@ -168,6 +170,9 @@ def test_a_library_that_is_not_in_the_cache_there_is_compiled_again(tmp_path: Pa
     code = "import pickle, sys; print(pickle.load(open(sys.argv[1], 'rb'))['energy.kinetic'].tobytes().hex())"
     done = subprocess.run(
         [sys.executable, "-c", code, str(tmp_path / "run.pickle")],
-        env={**os.environ, "GUDGEON_CACHE": str(tmp_path / "cache")}, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        env={**os.environ, "GUDGEON_CACHE": str(tmp_path / "cache")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert done.stdout.strip() == run["energy.kinetic"].tobytes().hex()

@@ -120,10 +120,20 @@ def test_a_prefix_brings_a_number_near_one_and_does_not_change_it(size: float, u
 
 @pytest.mark.parametrize(
     ("value", "unit", "text"),
-    [(0.3e-3, "m", "0.3 mm"), (175.0, "N", "175 N"), (9e3, "N", "9 kN"), (1e-3, "kg", "0.001 kg"), (0.0, "m", "0 m"),
-     (math.nan, "m", "–"), (math.inf, "N", "inf N"), (2e-6, "kg*m^2", "2e-06 kg·m²"), (5.0, "", "5"),
-     (-0.02, "m/s^2", "-20 mm/s²"), (1e-8, "m^2", "1e-08 m²")],
-)  # fmt: skip
+    [
+        (0.3e-3, "m", "0.3 mm"),
+        (175.0, "N", "175 N"),
+        (9e3, "N", "9 kN"),
+        (1e-3, "kg", "0.001 kg"),
+        (0.0, "m", "0 m"),
+        (math.nan, "m", "–"),
+        (math.inf, "N", "inf N"),
+        (2e-6, "kg*m^2", "2e-06 kg·m²"),
+        (5.0, "", "5"),
+        (-0.02, "m/s^2", "-20 mm/s²"),
+        (1e-8, "m^2", "1e-08 m²"),
+    ],
+)
 def test_quantities_as_people_write_them(value: float, unit: str, text: str) -> None:
     assert quantity(value, unit) == text
 
@@ -214,8 +224,10 @@ def test_angles_are_in_degrees_for_people(run: Result, ideal: Result) -> None:
     np.testing.assert_allclose(ax.lines[0].get_ydata(), np.degrees(run["L1.theta"]))
     assert run.plot.series("L1.omega").get_ylabel() == "L1.omega [°/s]"
     assert labels(plots.figure({"ideal": ideal}, {}, ["L1.theta"]))[:3] == [
-        "L1.theta [°]", "L1.omega [°/s]", "L1.alpha [°/s²]",
-    ]  # fmt: skip
+        "L1.theta [°]",
+        "L1.omega [°/s]",
+        "L1.alpha [°/s²]",
+    ]
 
 
 def test_ten_scenes_are_told_apart(make: Callable[..., Result]) -> None:

@@ -26,9 +26,13 @@ def test_a_point_moves_as_the_crank_carries_it(run: Result) -> None:
     w, t, length = 2 * np.pi, run.t, 0.08
     cos, sin = np.cos(w * t), np.sin(w * t)
     exact = {
-        "x": length * cos, "y": length * sin, "vx": -w * length * sin, "vy": w * length * cos,
-        "ax": -(w**2) * length * cos, "ay": -(w**2) * length * sin,
-    }  # fmt: skip
+        "x": length * cos,
+        "y": length * sin,
+        "vx": -w * length * sin,
+        "vy": w * length * cos,
+        "ax": -(w**2) * length * cos,
+        "ay": -(w**2) * length * sin,
+    }
     for name, values in exact.items():
         np.testing.assert_allclose(run[f"L1.head.{name}"], values, rtol=0, atol=1e-13)
         np.testing.assert_allclose(run[f"L1.tail.{name}"], 0.0, rtol=0, atol=1e-13)
@@ -131,12 +135,24 @@ def test_without_a_compiled_model_forces_are_refused_with_a_reason(stripped: Res
 @pytest.mark.parametrize(
     ("tree", "unit"),
     [
-        (["*", 2.0, "x"], "m"), (["/", "x", "t"], "m/s"), (["**", "x", 2.0], "m^2"), (["sqrt", ["*", "x", "x"]], "m"),
-        (["*", "F", "x"], "J"), (["/", "F", "x"], "N/m"), (["*", "F", ["/", "x", "t"]], "W"), (["cos", "a"], ""),
-        (["*", "w", "x"], "m/s"), (["atan2", "x", "x"], "rad"), (["+", 1.0, "x"], "m"), (["abs", ["-", "x"]], "m"),
-        (["**", "x", "x"], ""), (["/", 1.0, "t"], "1/s"), (["hypot", "x", "x"], "m"), (["*", "w", "t"], "rad"),
+        (["*", 2.0, "x"], "m"),
+        (["/", "x", "t"], "m/s"),
+        (["**", "x", 2.0], "m^2"),
+        (["sqrt", ["*", "x", "x"]], "m"),
+        (["*", "F", "x"], "J"),
+        (["/", "F", "x"], "N/m"),
+        (["*", "F", ["/", "x", "t"]], "W"),
+        (["cos", "a"], ""),
+        (["*", "w", "x"], "m/s"),
+        (["atan2", "x", "x"], "rad"),
+        (["+", 1.0, "x"], "m"),
+        (["abs", ["-", "x"]], "m"),
+        (["**", "x", "x"], ""),
+        (["/", 1.0, "t"], "1/s"),
+        (["hypot", "x", "x"], "m"),
+        (["*", "w", "t"], "rad"),
     ],
-)  # fmt: skip
+)
 def test_units_of_expressions(tree: object, unit: str) -> None:
     units = {"x": "m", "t": "s", "F": "N", "a": "rad", "w": "rad/s"}
     assert unit_of(from_json(tree), units.get) == unit

@@ -24,10 +24,18 @@ except gudgeon.GudgeonError as error:
     print(type(error).__name__, error)
 """
 DRAWING = (
-    "run().plot", "run().plot('t')", "run().animate('x.gif')", "run().animate()", "gudgeon.load('four_bar').to_html()",
-    "film().plot()", "wear().plot()", "import gudgeon.reynolds.plot", "import gudgeon.studies.show.study_plots",
-    "import gudgeon.drawing.tikz", "import gudgeon.web.panel",
-)  # fmt: skip
+    "run().plot",
+    "run().plot('t')",
+    "run().animate('x.gif')",
+    "run().animate()",
+    "gudgeon.load('four_bar').to_html()",
+    "film().plot()",
+    "wear().plot()",
+    "import gudgeon.reynolds.plot",
+    "import gudgeon.studies.show.study_plots",
+    "import gudgeon.drawing.tikz",
+    "import gudgeon.web.panel",
+)
 
 
 @needs_compiler

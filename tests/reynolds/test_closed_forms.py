@@ -55,8 +55,12 @@ def test_a_centred_journal_in_its_closed_form() -> None:
 
 
 STATES = [
-    (0.1, 0.0, 1.0, 1.0), (0.6, 1.0, 2.0, 1.0), (0.8, -0.5, 3.0, 0.5), (0.9, 0.0, 1.0, 2.0), (0.5, 1.0, 0.0, 0.25),
-]  # fmt: skip
+    (0.1, 0.0, 1.0, 1.0),
+    (0.6, 1.0, 2.0, 1.0),
+    (0.8, -0.5, 3.0, 0.5),
+    (0.9, 0.0, 1.0, 2.0),
+    (0.5, 1.0, 0.0, 0.25),
+]
 
 
 @pytest.mark.parametrize("state", STATES)
@@ -86,9 +90,14 @@ def test_a_gap_too_thin_for_doubles_says_so() -> None:
         solve(own, (own.clearance * (1.0 - 1e-10), 0.0), omega_journal=1.0, ends="sealed", groove=0.0, cells=(32, 4))
 
 
-@pytest.mark.parametrize(("eps", "sommerfeld", "attitude"), [
-    (0.2, 0.12373275, 66.899936), (0.5, 0.04930789, 58.296184), (0.8, 0.02110349, 42.180955),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("eps", "sommerfeld", "attitude"),
+    [
+        (0.2, 0.12373275, 66.899936),
+        (0.5, 0.04930789, 58.296184),
+        (0.8, 0.02110349, 42.180955),
+    ],
+)
 def test_long_bearing_with_reynolds_condition(eps: float, sommerfeld: float, attitude: float) -> None:
     """Values in eight digits, by Sommerfeld's substitution; what is sealed is infinitely long."""
     (radial, tangential), error = forces(eps, 0.0, 1.0, 0.7, ends="sealed", cells=(1536, 4))
@@ -110,8 +119,14 @@ def test_sommerfelds_pressure() -> None:
     """p = 6 μ ω (R/c)² ε sin φ (2 + ε cos φ)/((2 + ε²)(1 + ε cos φ)²) where it is positive, to the second order."""
     own, eps, omega, off = bearing(1.0), 0.6, 50.0, []
     for around in (64, 128, 256):
-        one = solve(own, (-eps * own.clearance, 0.0), omega_journal=omega, ends="sealed", cells=(around, 4),
-                    cavitation="half_sommerfeld")  # fmt: skip
+        one = solve(
+            own,
+            (-eps * own.clearance, 0.0),
+            omega_journal=omega,
+            ends="sealed",
+            cells=(around, 4),
+            cavitation="half_sommerfeld",
+        )
         x, y = np.cos(one.angle), np.sin(one.angle)
         want = 0.5 * own.pressure_unit * omega * eps * y * (2.0 + eps * x) / ((2.0 + eps**2) * (1.0 + eps * x) ** 2)
         off.append(float(abs(one.pressure[:, 1] - np.maximum(want, 0.0)).max() / want.max()))

@@ -46,16 +46,27 @@ def test_every_film_law_can_be_held_against_it(law: str) -> None:
     assert np.isfinite(found.law_force).all() and (found.share >= 0.0).all()
 
 
-@pytest.mark.parametrize(("how", "told"), [
-    ({"law": "pinkus"}, "did you mean 'pinkus_sternlicht'"), ({"law": "hertz"}, "unknown film law"),
-    ({"eps": [0.0]}, "above 0"), ({"eps": [1.0]}, "below 1"), ({"motion": []}, "at least one"),
-    ({"l_over_d": math.inf}, "l_over_d"), ({"stiffness": 1.0}, "no key 'stiffness'"), ({"eps": 0.5}, "eps has shape"),
-    ({"extra_clearance": "1 um"}, "extra_clearance: '1 um'"), ({"as_printed": 3}, "expected False or True"),
-    ({"extra_clearance": -1e-5}, "expected >= 0"), ({"viscosity": 0.0}, "expected > 0"),
-    ({"law": ["ocvirk"]}, "law is list"),
-    ({"shear": np.zeros(2)}, "expected False or True"), ({"l_over_d": -1.0}, "l_over_d is -1"),
-    ({"l_over_d": 1e300}, "expected 1e-6 to 1e6"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("how", "told"),
+    [
+        ({"law": "pinkus"}, "did you mean 'pinkus_sternlicht'"),
+        ({"law": "hertz"}, "unknown film law"),
+        ({"eps": [0.0]}, "above 0"),
+        ({"eps": [1.0]}, "below 1"),
+        ({"motion": []}, "at least one"),
+        ({"l_over_d": math.inf}, "l_over_d"),
+        ({"stiffness": 1.0}, "no key 'stiffness'"),
+        ({"eps": 0.5}, "eps has shape"),
+        ({"extra_clearance": "1 um"}, "extra_clearance: '1 um'"),
+        ({"as_printed": 3}, "expected False or True"),
+        ({"extra_clearance": -1e-5}, "expected >= 0"),
+        ({"viscosity": 0.0}, "expected > 0"),
+        ({"law": ["ocvirk"]}, "law is list"),
+        ({"shear": np.zeros(2)}, "expected False or True"),
+        ({"l_over_d": -1.0}, "l_over_d is -1"),
+        ({"l_over_d": 1e300}, "expected 1e-6 to 1e6"),
+    ],
+)
 def test_what_is_no_question(how: dict[str, object], told: str) -> None:
     with pytest.raises(InputError, match=told):
         deviation(**{"law": "pinkus_sternlicht", "l_over_d": 1.0, **how})  # type: ignore[arg-type]

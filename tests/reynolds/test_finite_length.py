@@ -27,8 +27,9 @@ def states(count: int, top: float = 0.9999) -> tuple[Array, Array, Array]:
     return np.minimum(eps, top), size * np.cos(angle), size * np.sin(angle)
 
 
-@pytest.mark.parametrize("ratio", [0.25,
-    pytest.param(0.55, marks=pytest.mark.slow), pytest.param(1.05, marks=pytest.mark.slow), 2.0])
+@pytest.mark.parametrize(
+    "ratio", [0.25, pytest.param(0.55, marks=pytest.mark.slow), pytest.param(1.05, marks=pytest.mark.slow), 2.0]
+)
 def test_within_a_percent_or_so_of_the_largest_force(ratio: float) -> None:
     """As its validity says; away from the points of tools/finite_length.py. Found: .7, .7, .5 and .8 %."""
     found = deviation("finite_length", ratio, eps=[0.1, 0.37, 0.65, 0.85, 0.95], motion=MOTION, cells=(96, 16))
@@ -42,8 +43,9 @@ def test_within_three_percent_further_out(ratio: float, eps: float) -> None:
     assert deviation("finite_length", ratio, eps=[eps], motion=MOTION, cells=(128, 16)).share.max() < 0.03
 
 
-@pytest.mark.parametrize(("column", "width", "load", "angle"), [(0, 1.0, 0.03, 5.6), (1, 0.5, 0.03, 2.0),
-                                                                (2, 0.25, 0.03, 1.3)])
+@pytest.mark.parametrize(
+    ("column", "width", "load", "angle"), [(0, 1.0, 0.03, 5.6), (1, 0.5, 0.03, 2.0), (2, 0.25, 0.03, 1.3)]
+)
 def test_rotation_of_butenschoen(column: int, width: float, load: float, angle: float) -> None:
     """So within 3 %; the attitude in degrees: his film begins at the widest gap, which tells where ε is small."""
     eps = np.array([x for x in ROTATION if x <= 0.97])
@@ -58,13 +60,15 @@ def test_rotation_of_butenschoen(column: int, width: float, load: float, angle: 
 def test_a_short_bearing_is_ocvirks(eps: float) -> None:
     turn = np.linspace(-np.pi, np.pi, 41)
     own = Bearing(0.01, 0.02 * 1e-4, 1e-5, 0.1)
-    got, want = (law_force(law, own, {})(eps + 0.0 * turn, np.cos(turn), np.sin(turn)) for law in
-                 ("finite_length", "ocvirk"))
+    got, want = (
+        law_force(law, own, {})(eps + 0.0 * turn, np.cos(turn), np.sin(turn)) for law in ("finite_length", "ocvirk")
+    )
     assert np.hypot(*(got - want).T).max() < 0.01 * np.hypot(*want.T).max()
 
 
-@pytest.mark.parametrize("ratio", [0.05,
-    pytest.param(0.5, marks=pytest.mark.slow), 1.36, pytest.param(3.0, marks=pytest.mark.slow), 8.0])
+@pytest.mark.parametrize(
+    "ratio", [0.05, pytest.param(0.5, marks=pytest.mark.slow), 1.36, pytest.param(3.0, marks=pytest.mark.slow), 8.0]
+)
 def test_the_force_is_the_gradient_of_a_potential(ratio: float) -> None:
     """−F·w = 2 V > 0, for every L/D, and ∂F_r/∂w_t = ∂F_t/∂w_n."""
     eps, w_n, w_t = states(10_000)

@@ -144,8 +144,14 @@ def test_elrod_adams_refuses_what_it_cannot_know() -> None:
 def test_a_film_without_oil_is_found_too() -> None:
     """A gap that opens at ε = .99, the groove far behind: films come and go while one is looked for, none is there."""
     turn = 0.2128813559322034
-    dry = solve(Bearing(0.01, 0.0326, 1e-5, 0.1), (9.906e-6 * math.cos(turn), 9.906e-6 * math.sin(turn)),
-                (-8.6e-6, 3.6e-6), omega_journal=2.2693, cavitation="elrod_adams", groove=6.2059)  # fmt: skip
+    dry = solve(
+        Bearing(0.01, 0.0326, 1e-5, 0.1),
+        (9.906e-6 * math.cos(turn), 9.906e-6 * math.sin(turn)),
+        (-8.6e-6, 3.6e-6),
+        omega_journal=2.2693,
+        cavitation="elrod_adams",
+        groove=6.2059,
+    )
     assert abs(dry.balance) < 1e-13 * 2.27e-9 and dry.content.min() > 0.0 and (dry.pressure >= 0.0).all()
 
 
@@ -168,8 +174,15 @@ def test_where_a_film_forms_again() -> None:
     want = np.array([np.trapezoid(p * np.cos(x), x), np.trapezoid(p * np.sin(x), x)])
     unit, off = BEARING.viscosity * BEARING.radius**3 * BEARING.length / BEARING.clearance**2 * OMEGA, []
     for around in (192, 768, 3072):
-        one = solve(BEARING, (-eps * BEARING.clearance, 0.0), omega_journal=OMEGA, cavitation="elrod_adams",
-                    ends="sealed", groove=at, cells=(around, 4))  # fmt: skip
+        one = solve(
+            BEARING,
+            (-eps * BEARING.clearance, 0.0),
+            omega_journal=OMEGA,
+            cavitation="elrod_adams",
+            ends="sealed",
+            groove=at,
+            cells=(around, 4),
+        )
         off.append(float(np.hypot(one.radial / unit - want[0], one.tangential / unit - want[1])))
         assert off[-1] < one.error / unit and abs(one.supply) < 1e-9 * LARGE
     assert off[-1] < 0.01 * np.hypot(*want)

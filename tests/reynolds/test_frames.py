@@ -26,20 +26,30 @@ def turned(vector: np.ndarray, angle: float) -> np.ndarray:
 def test_the_frame_does_not_matter(cavitation: str) -> None:
     """Turned, mirrored, and seen from one that turns: the same film."""
     one = solve(BEARING, E, V, omega_journal=OMEGA, cavitation=cavitation, groove=2.0, cells=CELLS)
-    other = solve(BEARING, turned(E, 1.0), turned(V, 1.0), omega_journal=OMEGA, cavitation=cavitation, groove=3.0,
-                  cells=CELLS)  # fmt: skip
+    other = solve(
+        BEARING, turned(E, 1.0), turned(V, 1.0), omega_journal=OMEGA, cavitation=cavitation, groove=3.0, cells=CELLS
+    )
     size = float(np.hypot(*one.force))
     assert other.force == pytest.approx(turned(one.force, 1.0), abs=1e-9 * size)
     mirror = np.array([1.0, -1.0])
-    other = solve(BEARING, mirror * E, mirror * V, omega_journal=-OMEGA, cavitation=cavitation, groove=-2.0,
-                  cells=CELLS)  # fmt: skip
+    other = solve(
+        BEARING, mirror * E, mirror * V, omega_journal=-OMEGA, cavitation=cavitation, groove=-2.0, cells=CELLS
+    )
     assert other.force == pytest.approx(mirror * one.force, abs=1e-9 * size)
     assert other.attitude == pytest.approx(-one.attitude, abs=1e-9)
     assert other.torque_journal == pytest.approx(-one.torque_journal, rel=1e-9)
     assert other.leakage == pytest.approx(one.leakage, rel=1e-9)
     spin = 37.0
-    other = solve(BEARING, E, V + spin * np.array([-E[1], E[0]]), omega_journal=OMEGA + spin, omega_bearing=spin,
-                  cavitation=cavitation, groove=2.0, cells=CELLS)  # fmt: skip
+    other = solve(
+        BEARING,
+        E,
+        V + spin * np.array([-E[1], E[0]]),
+        omega_journal=OMEGA + spin,
+        omega_bearing=spin,
+        cavitation=cavitation,
+        groove=2.0,
+        cells=CELLS,
+    )
     assert other.force == pytest.approx(one.force, abs=1e-9 * size) and other.omega_s == pytest.approx(one.omega_s)
 
 
@@ -108,27 +118,47 @@ def test_the_picture() -> None:
 SHAPE = {"radius": 0.01, "length": 0.02, "clearance": 1e-5, "viscosity": 0.1}
 
 
-@pytest.mark.parametrize(("change", "told"), [
-    ({"length": -0.02}, "length is -0.02: expected a number above zero"), ({"radius": 0}, "above zero"),
-    ({"viscosity": math.nan}, "finite"), ({"clearance": "1e-5"}, "clearance: '1e-5'"), ({"viscosity": True}, "True"),
-    ({"clearance": 2e-3}, "tenth of the radius"), ({"length": math.inf}, "finite"),
-    ({"radius": 10**400}, "radius"), ({"length": np.timedelta64(3, "s")}, "length"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"length": -0.02}, "length is -0.02: expected a number above zero"),
+        ({"radius": 0}, "above zero"),
+        ({"viscosity": math.nan}, "finite"),
+        ({"clearance": "1e-5"}, "clearance: '1e-5'"),
+        ({"viscosity": True}, "True"),
+        ({"clearance": 2e-3}, "tenth of the radius"),
+        ({"length": math.inf}, "finite"),
+        ({"radius": 10**400}, "radius"),
+        ({"length": np.timedelta64(3, "s")}, "length"),
+    ],
+)
 def test_bearings_that_are_none(change: dict[str, Any], told: str) -> None:
     with pytest.raises(BadValueError, match=told):
         Bearing(**{**SHAPE, **change})
 
 
-@pytest.mark.parametrize(("change", "told"), [
-    ({"eccentricity": (30e-6, 0.0)}, "1 times the clearance"), ({"eccentricity": (1.0, 2.0, 3.0)}, "eccentricity"),
-    ({"eccentricity": (math.nan, 0.0)}, "eccentricity"), ({"rate": (math.inf, 0.0)}, "rate"),
-    ({"omega_journal": math.inf}, "omega_journal"), ({"omega_bearing": "1"}, "omega_bearing"),
-    ({"cavitation": "gumbel"}, "half_sommerfeld, reynolds or elrod_adams"), ({"ends": None}, "open or sealed"),
-    ({"groove": "top"}, "groove"), ({"groove": math.nan}, "groove"), ({"cells": (100, 10)}, "multiples of 4"),
-    ({"cells": 100}, "cells"), ({"cells": (96.0, 12)}, "cells"), ({"cells": (2**20, 2**10)}, "2000000 cells"),
-    ({"omega_journal": 10**400}, "omega_journal"), ({"bearing": {"radius": 1.0}}, "bearing is dict"),
-    ({"omega_journal": 1e308, "cells": CELLS}, "too far from 1 for doubles"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"eccentricity": (30e-6, 0.0)}, "1 times the clearance"),
+        ({"eccentricity": (1.0, 2.0, 3.0)}, "eccentricity"),
+        ({"eccentricity": (math.nan, 0.0)}, "eccentricity"),
+        ({"rate": (math.inf, 0.0)}, "rate"),
+        ({"omega_journal": math.inf}, "omega_journal"),
+        ({"omega_bearing": "1"}, "omega_bearing"),
+        ({"cavitation": "gumbel"}, "half_sommerfeld, reynolds or elrod_adams"),
+        ({"ends": None}, "open or sealed"),
+        ({"groove": "top"}, "groove"),
+        ({"groove": math.nan}, "groove"),
+        ({"cells": (100, 10)}, "multiples of 4"),
+        ({"cells": 100}, "cells"),
+        ({"cells": (96.0, 12)}, "cells"),
+        ({"cells": (2**20, 2**10)}, "2000000 cells"),
+        ({"omega_journal": 10**400}, "omega_journal"),
+        ({"bearing": {"radius": 1.0}}, "bearing is dict"),
+        ({"omega_journal": 1e308, "cells": CELLS}, "too far from 1 for doubles"),
+    ],
+)
 def test_questions_that_are_none(change: dict[str, Any], told: str) -> None:
     with pytest.raises(BadValueError, match=told):
         solve(**{"bearing": BEARING, "eccentricity": (1e-6, 0.0), **change})

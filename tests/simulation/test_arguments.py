@@ -52,8 +52,12 @@ def test_a_unit_may_follow_its_number_at_once() -> None:
     glued, apart, number = (pendulum.simulate("0.01s", step=step, output=5) for step in ("500us", "500 us", 5e-4))
     assert (glued.q == apart.q).all() and (glued.q == number.q).all()
     assert [spaced(text) for text in ("0.5mm", "0.5 mm", "2*pi rad/s", "1e-3m", "7")] == [
-        "0.5 mm", "0.5 mm", "2*pi rad/s", "1e-3 m", "7",
-    ]  # fmt: skip
+        "0.5 mm",
+        "0.5 mm",
+        "2*pi rad/s",
+        "1e-3 m",
+        "7",
+    ]
 
 
 def test_a_long_text_is_looked_at_once() -> None:
@@ -92,8 +96,23 @@ def test_numbers_are_texts_too() -> None:
     assert batch[0].q.tobytes() == plain.q.tobytes()
 
 
-NO_NUMBERS = ("1_0", "\uff11", "1e-400", "1e400", "nan", "inf", "", "  ", "1e", "0x10", "1,5", "1 0", "1e5e5", "٣",
-              "1e-9 x")  # fmt: skip
+NO_NUMBERS = (
+    "1_0",
+    "\uff11",
+    "1e-400",
+    "1e400",
+    "nan",
+    "inf",
+    "",
+    "  ",
+    "1e",
+    "0x10",
+    "1,5",
+    "1 0",
+    "1e5e5",
+    "٣",
+    "1e-9 x",
+)
 
 
 @pytest.mark.parametrize("text", NO_NUMBERS)
@@ -163,8 +182,26 @@ def test_a_number_that_is_set_twice_is_told(call: Gudgeon) -> None:
             assert done.exit_code == 2 and f"this number is set already, by --set {settings[0]}" in done.output
 
 
-@pytest.mark.parametrize("value", [None, [1.0, 2.0], 1j, float("nan"), 10**400, b"1", object(), np.ma.masked, {},
-                                   True, np.True_, np.array(True), 5e-324, -1e-320, np.float64(2e-308)])  # fmt: skip
+@pytest.mark.parametrize(
+    "value",
+    [
+        None,
+        [1.0, 2.0],
+        1j,
+        float("nan"),
+        10**400,
+        b"1",
+        object(),
+        np.ma.masked,
+        {},
+        True,
+        np.True_,
+        np.array(True),
+        5e-324,
+        -1e-320,
+        np.float64(2e-308),
+    ],
+)
 def test_what_is_no_number(value: Any) -> None:
     pendulum = gudgeon.load("pendulum")
     with pytest.raises(BadValueError, match="parameters.g"), warnings.catch_warnings():

@@ -53,10 +53,17 @@ scenes: {f: {play: {B: {bearing: g, contact: f}}}}
 NO_FILM_ERROR = ("engine/methods/defect.c", "return run->films.error;", "return 0.0;")
 
 
-@pytest.mark.parametrize("name, scene, t_end", [
-    ("nine_bar_press", "dry", 0.05), ("nine_bar_press", "lubricated", 0.1), ("slider_crank_spring", "ideal", 0.5),
-    ("four_bar", "ideal", 1.0), ("belt_block", "ideal", 1.0), ("bouncing_ball", "damped", 0.5),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, scene, t_end",
+    [
+        ("nine_bar_press", "dry", 0.05),
+        ("nine_bar_press", "lubricated", 0.1),
+        ("slider_crank_spring", "ideal", 0.5),
+        ("four_bar", "ideal", 1.0),
+        ("belt_block", "ideal", 1.0),
+        ("bouncing_ball", "damped", 0.5),
+    ],
+)
 @pytest.mark.parametrize("method", ["auto", "dop853", "rk4"])
 def test_right_runs_stay_far_below_every_limit(name: str, scene: str, t_end: float, method: str) -> None:
     simulation = gudgeon.load(name, scene)
@@ -82,15 +89,26 @@ def test_the_audit_changes_no_number() -> None:
 IN_C = {check.name for check in CHECKS}
 
 
-@pytest.mark.parametrize("name, scene, method, checked", [
-    ("nine_bar_press", "dry", "auto",
-     {"defect", "gap", "free", "position", "velocity", "acceleration", "branch", "step"}),
-    ("nine_bar_press", "lubricated", "auto",
-     {"defect", "gap", "position", "velocity", "acceleration", "branch", "force", "step"}),
-    ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration", "step"}),
-    ("nine_bar_press", "dry", "rk4", {"free", "position", "velocity", "acceleration", "branch"}),
-    ("pendulum", "ideal", "rk4", {"position", "velocity", "acceleration"}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, scene, method, checked",
+    [
+        (
+            "nine_bar_press",
+            "dry",
+            "auto",
+            {"defect", "gap", "free", "position", "velocity", "acceleration", "branch", "step"},
+        ),
+        (
+            "nine_bar_press",
+            "lubricated",
+            "auto",
+            {"defect", "gap", "position", "velocity", "acceleration", "branch", "force", "step"},
+        ),
+        ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration", "step"}),
+        ("nine_bar_press", "dry", "rk4", {"free", "position", "velocity", "acceleration", "branch"}),
+        ("pendulum", "ideal", "rk4", {"position", "velocity", "acceleration"}),
+    ],
+)
 def test_what_was_not_checked_is_not_listed(name: str, scene: str, method: str, checked: set[str]) -> None:
     run = gudgeon.load(name, scene).simulate(
         0.03, output=20, method=method, step=1e-5 if method == "rk4" else None, audit="full"
@@ -147,10 +165,11 @@ def test_a_contact_that_is_missed(tmp_path: Path) -> None:
     right = crank(tmp_path)
     assert not reported(right, 0.05)
     wrong = mutant(
-        right, tmp_path,
+        right,
+        tmp_path,
         ("engine/watch/events.c", "is_gap ? has_zero(run", "is_gap ? run->contacts.onsets % 3 != 2 && has_zero(run"),
         ("engine/methods/step_length.c", "!run->memory.latch[i].closed && joint->deltadot < 0.0)", "0)"),
-    )  # fmt: skip
+    )
     found = reported(wrong, 0.05)
     assert found
 
@@ -170,11 +189,12 @@ def test_film_forces_between_the_ends_of_steps(tmp_path: Path) -> None:
     right = loader(tmp_path)(FILM, "f")
     assert not reported(right, 0.05, method="radau5")
     wrong = mutant(
-        right, tmp_path,
+        right,
+        tmp_path,
         ("engine/methods/radau.c", "i < N_X && !has_films()", "i < N_X"),
         ("engine/both/radau_step.h", "& (falls * apart <= run->newton.force_found * (1.0 - falls))", ""),
         NO_FILM_ERROR,
-    )  # fmt: skip
+    )
     assert "check force" in reported(wrong, 0.05, method="radau5")
 
 
@@ -193,11 +213,15 @@ def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
     assert not reported(link, 10.0, method="taylor", rtol=rtol)
     (tmp_path / "mutant").mkdir()
     wrong = mutant(
-        link, tmp_path / "mutant",
-        ("engine/both/taylor.h", "return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));",
-         "(void)most, (void)most_before, (void)n;\n    return real_of(0.9);"),
+        link,
+        tmp_path / "mutant",
+        (
+            "engine/both/taylor.h",
+            "return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));",
+            "(void)most, (void)most_before, (void)n;\n    return real_of(0.9);",
+        ),
         ("engine/both/taylor.h", "status ? real_of(INFINITY) : taylor_defect(run, step, rate)", "real_of(0.0)"),
-    )  # fmt: skip
+    )
     found = reported(wrong, 10.0, method="taylor", rtol=rtol)
     assert any(x in found for x in ("check defect", "check rate", "check step", "no step is small enough")), found
 
@@ -205,9 +229,16 @@ def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
 def test_a_dense_output_that_is_wrong(tmp_path: Path) -> None:
     """A coefficient of the interpolant: ends of steps are right, samples are not."""
     press = gudgeon.load("nine_bar_press", "lubricated")
-    wrong = mutant(press, tmp_path, (
-        "engine/methods/radau.c", "r * (d[1][i] + s * (d[2][i]", "r * (1.01 * d[1][i] + s * (d[2][i]",
-    ), NO_FILM_ERROR)  # fmt: skip
+    wrong = mutant(
+        press,
+        tmp_path,
+        (
+            "engine/methods/radau.c",
+            "r * (d[1][i] + s * (d[2][i]",
+            "r * (1.01 * d[1][i] + s * (d[2][i]",
+        ),
+        NO_FILM_ERROR,
+    )
     found = reported(wrong, 0.1, audit="full")
     assert any(check in found for check in ("check defect", "check step", "check sample")), found
 

@@ -61,11 +61,23 @@ def test_two_blocks_that_rest_on_each_other(method: str, rtol: float, tmp_path: 
 def test_a_run_that_goes_on_from_an_event(tmp_path: Path) -> None:
     """It begins a rounding error before the zero, which the run before has recorded."""
     block = loader(tmp_path)(BLOCK)
-    given = {"A": 4.066959514006033, "w": 34.772620605026425, "S": 2.458748109031319, "K": 1.067881669804872,
-             "k": 17.793277739755798, "v0": -0.285344534272443}  # fmt: skip
+    given = {
+        "A": 4.066959514006033,
+        "w": 34.772620605026425,
+        "S": 2.458748109031319,
+        "K": 1.067881669804872,
+        "k": 17.793277739755798,
+        "v0": -0.285344534272443,
+    }
     run, found = None, []
-    for cut in (0.002747010733579974, 0.11967622939821876, 0.12179146032797047, 0.21413472864528876,
-                0.28491558693146074, 0.3054154259808228):  # fmt: skip
+    for cut in (
+        0.002747010733579974,
+        0.11967622939821876,
+        0.12179146032797047,
+        0.21413472864528876,
+        0.28491558693146074,
+        0.3054154259808228,
+    ):
         start: dict[str, Any] = {"parameters": given} if run is None else {"start": run.final}
         run = block.simulate(cut, method="radau5", rtol=1.4375336929052935e-08, output=1, **start)
         found += run.events_of("passes").tolist()
@@ -76,8 +88,14 @@ def test_a_run_that_goes_on_from_an_event(tmp_path: Path) -> None:
 def test_what_is_left_of_a_slip(tmp_path: Path) -> None:
     """A friction that sticks holds slips below 1e-9 m/s; the rates of what is left of them are no motion."""
     block = loader(tmp_path)(BLOCK)
-    given = {"A": 1.6252533506605826, "w": 5.585678105688332, "S": 0.38729704267642945, "K": 0.12456608259321347,
-             "k": 816.1890924308686, "v0": 0.0}  # fmt: skip
+    given = {
+        "A": 1.6252533506605826,
+        "w": 5.585678105688332,
+        "S": 0.38729704267642945,
+        "K": 0.12456608259321347,
+        "k": 816.1890924308686,
+        "v0": 0.0,
+    }
     run = None
     for cut in (0.6087375078117262, 1.1172433331308822, 1.1248742208725269):
         start: dict[str, Any] = {"parameters": given} if run is None else {"start": run.final}

@@ -142,11 +142,15 @@ def test_a_parameter_that_is_not_taken_over(first: int, tmp_path: Path) -> None:
         check_reference(mutant(right, tmp_path, ("parameters.c", line, stale)).compiled)
 
 
-@pytest.mark.parametrize("text, wrong", [
-    ("smaller_1 = 1.0;", "smaller_1 = 1.1;"), ("smaller_2 = 1.0;", "smaller_2 = 1.1;"),
-    ("smaller_1 = friction_slope*(-v0 - v_t);", "smaller_1 = friction_slope*(-v0 + v_t);"),
-    ("larger_2 = smaller_2;", "larger_2 = 0.0;"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "text, wrong",
+    [
+        ("smaller_1 = 1.0;", "smaller_1 = 1.1;"),
+        ("smaller_2 = 1.0;", "smaller_2 = 1.1;"),
+        ("smaller_1 = friction_slope*(-v0 - v_t);", "smaller_1 = friction_slope*(-v0 + v_t);"),
+        ("larger_2 = smaller_2;", "larger_2 = 0.0;"),
+    ],
+)
 def test_a_branch_of_a_law_that_is_wrong(text: str, wrong: str, tmp_path: Path) -> None:
     """Stored values have contacts that slip either way, fully and in the transition."""
     broken = mutant(gudgeon.load("slider_crank", "dry"), tmp_path, ("clearance.c", text, wrong))
@@ -181,10 +185,13 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
     assert "check step" in reported(mutant(right, tmp_path, edit), 0.02, audit="full")
 
 
-@pytest.mark.parametrize("method, edit", [
-    ("rodas5p", ("engine/both/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
-    ("dop853", ("engine/both/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "method, edit",
+    [
+        ("rodas5p", ("engine/both/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
+        ("dop853", ("engine/both/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)")),
+    ],
+)
 def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, str], tmp_path: Path) -> None:
     right = gudgeon.load("andrews_squeezer")
     assert not reported(right, 0.03, method=method)
@@ -193,10 +200,13 @@ def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, 
     assert "audit: check" in reported(mutant(right, tmp_path, edit, also), 0.03, method=method)
 
 
-@pytest.mark.parametrize("name, t_end, edit", [
-    ("andrews_squeezer", 0.02, ("if (s + 1 == DOP853_STAGES)", "if (s - 1 == DOP853_STAGES)")),
-    ("slider_crank_spring", 1.0, ("- 43.48988418106996 * k[7][i]);", "* k[7][i]);")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name, t_end, edit",
+    [
+        ("andrews_squeezer", 0.02, ("if (s + 1 == DOP853_STAGES)", "if (s - 1 == DOP853_STAGES)")),
+        ("slider_crank_spring", 1.0, ("- 43.48988418106996 * k[7][i]);", "* k[7][i]);")),
+    ],
+)
 def test_a_method_that_loses_its_order(name: str, t_end: float, edit: tuple[str, str], tmp_path: Path) -> None:
     """A stage of DOP853 at another place: many short steps, of which each alone errs by less than the tolerance."""
     right = gudgeon.load(name)

@@ -35,10 +35,15 @@ def test_speeds_count_where_the_start_is_unbounded(method: str, rtol: float, tmp
     assert not audit_notes(run)
 
 
-@pytest.mark.parametrize("value, method, rtol", [
-    ("1 rad*abs(t/(1 s) - 0.5)**1.5", "dop853", 1e-4), ("1 rad*max(t/(1 s) - 0.3, 0)**1.3", "radau5", 1e-10),
-    ("1 rad*max(sin(10 rad/s*t), 0)**2.5", "dop853", 1e-10), ("1 rad*abs(sin(10 rad/s*t))**1.7", "radau5", 1e-8),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "value, method, rtol",
+    [
+        ("1 rad*abs(t/(1 s) - 0.5)**1.5", "dop853", 1e-4),
+        ("1 rad*max(t/(1 s) - 0.3, 0)**1.3", "radau5", 1e-10),
+        ("1 rad*max(sin(10 rad/s*t), 0)**2.5", "dop853", 1e-10),
+        ("1 rad*abs(sin(10 rad/s*t))**1.7", "radau5", 1e-8),
+    ],
+)
 def test_steps_that_end_where_a_second_rate_is_unbounded(value: str, method: str, rtol: float, tmp_path: Path) -> None:
     """No polynomial follows it there, so that the dense output says nothing about the step."""
     run = loader(tmp_path)(CRANK.format(value=value)).simulate(1.0, method=method, rtol=rtol, output=50, audit="full")

@@ -89,10 +89,14 @@ def case(name: str, method: str) -> tuple[Simulation, dict[str, Any]]:
 
 
 STRIDES = [
-    ("dry", "auto", 661), ("dry", "dop853", 509), ("dry", "rk4", 397), ("lubricated", "auto", 83),
-    ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 47),
+    ("dry", "auto", 661),
+    ("dry", "dop853", 509),
+    ("dry", "rk4", 397),
+    ("lubricated", "auto", 83),
+    ("lubricated", "rodas5p", 29),
+    ("lubricated", "scipy:DOP853", 47),
     ("four_bar", "auto", 211),
-]  # fmt: skip
+]
 
 
 RARE = [("dry", "dop853", 509), ("lubricated", "scipy:DOP853", 47)]
@@ -298,9 +302,10 @@ def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
 
 
 OUTRUN = [
-    ("1 rad/(t/(1 s) - 0.5)", 0.499, 0.5), ("1 rad * exp(exp(exp(t/(0.3 s))))", 0.2, 0.6),
+    ("1 rad/(t/(1 s) - 0.5)", 0.499, 0.5),
+    ("1 rad * exp(exp(exp(t/(0.3 s))))", 0.2, 0.6),
     ("1 rad * tan(3*t/(1 s))", 0.52, 0.53),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("value", "least", "most"), slow_rows_but(OUTRUN[:1], OUTRUN))

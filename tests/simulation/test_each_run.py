@@ -29,10 +29,13 @@ def press(scene: str = "dry") -> Simulation:
 
 
 OPTIONS: list[Any] = [
-    ("dry", {"rtol": 1e-6}), ("dry", {"method": "dop853", "step": 1e-6}), ("dry", {"method": "rk4", "step": 5e-6}),
-    ("dry", {"method": "rk4", "step": 5e-6, "side_by_side": False}), ("ideal", {}),
+    ("dry", {"rtol": 1e-6}),
+    ("dry", {"method": "dop853", "step": 1e-6}),
+    ("dry", {"method": "rk4", "step": 5e-6}),
+    ("dry", {"method": "rk4", "step": 5e-6, "side_by_side": False}),
+    ("ideal", {}),
     pytest.param("dry", {"method": "scipy:DOP853", "rtol": 1e-4}, marks=[pytest.mark.plain, pytest.mark.slow]),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("scene", "options"), OPTIONS)
@@ -103,9 +106,12 @@ def test_a_number_that_is_none_fails_its_own_run() -> None:
     nan, columns = math.nan, {"c": [3e-4, 4e-4]}
     good = press().simulate_many(columns, 0.002, output=2).q[0]
     cases: list[dict[str, Any]] = [
-        {"t_end": [0.002, nan]}, {"t_end": np.array([0.002, -math.inf])}, {"t_end": 0.002, "method": "rk4"},
-        {"output": [[0.0, 0.001, 0.002], [0.0, nan, 0.002]]}, {"t_end": "0.001/(omega - 5)"},
-    ]  # fmt: skip
+        {"t_end": [0.002, nan]},
+        {"t_end": np.array([0.002, -math.inf])},
+        {"t_end": 0.002, "method": "rk4"},
+        {"output": [[0.0, 0.001, 0.002], [0.0, nan, 0.002]]},
+        {"t_end": "0.001/(omega - 5)"},
+    ]
     for case in cases:
         more = {"step": [5e-6, nan]} if "method" in case else {}
         given = columns | ({"omega": [6.0, 5.0]} if isinstance(case.get("t_end"), str) else {})
@@ -121,19 +127,23 @@ def test_a_number_that_is_none_fails_its_own_run() -> None:
 
 
 MISTAKES: list[tuple[dict[str, Any], str]] = [
-    ({"t_end": [0.1, 0.2]}, "t_end has 2 values for 3 runs"), ({"t_end": []}, "t_end has 0 values for 3 runs"),
-    ({"step": [1e-5]}, "step has 1 values for 3 runs"), ({"output": [[0.0, 1.0]]}, "output has 1 rows of times for 3"),
+    ({"t_end": [0.1, 0.2]}, "t_end has 2 values for 3 runs"),
+    ({"t_end": []}, "t_end has 0 values for 3 runs"),
+    ({"step": [1e-5]}, "step has 1 values for 3 runs"),
+    ({"output": [[0.0, 1.0]]}, "output has 1 rows of times for 3"),
     ({"t_end": [0.1, 0.0, 0.1]}, "run 1: t_end is 0 s: expected a time after the start"),
-    ({"t_end": [0.1, None, 0.1]}, "run 1: t_end is None"), ({"step": [1e-5, 1e-5, None]}, "run 2: step is None"),
+    ({"t_end": [0.1, None, 0.1]}, "run 1: t_end is None"),
+    ({"step": [1e-5, 1e-5, None]}, "run 2: step is None"),
     ({"step": [1e-5, -1e-5, 1e-5]}, "run 1: step is -1e-05 s: expected a positive time"),
-    ({"t_end": [0.1, "3 kg", 0.1]}, r"run 1: .*time"), ({"t_end": "1/omga"}, "run 0: .*unknown name 'omga'"),
+    ({"t_end": [0.1, "3 kg", 0.1]}, r"run 1: .*time"),
+    ({"t_end": "1/omga"}, "run 0: .*unknown name 'omga'"),
     ({"output": [[0.0, 0.1], [0.0, 0.1], [0.1, 0.0]]}, "run 2: output: expected increasing times"),
     ({"output": [[0.0, 0.1], 1.0, [0.1, 0.2]]}, "run 1: output is 1.0: expected a whole number"),
     ({"output": [[0.0, 0.1]] * 3, "t_end": [0.1, 0.2, 0.1]}, "run 1: t_end is 0.2 s, and the times of output end"),
     ({"output": np.ma.array(np.zeros((3, 2)), mask=np.eye(3, 2, dtype=bool))}, "is masked"),
     ({"t_end": np.ma.array([1.0, 2.0, 3.0], mask=[False, True, False])}, r"t_end\[1\] is masked"),
     ({"t_end": np.ones((3, 2))}, r"t_end has shape \(3, 2\)"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("options", "words"), MISTAKES)
@@ -175,8 +185,10 @@ def test_datasets_tables_and_joins_have_them(ragged: Batch, tmp_path: Path) -> N
     other = press("ideal").simulate_many({"omega": [6.0, 6.5, 7.0]}, [0.1, 0.2, 0.3], output=2)
     joined = gudgeon.join([ragged, other])
     np.testing.assert_array_equal(joined["t"].sel(scene="ideal"), other.t)
-    for wrong in (press("ideal").simulate_many({"omega": [6.0, 6.5, 7.0]}, [0.1, 0.2, 0.3], output=3),
-                  press("ideal").simulate_many({"omega": [6.0, 6.5, 7.0]}, 0.1, output=2)):  # fmt: skip
+    for wrong in (
+        press("ideal").simulate_many({"omega": [6.0, 6.5, 7.0]}, [0.1, 0.2, 0.3], output=3),
+        press("ideal").simulate_many({"omega": [6.0, 6.5, 7.0]}, 0.1, output=2),
+    ):
         with pytest.raises(BadValueError, match="times of their own"):
             gudgeon.join([ragged, wrong])
 

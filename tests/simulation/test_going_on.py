@@ -16,8 +16,12 @@ from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
 METHODS: list[dict[str, Any]] = [
-    {}, {"method": "rk4", "step": 1e-3}, {"method": "dop853"}, {"method": "rodas5p"}, {"method": "scipy:DOP853"},
-]  # fmt: skip
+    {},
+    {"method": "rk4", "step": 1e-3},
+    {"method": "dop853"},
+    {"method": "rodas5p"},
+    {"method": "scipy:DOP853"},
+]
 FILE = """\
 format: gudgeon/1
 name: swing

@@ -142,8 +142,20 @@ def test_a_box_is_written_as_a_part(
     call: Gudgeon, one_thread: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     judged = maps.judge_point
-    arguments = ("map", "nine_bar_press", "--scene", "dry", "--scene", "lubricated", "--box", "1", "--range",
-                 "omega=5..20", "--t-end", "5ms")  # fmt: skip
+    arguments = (
+        "map",
+        "nine_bar_press",
+        "--scene",
+        "dry",
+        "--scene",
+        "lubricated",
+        "--box",
+        "1",
+        "--range",
+        "omega=5..20",
+        "--t-end",
+        "5ms",
+    )
     monkeypatch.setattr(maps, "judge_point", ctrl_c_at(3, judged))
     done = call(*arguments)
     assert done.exit_code == 130, done.output

@@ -43,9 +43,12 @@ def same(kept: Batch, whole: Batch, names: tuple[str, ...]) -> None:
 
 
 METHODS: list[dict[str, Any]] = [
-    {"rtol": 1e-6}, {"method": "rk4", "step": 5e-6}, {"method": "rk4", "step": 5e-6, "side_by_side": False},
-    {"method": "rk4", "step": 2e-5}, {"rtol": 1e-6, "t_end": np.linspace(0.004, 0.012, 7)},
-]  # fmt: skip
+    {"rtol": 1e-6},
+    {"method": "rk4", "step": 5e-6},
+    {"method": "rk4", "step": 5e-6, "side_by_side": False},
+    {"method": "rk4", "step": 2e-5},
+    {"rtol": 1e-6, "t_end": np.linspace(0.004, 0.012, 7)},
+]
 
 
 @pytest.mark.parametrize("options", METHODS)
@@ -92,10 +95,16 @@ def some() -> Batch:
 
 def test_what_was_not_kept_is_told(some: Batch) -> None:
     calls: list[Any] = [
-        lambda: some["S9.vy"], lambda: some[0], lambda: some.q, lambda: some.state, lambda: some.partial(1),
-        lambda: some.to_xarray(["A.e"]), lambda: some.to_dataframe(["S9.x"]), lambda: some.to_xarray(part="trace"),
+        lambda: some["S9.vy"],
+        lambda: some[0],
+        lambda: some.q,
+        lambda: some.state,
+        lambda: some.partial(1),
+        lambda: some.to_xarray(["A.e"]),
+        lambda: some.to_dataframe(["S9.x"]),
+        lambda: some.to_xarray(part="trace"),
         lambda: press().simulate_many(C, 1e-4, output=1, keep=[])["S9.y"],
-    ]  # fmt: skip
+    ]
     for call in calls:
         with pytest.raises(GudgeonError, match=r"kept.*\n.*keep="):
             call()
@@ -155,8 +164,7 @@ def test_a_sample_that_has_no_accelerations_is_a_failure_of_its_own_run(monkeypa
     monkeypatch.setattr(simulate_many, "evaluate_runs", singular)
     monkeypatch.setattr(lanes, "WORTH", 0.0)
     kept, whole = (
-        press().simulate_many({"omega": speeds}, 0.004, output=9, keep=keep)
-        for keep in (["S9.ay"], "states")
+        press().simulate_many({"omega": speeds}, 0.004, output=9, keep=keep) for keep in (["S9.ay"], "states")
     )
     assert seen and max(seen) > 1
     same(kept, whole, ("S9.ay",))

@@ -31,8 +31,9 @@ forces: {{f: {{force: m.origin, value: [{force}, 0]}}}}
 start: {{set: {{m.x: x0}}, rates: {{m.vx: 0}}}}
 events: {{up: {{zero: m.x, direction: rising}}}}
 """
-DUFFING = "k: 0 N/m, k3: 1 N/m^3, d: 0.05 kg/s, A: 7.5 N, w: 1 rad/s, x0: 1 m", (
-    "A*cos(w*t) - d*m.vx - k*m.x - k3*m.x**3"
+DUFFING = (
+    "k: 0 N/m, k3: 1 N/m^3, d: 0.05 kg/s, A: 7.5 N, w: 1 rad/s, x0: 1 m",
+    ("A*cos(w*t) - d*m.vx - k*m.x - k3*m.x**3"),
 )
 VAN_DER_POL = "mu: 0.5 kg/s, l: 1 m, x0: 1 m", "mu*(1 - (m.x/l)**2)*m.vx - m.x * 1 N/m"
 LINEAR = {"k3": 0.0, "A": 0.0, "d": 0.0}

@@ -32,10 +32,13 @@ SPEEDS = np.pi * np.array([2.0, 5.0, 4.0])
 ARRAYS = ("t", "q", "v", "a", "state", "memory", "work", "impacts", "events")
 # scene, options of both calls; rk4's step is short enough for the film
 CASES: list[tuple[str, dict[str, Any]]] = [
-    ("dry", {"rtol": 1e-6}), ("lubricated", {}), ("dry", {"method": "rk4", "step": 2e-5}),
-    ("lubricated", {"method": "rodas5p", "step": 1e-4}), ("ideal", {}),
+    ("dry", {"rtol": 1e-6}),
+    ("lubricated", {}),
+    ("dry", {"method": "rk4", "step": 2e-5}),
+    ("lubricated", {"method": "rodas5p", "step": 1e-4}),
+    ("ideal", {}),
     ("dry", {"method": "scipy:LSODA", "rtol": 1e-5}),
-]  # fmt: skip
+]
 
 
 def press_runs(scene: str, options: dict[str, Any], **more: Any) -> tuple[gudgeon.Simulation, Batch]:

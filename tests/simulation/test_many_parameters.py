@@ -20,11 +20,19 @@ def text(count: int) -> str:
     """Every third parameter is a force; USED of these push the bob, and one number places it."""
     lines = [f"  p{i}: {1 + i / count!r}{'' if i % 3 else ' N'}" for i in range(count)]
     total = " + ".join(f"p{3 * i}" for i in range(USED))
-    return "\n".join((
-        "format: gudgeon/1", "name: many", "parameters:", *lines, "bodies: {bob: {mass: 2 kg, inertia: 1 kg*m^2}}",
-        "freedoms: 3", "start: {set: {bob.x: p1 * 1 m}}",
-        f"forces: {{push: {{force: bob.origin, value: [{total}, 0 N]}}}}", f"outputs: {{total: {total}}}",
-    ))  # fmt: skip
+    return "\n".join(
+        (
+            "format: gudgeon/1",
+            "name: many",
+            "parameters:",
+            *lines,
+            "bodies: {bob: {mass: 2 kg, inertia: 1 kg*m^2}}",
+            "freedoms: 3",
+            "start: {set: {bob.x: p1 * 1 m}}",
+            f"forces: {{push: {{force: bob.origin, value: [{total}, 0 N]}}}}",
+            f"outputs: {{total: {total}}}",
+        )
+    )
 
 
 def force(count: int) -> float:

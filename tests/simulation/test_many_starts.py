@@ -41,9 +41,11 @@ def same(one: Result, other: Result) -> None:
 
 
 METHODS: list[dict[str, Any]] = [
-    {"method": "dop853"}, {"method": "auto"}, {"method": "rk4", "step": 2e-6},
+    {"method": "dop853"},
+    {"method": "auto"},
+    {"method": "rk4", "step": 2e-6},
     {"method": "rk4", "step": 2e-6, "side_by_side": False},
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize("options", METHODS)

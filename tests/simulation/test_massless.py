@@ -17,8 +17,12 @@ from gudgeon.results import results
 from tests.slow import slow_but
 
 ROOT = Path(__file__).resolve().parents[2]
-KINEMATIC = ("mechanisms/four_bar.yaml", "mechanisms/nine_bar_press.yaml", "mechanisms/slider_crank.yaml",
-             "mechanisms/gallery/peaucellier.yaml")  # fmt: skip
+KINEMATIC = (
+    "mechanisms/four_bar.yaml",
+    "mechanisms/nine_bar_press.yaml",
+    "mechanisms/slider_crank.yaml",
+    "mechanisms/gallery/peaucellier.yaml",
+)
 
 
 def stripped(name: str, tmp_path: Path, keys: str = "mass|inertia", body: str = "") -> Path:

@@ -124,9 +124,10 @@ def test_a_scene_a_run_and_the_file_say_the_same(scenes: Scenes) -> None:
     """And the run tells what it was told to choose, in its record too."""
     chosen = {JOURNAL: "bronze", SHAPE: "bronze"}
     runs = [
-        scenes.dry.simulate(parameters=chosen), scenes.soft.simulate(),
+        scenes.dry.simulate(parameters=chosen),
+        scenes.soft.simulate(),
         gudgeon.load(scenes.file, "dry", overrides=chosen).simulate(),
-    ]  # fmt: skip
+    ]
     assert len(runs[0].impacts)
     for run in runs[1:]:
         np.testing.assert_array_equal(run.q, runs[0].q)
@@ -151,8 +152,14 @@ def test_it_goes_on_and_is_kept(scenes: Scenes, tmp_path: Path) -> None:
     assert any(JOURNAL in note for note in back.diagnostics.notes)
 
 
-@pytest.mark.parametrize("options", [{"method": "rk4", "step": 1e-5},
-    pytest.param({"method": "dop853"}, marks=pytest.mark.slow), {"method": "scipy:DOP853"}])
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"method": "rk4", "step": 1e-5},
+        pytest.param({"method": "dop853"}, marks=pytest.mark.slow),
+        {"method": "scipy:DOP853"},
+    ],
+)
 def test_a_column_of_names(scenes: Scenes, options: dict[str, Any], tmp_path: Path) -> None:
     names = np.array(["bronze", "steel", "glue", "bronze"])
     batch = scenes.dry.simulate_many({JOURNAL: names, SHAPE: ["foam", "steel", "bronze", "steel"]}, **options)
@@ -204,9 +211,15 @@ def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("scene", ["dry", "soft"])
-@pytest.mark.parametrize("parameters", [
-    {}, {JOURNAL: "bronze"}, {HOLE: "glue", SHAPE: "foam"}, {JOURNAL: "bronze", "soft": 60e9, f"{JOURNAL}.nu": 0.2},
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        {},
+        {JOURNAL: "bronze"},
+        {HOLE: "glue", SHAPE: "foam"},
+        {JOURNAL: "bronze", "soft": 60e9, f"{JOURNAL}.nu": 0.2},
+    ],
+)
 def test_equations_in_numpy_take_names(scenes: Scenes, scene: str, parameters: dict[str, Any]) -> None:
     simulation = getattr(scenes, scene)
     model = simulation.model.numpy()

@@ -30,15 +30,43 @@ pytestmark = needs_compiler
 
 def odd_values() -> dict[str, Any]:
     values: dict[str, Any] = {
-        "None": None, "text": "x", "no text": "", "bytes": b"", "tuple": (1,), "list": [], "nested": [[1], [2, 3]],
-        "dict": {}, "numbered": {1: 2}, "mapped": {"x": None}, "huge": 10**400, "nan": float("nan"),
-        "inf": float("inf"), "-1": -1, "True": True, "object": object(), "0-d": np.array(3), "empty": np.zeros(0),
-        "complex": 1j, "path": Path("x"), "function": lambda *_: None, "texts": np.array(["a", "b"]),
-        "objects": np.array([None, 1], dtype=object), "days": np.datetime64("2020-01-01"), "set": {1}, "type": int,
-        "generator": (one for one in range(0)), "vast": np.broadcast_to(0.0, (10**12,)), "zero": "\0", "lone": "\ud800",
-        "long": "x" * 10**5, "iterator": iter([{}]), "lapse": np.timedelta64(5, "s"), "array's type": np.float64,
-        "0-d lapse": np.array(np.timedelta64(5)), "thing": SimpleNamespace(columns=3, final=None),
-    }  # fmt: skip
+        "None": None,
+        "text": "x",
+        "no text": "",
+        "bytes": b"",
+        "tuple": (1,),
+        "list": [],
+        "nested": [[1], [2, 3]],
+        "dict": {},
+        "numbered": {1: 2},
+        "mapped": {"x": None},
+        "huge": 10**400,
+        "nan": float("nan"),
+        "inf": float("inf"),
+        "-1": -1,
+        "True": True,
+        "object": object(),
+        "0-d": np.array(3),
+        "empty": np.zeros(0),
+        "complex": 1j,
+        "path": Path("x"),
+        "function": lambda *_: None,
+        "texts": np.array(["a", "b"]),
+        "objects": np.array([None, 1], dtype=object),
+        "days": np.datetime64("2020-01-01"),
+        "set": {1},
+        "type": int,
+        "generator": (one for one in range(0)),
+        "vast": np.broadcast_to(0.0, (10**12,)),
+        "zero": "\0",
+        "lone": "\ud800",
+        "long": "x" * 10**5,
+        "iterator": iter([{}]),
+        "lapse": np.timedelta64(5, "s"),
+        "array's type": np.float64,
+        "0-d lapse": np.array(np.timedelta64(5)),
+        "thing": SimpleNamespace(columns=3, final=None),
+    }
     return values | {"series": pandas.Series({"x": 1.0}), "table": pandas.DataFrame({"x": [1.0, 2.0]})}
 
 
@@ -64,7 +92,7 @@ def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 def refused_or_used(
     call: Callable[[Any], object], documented: tuple[type[Exception], ...] = (), but: tuple[str, ...] = ()
-) -> None:  # fmt: skip
+) -> None:
     """`call` with every odd value; fails with all that came out of it and is no error of gudgeon's."""
     raw = []
     for name, value in odd_values().items():
@@ -83,9 +111,19 @@ def refused_or_used(
 
 RUN: dict[str, Any] = {"t_end": 0.01, "output": 2}
 ARGUMENTS = (
-    "t_end", "output", "method", "rtol", "step", "parameters", "start", "progress", "horizon", "stop", "peaks",
+    "t_end",
+    "output",
+    "method",
+    "rtol",
+    "step",
+    "parameters",
+    "start",
+    "progress",
+    "horizon",
+    "stop",
+    "peaks",
     "against",
-)  # fmt: skip
+)
 
 
 CALLED = {"progress": ("type", "array's type")}  # int(0.0, "a text") fails in the caller's own function
@@ -96,8 +134,17 @@ def test_simulate(pendulum: Simulation, name: str) -> None:
     refused_or_used(lambda value: pendulum.simulate(**(RUN | {name: value})), but=CALLED.get(name, ()))
 
 
-@pytest.mark.parametrize("name", ["parameters", *(n for n in ARGUMENTS if n not in ("start", "horizon", "parameters")),
-                                  "threads", "side_by_side", "keep", "start"])  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    [
+        "parameters",
+        *(n for n in ARGUMENTS if n not in ("start", "horizon", "parameters")),
+        "threads",
+        "side_by_side",
+        "keep",
+        "start",
+    ],
+)
 def test_simulate_many(pendulum: Simulation, name: str) -> None:
     good = {"parameters": [{}]} | RUN
     refused_or_used(lambda value: pendulum.simulate_many(**(good | {name: value})), but=CALLED.get(name, ()))
@@ -115,42 +162,72 @@ def test_a_parameter(pendulum: Simulation, where: str) -> None:
     refused_or_used(calls[where])
 
 
-@pytest.mark.parametrize("field", ["mechanism", "scene", "t", "q", "v", "state", "memory", "parameters", "sha256",
-                                   "overrides", "formulation"])  # fmt: skip
+@pytest.mark.parametrize(
+    "field",
+    ["mechanism", "scene", "t", "q", "v", "state", "memory", "parameters", "sha256", "overrides", "formulation"],
+)
 def test_a_state(pendulum: Simulation, run: Result, field: str) -> None:
     refused_or_used(lambda value: pendulum.simulate(0.02, output=2, start=replace(run.final, **{field: value})))
 
 
 CALLS: dict[str, tuple[str, ...]] = {
-    "rhs": ("t", "y", "memory"), "jacobian": ("t", "y", "memory"), "phi": ("t", "q"), "phi_q": ("t", "q"),
-    "nu": ("t", "q"), "gamma": ("t", "q", "v"), "start": ("parameters",),
-}  # fmt: skip
+    "rhs": ("t", "y", "memory"),
+    "jacobian": ("t", "y", "memory"),
+    "phi": ("t", "q"),
+    "phi_q": ("t", "q"),
+    "nu": ("t", "q"),
+    "gamma": ("t", "q", "v"),
+    "start": ("parameters",),
+}
 
 
 @pytest.mark.parametrize(("method", "name"), [(method, name) for method, names in CALLS.items() for name in names])
 def test_equations(pendulum: Simulation, method: str, name: str) -> None:
     n = pendulum.compiled.n
-    good: dict[str, Any] = {"t": 0.0, "y": np.zeros(2 * n), "q": np.zeros(n), "v": np.zeros(n), "memory": None,
-                            "parameters": None}  # fmt: skip
+    good: dict[str, Any] = {
+        "t": 0.0,
+        "y": np.zeros(2 * n),
+        "q": np.zeros(n),
+        "v": np.zeros(n),
+        "memory": None,
+        "parameters": None,
+    }
     given = {argument: good[argument] for argument in CALLS[method]}
     refused_or_used(lambda value: getattr(pendulum, method)(**(given | {name: value})))
 
 
 COMPILED: dict[str, tuple[str, ...]] = {
-    "rhs": ("t", "y", "p", "memory"), "jacobian": ("t", "y", "p", "memory"), "evaluate": ("t", "q", "v", "memory", "p"),
-    "newton": ("t", "y", "p", "eta", "s", "r", "memory"), "prepare": ("given", "is_given"), "mass": ("p",),
-    "closed_phi": ("t", "q", "p"), "closed_gamma": ("t", "q", "v", "p"), "start_values": ("p",),
+    "rhs": ("t", "y", "p", "memory"),
+    "jacobian": ("t", "y", "p", "memory"),
+    "evaluate": ("t", "q", "v", "memory", "p"),
+    "newton": ("t", "y", "p", "eta", "s", "r", "memory"),
+    "prepare": ("given", "is_given"),
+    "mass": ("p",),
+    "closed_phi": ("t", "q", "p"),
+    "closed_gamma": ("t", "q", "v", "p"),
+    "start_values": ("p",),
     "close": ("t", "p", "size"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("method", "name"), [(method, name) for method, names in COMPILED.items() for name in names])
 def test_compiled(pendulum: Simulation, method: str, name: str) -> None:
     compiled = pendulum.full.compiled
     n, slots = compiled.n, len(compiled.source.slots)
-    good: dict[str, Any] = {"t": 0.0, "y": np.zeros(2 * n), "q": np.zeros(n), "v": np.zeros(n), "memory": None,
-                            "p": pendulum.full.p, "eta": 1.0, "s": 0.0, "r": np.zeros(2 * n + 3), "size": 1.0,
-                            "given": np.zeros(slots), "is_given": np.zeros(slots)}  # fmt: skip
+    good: dict[str, Any] = {
+        "t": 0.0,
+        "y": np.zeros(2 * n),
+        "q": np.zeros(n),
+        "v": np.zeros(n),
+        "memory": None,
+        "p": pendulum.full.p,
+        "eta": 1.0,
+        "s": 0.0,
+        "r": np.zeros(2 * n + 3),
+        "size": 1.0,
+        "given": np.zeros(slots),
+        "is_given": np.zeros(slots),
+    }
     if method == "evaluate":
         good |= {"t": [0.0], "q": np.zeros((1, n)), "v": np.zeros((1, n)), "memory": np.zeros((1, 1))}
     given = {argument: good[argument] for argument in COMPILED[method]}
@@ -168,16 +245,21 @@ def test_an_override() -> None:
 
 
 RESULT: dict[str, Callable[[Result, Any], object]] = {
-    "[]": lambda run, value: run[value], "in": lambda run, value: value in run,
-    "unit": lambda run, value: run.unit(value), "meaning": lambda run, value: run.meaning(value),
-    "peak": lambda run, value: run.peak(value), "peak_error": lambda run, value: run.peak_error(value),
-    "events_of": lambda run, value: run.events_of(value), "value_of": lambda run, value: run.value_of(value),
-    "to_xarray": lambda run, value: run.to_xarray(value), "save": lambda run, value: run.save(value),
+    "[]": lambda run, value: run[value],
+    "in": lambda run, value: value in run,
+    "unit": lambda run, value: run.unit(value),
+    "meaning": lambda run, value: run.meaning(value),
+    "peak": lambda run, value: run.peak(value),
+    "peak_error": lambda run, value: run.peak_error(value),
+    "events_of": lambda run, value: run.events_of(value),
+    "value_of": lambda run, value: run.value_of(value),
+    "to_xarray": lambda run, value: run.to_xarray(value),
+    "save": lambda run, value: run.save(value),
     "save's attributes": lambda run, value: run.save("x.nc", value),
     "one attribute": lambda run, value: run.save("x.nc", {"by": value}),
     "peak of a joint": lambda run, value: run.diagnostics.peak(value),
     "load": lambda run, value: Result.load(value),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", RESULT)
@@ -323,7 +405,7 @@ def test_what_is_told(pendulum: Simulation) -> None:
         (lambda: pendulum.simulate_many(None), "parameters: expected a mapping for every run"),  # type: ignore[arg-type]
         (lambda: pendulum.simulate_many({"g": [[1], [2, 3]]}), "parameters: g is list [[1], [2, 3]]: expected one"),
         (lambda: pendulum.simulate_many([{}], threads="two"), "threads is 'two': expected a number"),  # type: ignore[arg-type]
-    ]  # fmt: skip
+    ]
     for call, told in refused:
         with pytest.raises(InputError) as caught:
             call()
@@ -333,8 +415,9 @@ def test_what_is_told(pendulum: Simulation) -> None:
 def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
     address = pendulum.source.slots[0].address
     value = float(pendulum.p[0]) * 1.25
-    series, plain = (pendulum.simulate(0.1, output=2, parameters=p) for p in (pandas.Series({address: value}),
-                                                                            {address: value}))  # fmt: skip
+    series, plain = (
+        pendulum.simulate(0.1, output=2, parameters=p) for p in (pandas.Series({address: value}), {address: value})
+    )
     assert series.parameters[address] == value
     assert (series.q == plain.q).all()
     with pytest.raises(InputError, match="a name twice"):
@@ -345,10 +428,12 @@ def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
     ("code", "rate", "told"),
     [
         (2, np.nan, r"start.memory\[0\] of joint \w+ is nan while start.state\[0\] is 2: expected the rate"),
-        (1, np.nan, "is nan while"), (0, 1.0, r"remembers 1 m/s while start.state\[0\] is 0 \(free\)"),
-        (2, np.inf, "is inf while"), (0, -np.inf, "remembers -inf"),
+        (1, np.nan, "is nan while"),
+        (0, 1.0, r"remembers 1 m/s while start.state\[0\] is 0 \(free\)"),
+        (2, np.inf, "is inf while"),
+        (0, -np.inf, "remembers -inf"),
     ],
-)  # fmt: skip
+)
 def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> None:
     crank = gudgeon.load("slider_crank", "dry")
     final = crank.simulate(1e-3, output=1).final
@@ -368,11 +453,13 @@ def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> N
         (["map", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "only a range"),
         (["bench", "pendulum", "--methods", ""], "--methods '': expected names of methods"),
         (["bench", "pendulum", "--methods", " , "], "expected names of methods"),
-        *[([command, "pendulum", "--out", ""], "'': expected a name")
-          for command in ("run", "emit", "equations", "bench", "map")],
+        *[
+            ([command, "pendulum", "--out", ""], "'': expected a name")
+            for command in ("run", "emit", "equations", "bench", "map")
+        ],
         (["bench", "pendulum", "--csv", ""], "'': expected a name"),
     ],
-)  # fmt: skip
+)
 def test_odd_options(arguments: list[str], told: str) -> None:
     shown = CliRunner().invoke(app, arguments)
     assert shown.exit_code == 2

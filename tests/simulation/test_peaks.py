@@ -22,9 +22,12 @@ from tests.pump import TEXT
 
 pytestmark = needs_compiler
 METHODS: dict[str, dict[str, Any]] = {
-    "auto": {}, "dop853": {"method": "dop853"}, "rodas5p": {"method": "rodas5p"}, "rk4": {"step": 3e-4},
+    "auto": {},
+    "dop853": {"method": "dop853"},
+    "rodas5p": {"method": "rodas5p"},
+    "rk4": {"step": 3e-4},
     "scipy": {"method": "scipy:DOP853"},
-}  # fmt: skip
+}
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 
 # A driven cart whose acceleration grows as 6 b t until it drops to nothing at t1, and a load on a spring behind it.

@@ -28,8 +28,10 @@ VALID = Path(__file__).parent.parent / "mechanisms" / "valid"
 @compiled
 def test_smooth_scenes_have_none() -> None:
     for name, scene, t_end, method in (
-        ("pendulum", None, 5.0, "dop853"), (PRESS, "ideal", 0.1, "kinematic"), (PRESS, "lubricated", 0.005, "dop853"),
-    ):  # fmt: skip
+        ("pendulum", None, 5.0, "dop853"),
+        (PRESS, "ideal", 0.1, "kinematic"),
+        (PRESS, "lubricated", 0.005, "dop853"),
+    ):
         run = gudgeon.load(name, scene=scene).simulate(t_end, output=10, method=method, horizon=True)
         assert run.diagnostics.horizon == math.inf
     asked_for_nothing = gudgeon.load("pendulum").simulate(0.1, output=2)
@@ -56,16 +58,23 @@ def test_a_fixed_step_is_compared_with_a_smaller_one() -> None:
 
 
 @compiled
-@pytest.mark.parametrize(("file", "scene", "options", "runs"), [
-    (PRESS, "dry", {"parameters": {"c": 0.5e-3, "omega": "4*pi"}}, ((0.2, 200), (1.0, 2000))),
-    (PRESS, "dry", {"parameters": {"c": 0.5e-3}, "method": "rk4", "step": 2e-5}, ((0.2, 333), (1.5, 200))),
-    pytest.param(
-        VALID / "double_pendulum.yaml", "fast", {}, ((0.2, 200), (0.24, 20), (4.0, 2000)), marks=pytest.mark.slow
-    ),
-    pytest.param(
-        PRESS, "dry", {"parameters": {"c": 0.5e-3, "omega": "4*pi"}}, ((0.2, 200), (4.0, 500)), marks=pytest.mark.slow
-    ),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("file", "scene", "options", "runs"),
+    [
+        (PRESS, "dry", {"parameters": {"c": 0.5e-3, "omega": "4*pi"}}, ((0.2, 200), (1.0, 2000))),
+        (PRESS, "dry", {"parameters": {"c": 0.5e-3}, "method": "rk4", "step": 2e-5}, ((0.2, 333), (1.5, 200))),
+        pytest.param(
+            VALID / "double_pendulum.yaml", "fast", {}, ((0.2, 200), (0.24, 20), (4.0, 2000)), marks=pytest.mark.slow
+        ),
+        pytest.param(
+            PRESS,
+            "dry",
+            {"parameters": {"c": 0.5e-3, "omega": "4*pi"}},
+            ((0.2, 200), (4.0, 500)),
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
 def test_neither_t_end_nor_output_move_it(
     file: str | Path, scene: str, options: dict[str, Any], runs: tuple[tuple[float, int], ...]
 ) -> None:
@@ -82,8 +91,9 @@ def test_a_run_without_play_parts_where_a_longer_one_does(tmp_path: Path) -> Non
     (tmp_path / "bars.yaml").write_text(
         f"format: gudgeon/1\nname: bars\ngravity: [0, -9.81 m/s^2]\nbodies:\n{bars}ground: {{O: [0, 0]}}\n"
         f"joints:\n  J0: {{revolute: [ground.O, L1.tail]}}\n{pins}"
-        "start: {set: {L1.theta: 120 deg, L2.theta: 60 deg, L3.theta: 10 deg}}\n", encoding="utf-8",
-    )  # fmt: skip
+        "start: {set: {L1.theta: 120 deg, L2.theta: 60 deg, L3.theta: 10 deg}}\n",
+        encoding="utf-8",
+    )
     run = gudgeon.load(tmp_path / "bars.yaml").simulate
     found = [run(t, output=n, rtol=1e-6, horizon=True).diagnostics.horizon for t, n in ((4.0, 20), (8.0, 99))]
     assert min(found) > 1.0 and max(found) <= 1.2 * min(found) < math.inf

@@ -24,14 +24,19 @@ ground: {O: [0, 0]}
 bearings: {b: {radius: 10 mm, clearance: 0.1 mm, length: 20 mm, bearing_material: steel, journal_material: steel}}
 contacts: {dry: {normal: {law: flores, restitution: 0.7}, friction: {law: coulomb, mu: 0.1, v0: 1e-2 m/s}}}
 """
-PENDULUM = HEAD + """
+PENDULUM = (
+    HEAD
+    + """
 bodies: {bob: {mass: 2 kg, inertia: 1e-3, points: {pin: [0, 0.3 m]}}}
 joints: {J: {revolute: [ground.O, bob.pin]}}
 start: {set: {bob.theta: 40 deg}}
 events: {low: {zero: bob.theta, action: stop}}
 scenes: {loose: {play: {J: {bearing: b, contact: dry}}}}
 """
-CRANK = HEAD + """
+)
+CRANK = (
+    HEAD
+    + """
 bodies:
   crank: {length: 50 mm, mass: 0.3 kg, inertia: 1e-4 kg*m^2}
   rod: {length: 120 mm, mass: 0.21 kg, inertia: 2.5e-4 kg*m^2}
@@ -45,6 +50,7 @@ drives: {motor: {angle: crank, value: 30 deg + 40 rad/s*t}}
 start: {guess: {piston.x: 170 mm}}
 scenes: {loose: {play: {J: {bearing: b, contact: dry}}}}
 """
+)
 
 
 def load(folder: Path, text: str) -> Simulation:

@@ -31,8 +31,12 @@ outputs: {per_time: bob.theta/t}
 events: {low: {zero: bob.theta + 90 deg, action: stop}}
 """
 TIMES = [0.2, 0.25, 0.5]
-SCENES = [("nine_bar_press", "dry", [0.001, 0.002, 0.005]), ("nine_bar_press", "ideal", [0.01, 0.03]),
-          ("belt_block", "ideal", TIMES), ("slider_crank", "ideal", TIMES)]  # fmt: skip
+SCENES = [
+    ("nine_bar_press", "dry", [0.001, 0.002, 0.005]),
+    ("nine_bar_press", "ideal", [0.01, 0.03]),
+    ("belt_block", "ideal", TIMES),
+    ("slider_crank", "ideal", TIMES),
+]
 
 
 @cache
@@ -113,10 +117,16 @@ def test_a_run_that_goes_on_has_the_requested_times() -> None:
     same(many[0], on)
 
 
-@pytest.mark.parametrize(("output", "message"), [
-    ([0.5, 0.2], "expected increasing times"), ([0.2, 0.2], "expected increasing times"),
-    ([-0.1, 0.2], "times begin at 0.0 s"), ([], "at least one time"), ([0.2, float("nan")], "finite"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("output", "message"),
+    [
+        ([0.5, 0.2], "expected increasing times"),
+        ([0.2, 0.2], "expected increasing times"),
+        ([-0.1, 0.2], "times begin at 0.0 s"),
+        ([], "at least one time"),
+        ([0.2, float("nan")], "finite"),
+    ],
+)
 def test_times_that_are_refused(output: list[float], message: str) -> None:
     simulation = scene("slider_crank", "ideal")
     for call in (simulation.simulate, lambda **given: simulation.simulate_many([{}, {}], **given)):
@@ -151,8 +161,13 @@ def test_a_count_and_times_of_other_types() -> None:
         assert len(call(0.1, output=np.array(20)).t) == 21
         for given in (times, list(times), times.astype(np.float16)):
             assert call(0.1, output=given).t.tolist() == [float(t) for t in given]
-        for t_end, output in ((0.1, np.array(20.0)), (0.1, np.array(True)), (0.1, times.astype(float)),
-                              (0.1 + 1e-7, times), (0.1, [0, 1])):  # fmt: skip
+        for t_end, output in (
+            (0.1, np.array(20.0)),
+            (0.1, np.array(True)),
+            (0.1, times.astype(float)),
+            (0.1 + 1e-7, times),
+            (0.1, [0, 1]),
+        ):
             with pytest.raises(InputError, match="output"):
                 call(t_end, output=output)
 

@@ -28,20 +28,26 @@ ground: {{O: [0, 0]}}
 bearings: {{b: {{radius: {R}, clearance: {C}, length: {L}, bearing_material: steel, journal_material: steel}}}}
 contacts: {{dry: {{normal: {{law: hertz, stiffness: K, restitution: 1, dissipation: none}}}}}}
 """
-TURNING = RIG + f"""
+TURNING = (
+    RIG
+    + f"""
 bodies: {{ring: {{mass: 1 kg, inertia: 1e-3}}, pin: {{mass: {M} kg, inertia: 1e-3}}}}
 joints: {{O: {{revolute: [ground.O, ring.origin]}}, J: {{revolute: [ring.origin, pin.origin]}}}}
 drives: {{one: {{angle: ring, value: of_ring * t}}, two: {{angle: pin, value: of_pin * t}}}}
 start: {{play: {{J: {{e: [0, -({C} + ({M * G} / K)**(2/3))]}}}}}}
 scenes: {{loose: {{play: {{J: {{bearing: b, contact: dry}}}}}}}}
 """
-PENDULUM = RIG + f"""
+)
+PENDULUM = (
+    RIG
+    + f"""
 bodies: {{bob: {{mass: {M} kg, inertia: 1e-5, points: {{pin: [0, arm]}}}}}}
 joints: {{J: {{revolute: [ground.O, bob.pin]}}}}
 start: {{set: {{bob.theta: swing}},
         play: {{J: {{e: [{PLACE} m * sin(swing), -{PLACE} m * cos(swing)]}}}}}}
 scenes: {{loose: {{play: {{J: {{bearing: b, contact: dry}}}}}}}}
 """
+)
 
 
 def test_loads_on_arcs_are_integrals_over_cells() -> None:
@@ -124,15 +130,21 @@ def test_a_pendulums_bearing(tmp_path: Path) -> None:
     assert found.bearing.volume == pytest.approx(found.journal.volume, rel=1e-12, abs=0.0)
 
 
-RIGID = RIG.replace("contacts: {", "contacts: {hard: {normal: {law: newton_restitution, restitution: 0.4}, friction: "
-                    "{law: coulomb, mu: mu, v0: 1e-3}}, ").replace("K: 1e9", "K: 1e9, mu: 0.1") + f"""
+RIGID = (
+    RIG.replace(
+        "contacts: {",
+        "contacts: {hard: {normal: {law: newton_restitution, restitution: 0.4}, friction: "
+        "{law: coulomb, mu: mu, v0: 1e-3}}, ",
+    ).replace("K: 1e9", "K: 1e9, mu: 0.1")
+    + f"""
 bodies: {{pin: {{mass: {M} kg, inertia: 1e-3}}}}
 joints: {{J: {{revolute: [ground.O, pin.origin]}}}}
 drives: {{turn: {{angle: pin, value: of_pin * t}}}}
 forces: {{sway: {{force: pin.origin, value: [SWAY*sin(30 rad/s*t), 0]}}}}
 start: {{play: {{J: {{e: [-{C}*sin(atan(mu)), -{C}*cos(atan(mu))]}}}}}}
 scenes: {{loose: {{play: {{J: {{bearing: b, contact: hard}}}}}}}}
-"""  # fmt: skip
+"""
+)
 
 
 @needs_compiler
@@ -163,15 +175,21 @@ def test_friction_of_a_rigid_contact_is_told(tmp_path: Path) -> None:
     assert worn.bearing.volume == pytest.approx(told.friction, rel=1e-6)
 
 
-OILED = RIG.replace("contacts: {", "contacts: {oiled: {normal: {law: hertz, stiffness: K, restitution: 1, dissipation: "
-                    "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, mixed: {law: christensen, roughness: 20 um}, "
-                    "film: {law: ocvirk, viscosity: 0.02, shear: true}}, ") + f"""
+OILED = (
+    RIG.replace(
+        "contacts: {",
+        "contacts: {oiled: {normal: {law: hertz, stiffness: K, restitution: 1, dissipation: "
+        "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, mixed: {law: christensen, roughness: 20 um}, "
+        "film: {law: ocvirk, viscosity: 0.02, shear: true}}, ",
+    )
+    + f"""
 bodies: {{pin: {{mass: {M} kg, inertia: 1e-3}}}}
 joints: {{J: {{revolute: [ground.O, pin.origin]}}}}
 drives: {{turn: {{angle: pin, value: 50 rad/s * t}}}}
 start: {{play: {{J: {{e: [0, -{C}]}}}}}}
 scenes: {{loose: {{play: {{J: {{bearing: b, contact: oiled}}}}}}}}
-"""  # fmt: skip
+"""
+)
 
 
 @needs_compiler
@@ -219,12 +237,21 @@ def test_reyes_volume_is_frictions_work(crank: tuple[gudgeon.Simulation, gudgeon
 @needs_compiler
 def test_a_study_measures_it() -> None:
     """For k/H = 1/Pa, as of the runs made one by one; nowhere in an ideal scene."""
-    study = gudgeon.study({
-        "mechanism": "slider_crank", "scenes": ["ideal", "dry"], "parameters": {"c": ["0.1 mm", "0.3 mm"]},
-        "t_end": "0.05 s", "output": 10,
-        "measures": {"depth": {"wear_depth": "wristpin"}, "arc": {"wear_arc": "wristpin"},
-                     "F": {"peak_force": "wristpin"}, "ax": {"peak_of_steps": "slider.ax"}},
-    }).dataset  # fmt: skip
+    study = gudgeon.study(
+        {
+            "mechanism": "slider_crank",
+            "scenes": ["ideal", "dry"],
+            "parameters": {"c": ["0.1 mm", "0.3 mm"]},
+            "t_end": "0.05 s",
+            "output": 10,
+            "measures": {
+                "depth": {"wear_depth": "wristpin"},
+                "arc": {"wear_arc": "wristpin"},
+                "F": {"peak_force": "wristpin"},
+                "ax": {"peak_of_steps": "slider.ax"},
+            },
+        }
+    ).dataset
     assert study["depth"].sel(scene="ideal").isnull().all() and study["arc"].attrs["units"] == "rad"
     simulation = gudgeon.load("slider_crank", "dry")
     for c in (1e-4, 3e-4):
@@ -252,8 +279,15 @@ def test_what_cannot_be_is_refused(crank: tuple[gudgeon.Simulation, gudgeon.Resu
     simulation, run = crank
     with pytest.raises(UnknownNameError, match="joint with play"):
         gudgeon.wear(simulation, run, "crankpin", k=1e-4, hardness=1e9)
-    for wrong in ({"k": 0.0}, {"k": "1 mm"}, {"k": 1.0, "hardness": "1 m"}, {"k": 1.0, "law": "holm"},
-                  {"k": 1.0, "since": 0.2}, {"k": 1.0, "contact": "line"}, {"k": 1.0, "points": 3}):  # fmt: skip
+    for wrong in (
+        {"k": 0.0},
+        {"k": "1 mm"},
+        {"k": 1.0, "hardness": "1 m"},
+        {"k": 1.0, "law": "holm"},
+        {"k": 1.0, "since": 0.2},
+        {"k": 1.0, "contact": "line"},
+        {"k": 1.0, "points": 3},
+    ):
         with pytest.raises(gudgeon.InputError):
             gudgeon.wear(simulation, run, "wristpin", **wrong)
     for one, other in ((simulation, "run"), ("rig", run)):

@@ -60,9 +60,16 @@ def test_a_pin_sinks_into_its_bearing_as_archard_says(tmp_path: Path) -> None:
 def test_what_swings_wears_where_it_swings(tmp_path: Path) -> None:
     """Over the arc that the load goes through, 80°, not beyond it but for a slot; each round as much as before."""
     found = gudgeon.wear_loop(
-        written(PENDULUM, tmp_path / "rig.yaml"), "J", 0.6, rounds=2, k="1e-6 mm^3/N/m", law="archard", scale=2e4,
-        points=720, rtol=1e-6,
-    )  # fmt: skip
+        written(PENDULUM, tmp_path / "rig.yaml"),
+        "J",
+        0.6,
+        rounds=2,
+        k="1e-6 mm^3/N/m",
+        law="archard",
+        scale=2e4,
+        points=720,
+        rtol=1e-6,
+    )
     joint = found.joints["J"]
     worn = joint.contour[-1, 0] > 0.05 * joint.contour[-1, 0].max()
     assert 78.0 <= worn.sum() * 360.0 / SLOTS <= 80.0 + 3.5 * 360.0 / SLOTS
@@ -95,8 +102,11 @@ def test_what_cannot_wear_is_refused(tmp_path: Path) -> None:
         with pytest.raises(gudgeon.InputError):
             gudgeon.wear_loop(simulation, "J", 0.01, **({"k": 1e-9, "rounds": 1} | wrong))
     oddities: list[dict[str, Any]] = [
-        {"parameters": np.zeros(0)}, {"progress": 3}, {"joints": np.array(3)}, {"joints": []}
-    ]  # fmt: skip
+        {"parameters": np.zeros(0)},
+        {"progress": 3},
+        {"joints": np.array(3)},
+        {"joints": []},
+    ]
     for odd in oddities:
         with pytest.raises(gudgeon.InputError, match=next(iter(odd))):
             gudgeon.wear_loop(
@@ -118,9 +128,14 @@ def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
     simulation = written(TURNING, tmp_path / "rig.yaml")
     speeds, wear = ["2 rad/s", "4 rad/s"], {"joints": "J", "rounds": 2, "k": 1e-4, "hardness": "2 GPa", "scale": 4000}
     study: dict[str, Any] = {
-        "mechanism": str(tmp_path / "rig.yaml"), "scenes": ["loose"], "t_end": "0.1 s", "output": 5, "wear": wear,
-        "parameters": {"of_ring": 0.0, "of_pin": speeds}, "measures": {"e": {"final": "J.e"}},
-    }  # fmt: skip
+        "mechanism": str(tmp_path / "rig.yaml"),
+        "scenes": ["loose"],
+        "t_end": "0.1 s",
+        "output": 5,
+        "wear": wear,
+        "parameters": {"of_ring": 0.0, "of_pin": speeds},
+        "measures": {"e": {"final": "J.e"}},
+    }
     found = gudgeon.study(study).dataset["e"].sel(scene="loose").values
     numbers: dict[str, Any] = {"of_ring": 0.0, "of_pin": [2.0, 4.0]}
     worn = gudgeon.wear_loop(simulation, "J", 0.1, rounds=2, k=1e-4, hardness=2e9, scale=4000.0, parameters=numbers)

@@ -105,9 +105,26 @@ def test_run_that_takes_too_long_is_ended_and_fails() -> None:
 @needs_compiler
 def test_command_judges_a_box(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "box.csv"
-    app(["map", "nine_bar_press", "--scene", "dry", "--box", "1", "--range", "c=.1mm..1mm", "--range",
-         "stiffness=50GPa..100GPa", "--t-end", "10ms", "--csv", str(table), "--json"],
-        standalone_mode=False)  # fmt: skip
+    app(
+        [
+            "map",
+            "nine_bar_press",
+            "--scene",
+            "dry",
+            "--box",
+            "1",
+            "--range",
+            "c=.1mm..1mm",
+            "--range",
+            "stiffness=50GPa..100GPa",
+            "--t-end",
+            "10ms",
+            "--csv",
+            str(table),
+            "--json",
+        ],
+        standalone_mode=False,
+    )
     cells = json.loads(capsys.readouterr().out)["cells"]
     assert len(cells) == 5 and all("materials.aluminium.E=" in cell["parameters"] for cell in cells)
     assert len(table.read_text(encoding="utf-8").splitlines()) == 6
@@ -125,17 +142,20 @@ def made(verdict: list[tuple[Status, float]], edges: tuple[Range, ...]) -> Verdi
 
 def test_reasons_are_grouped_without_their_numbers() -> None:
     cells = [
-        cell(Status.DIVERGED, "no step is small enough at t = 0.31 s"), cell(Status.STABLE, error=1e-9),
+        cell(Status.DIVERGED, "no step is small enough at t = 0.31 s"),
+        cell(Status.STABLE, error=1e-9),
         cell(Status.DIVERGED, "no step is small enough at t = 2e-05 s"),
         cell(Status.INACCURATE, "joint force off by 4.9 % of its peak"),
         cell(Status.INACCURATE, "joint force off by 4e-7 of its peak"),
         cell(Status.DIVERGED, "a journal flew through its bearing: δ = 3 mm"),
-    ]  # fmt: skip
+    ]
     found = [(status, reason, len(own)) for status, reason, own in grouped(cells)]
     assert found == [
-        (Status.DIVERGED, "no step is small enough", 2), (Status.DIVERGED, "a journal flew through its bearing", 1),
-        (Status.INACCURATE, "joint force off by … of its peak", 2), (Status.STABLE, "", 1),
-    ]  # fmt: skip
+        (Status.DIVERGED, "no step is small enough", 2),
+        (Status.DIVERGED, "a journal flew through its bearing", 1),
+        (Status.INACCURATE, "joint force off by … of its peak", 2),
+        (Status.STABLE, "", 1),
+    ]
     assert kind("more than 120 s of processor time") == "more than … s of processor time"
     worst = [c.reason for c in worst_cells(cells)]
     assert worst[:3] == [cells[0].reason, cells[5].reason, cells[3].reason] and len(worst) == 5  # one of each first

@@ -60,8 +60,12 @@ def test_the_films_forces_are_near_the_papers(tmp_path: Path) -> None:
     study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))
     own = study["parts"]["speed_oil"] | {"mechanism": study["mechanism"], "t_end": "0.4 s", "output": 400}
     own["parameters"] = {"c": "0.6 mm", "omega": "3*pi rad/s"}
-    own["claims"] = {"numbers": {name: {key: value for key, value in study["claims"]["numbers"][name].items()
-                                        if key != "part"} for name in ("N49", "N52")}}  # fmt: skip
+    own["claims"] = {
+        "numbers": {
+            name: {key: value for key, value in study["claims"]["numbers"][name].items() if key != "part"}
+            for name in ("N49", "N52")
+        }
+    }
     numbers = gudgeon.study(own, tmp_path / "s").claims.numbers
     assert len(numbers) == 2 and (np.abs(numbers["deviation"]) < 16.0).all()
 
@@ -74,8 +78,9 @@ def test_section_5_may_be_measured_18_turns_earlier() -> None:
 
     part = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))["parts"]["experiment_dry"]
     own = {name: part[name] for name in ("scenes", "method", "output", "windows", "measures")} | {
-        "mechanism": "nine_bar_press", "parameters": {"omega": "3*pi rad/s", "c": "0.3 mm"},
-    }  # fmt: skip
+        "mechanism": "nine_bar_press",
+        "parameters": {"omega": "3*pi rad/s", "c": "0.3 mm"},
+    }
     peaks = []
     for seed, more in ((1, {"t_end": part["t_end"], "rtol": part["rtol"]}), (2, {"t_end": "20 s"})):
         starts = {"starts": {"count": 64, "seed": seed, "relative": {"omega": 1e-6}}}

@@ -64,8 +64,10 @@ def test_verdicts_are_no_matter_of_chance(p: float, verdict: str) -> None:
     ensemble carry what another rules out, wherever p lies.
     """
     rng, d, check = np.random.default_rng(8), math.sqrt(2.0) * NormalDist().inv_cdf(p), [larger(A, B)]
-    many = [[judged(check, {A: {"m": rng.normal(0, 1, 32)}, B: {"m": rng.normal(d, 1, 32)}}) for _ in range(3)]
-            for _ in range(400)]  # fmt: skip
+    many = [
+        [judged(check, {A: {"m": rng.normal(0, 1, 32)}, B: {"m": rng.normal(d, 1, 32)}}) for _ in range(3)]
+        for _ in range(400)
+    ]
     alone = [one for three in many for one in three]
     inside = np.mean([one.low <= p <= one.high for one in alone])
     assert 0.87 <= inside <= 0.96, inside  # 0.9, and what 1200 of them scatter
@@ -116,8 +118,10 @@ def test_nothing_is_surer_than_what_all_runs_show() -> None:
 
 
 def test_ensembles_that_contradict_each_other_decide_nothing() -> None:
-    rises, falls = (judged([larger(A, B)], runs(a=own, b=other)) for own, other in
-                    (([1.0] * 20, [2.0] * 20), ([2.0] * 20, [1.0] * 20)))  # fmt: skip
+    rises, falls = (
+        judged([larger(A, B)], runs(a=own, b=other))
+        for own, other in (([1.0] * 20, [2.0] * 20), ([2.0] * 20, [1.0] * 20))
+    )
     assert (rises.verdict, falls.verdict) == ("holds", "fails") and rises.denied == {"fails"}
     whole, agreed = together([rises, rises, falls])
     assert not agreed and whole.verdict == "undecided" and whole.probability == pytest.approx(2 / 3)
@@ -140,10 +144,14 @@ def test_the_chance_is_that_single_runs_show_all_of_it() -> None:
 
 def test_measures_of_a_run_belong_together() -> None:
     """x rises in 3 of 4 pairs and y in 3 of 4, but never both fall: runs of both are 2 of 4."""
-    own = {A: {"x": np.array([0.0, 2.0]), "y": np.array([2.0, 0.0])},
-           B: {"x": np.array([1.0, 3.0]), "y": np.array([3.0, 1.0])}}  # fmt: skip
-    checks = [Check((A, B), ("x",), lambda x: x(1, "x") > x(0, "x")),
-              Check((A, B), ("y",), lambda x: x(1, "y") > x(0, "y"))]  # fmt: skip
+    own = {
+        A: {"x": np.array([0.0, 2.0]), "y": np.array([2.0, 0.0])},
+        B: {"x": np.array([1.0, 3.0]), "y": np.array([3.0, 1.0])},
+    }
+    checks = [
+        Check((A, B), ("x",), lambda x: x(1, "x") > x(0, "x")),
+        Check((A, B), ("y",), lambda x: x(1, "y") > x(0, "y")),
+    ]
     found = judged(checks, own)
     assert (found.probability, found.chance) == (0.75, 0.5)
 

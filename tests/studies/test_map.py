@@ -215,9 +215,11 @@ def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() 
 def test_axes_that_do_not_fit_are_refused() -> None:
     dry = press("dry")
     for axes, method in (
-        ([axis(dry, "step", [1e-5])], "auto"), ([axis(dry, "rtol", [1e-5])], "rk4"),
-        ([axis(dry, "rtol", [1e-5])] * 2, "auto"), ([axis(dry, "rtol", [0.0])], "auto"),
-    ):  # fmt: skip
+        ([axis(dry, "step", [1e-5])], "auto"),
+        ([axis(dry, "rtol", [1e-5])], "rk4"),
+        ([axis(dry, "rtol", [1e-5])] * 2, "auto"),
+        ([axis(dry, "rtol", [0.0])], "auto"),
+    ):
         with pytest.raises(BadValueError, match="axis|axes"):
             verdict_map(dry, axes, method=method)
     for text in ("omega", "omega=2..1", "omega=1..2:x"):

@@ -28,19 +28,27 @@ from tests.pump import Gudgeon
 
 pytestmark = needs_compiler
 CRANK: dict[str, Any] = {
-    "mechanism": "slider_crank", "scenes": ["ideal", "dry"],
+    "mechanism": "slider_crank",
+    "scenes": ["ideal", "dry"],
     "parameters": {"c": ["0.1 mm", "0.3 mm"], "omega": {"from": "300 rpm", "to": "600 rpm", "count": 3}},
-    "t_end": "pi/omega", "output": 50,
+    "t_end": "pi/omega",
+    "output": 50,
     "windows": {"late": {"from": "t_end/2", "to": "0.9*t_end"}},
     "measures": {
-        "top": {"max": "slider.x", "window": "late"}, "low": {"min": "slider.x", "window": "late"},
-        "peak": {"peak": "slider.ax", "window": "late"}, "range": {"range": "slider.x"},
-        "mean": {"mean": "slider.vx", "window": "late"}, "rms": {"rms": "slider.vx"}, "end": {"final": "slider.x"},
-        "steps": {"peak_of_steps": "slider.ax"}, "least": {"min_of_steps": "slider.ax"},
-        "hits": {"impacts": "wristpin"}, "force": {"peak_force": "wristpin"},
+        "top": {"max": "slider.x", "window": "late"},
+        "low": {"min": "slider.x", "window": "late"},
+        "peak": {"peak": "slider.ax", "window": "late"},
+        "range": {"range": "slider.x"},
+        "mean": {"mean": "slider.vx", "window": "late"},
+        "rms": {"rms": "slider.vx"},
+        "end": {"final": "slider.x"},
+        "steps": {"peak_of_steps": "slider.ax"},
+        "least": {"min_of_steps": "slider.ax"},
+        "hits": {"impacts": "wristpin"},
+        "force": {"peak_force": "wristpin"},
     },
     "keep": ["slider.x", "slider.vx", "slider.ax"],
-}  # fmt: skip
+}
 
 
 @cache
@@ -59,8 +67,9 @@ def test_a_grid_is_its_runs_made_one_by_one(crank: gudgeon.Study) -> None:
     assert found["steps"].dims == ("scene", "c", "omega") and crank.runs == 12 and crank.failed == 0
     np.testing.assert_array_equal(found["omega"], np.linspace(10 * np.pi, 20 * np.pi, 3))
     assert found["c"].attrs["units"] == "m" and found["peak"].attrs == {
-        "units": "m/s^2", "long_name": "peak of slider.ax in window late"
-    }  # fmt: skip
+        "units": "m/s^2",
+        "long_name": "peak of slider.ax in window late",
+    }
     for scene, c, k in (("ideal", 1e-4, 0), ("dry", 1e-4, 2), ("dry", 3e-4, 1)):
         omega = float(found["omega"][k])
         run = loaded("slider_crank", scene).simulate(
@@ -101,10 +110,13 @@ def test_what_runs_say_of_themselves_is_told_once_with_how_many(monkeypatch: pyt
     monkeypatch.setattr(resolve, "BLOCK", 2)
     clearances, wanted = [1e-6, 1.5e-6, 2e-6, 3e-4], {"t_end": "pi/omega", "output": 20}
     measures = {"measures": {"F": {"peak_force": "wristpin"}}}
-    found = gudgeon.study({"mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": clearances}}
-                          | wanted | measures)  # fmt: skip
-    own = [loaded("slider_crank", "dry").simulate("pi/omega", output=20, parameters={"c": c}).diagnostics.notes
-           for c in clearances]  # fmt: skip
+    found = gudgeon.study(
+        {"mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": clearances}} | wanted | measures
+    )
+    own = [
+        loaded("slider_crank", "dry").simulate("pi/omega", output=20, parameters={"c": c}).diagnostics.notes
+        for c in clearances
+    ]
     assert [len(notes) for notes in own] == [1, 1, 1, 0]
     assert found.notes == (f"3 of 4 runs, such as run 0 (c=1e-06): {own[0][0]}",)
 
@@ -149,9 +161,11 @@ def drawn(method: str, **more: Any) -> xr.Dataset:
 
 def test_draws_are_those_of_scipy() -> None:
     points = {
-        "random": np.random.default_rng(11).random((6, 2)), "halton": qmc.Halton(2, seed=11).random(6),
-        "latin_hypercube": qmc.LatinHypercube(2, seed=11).random(6), "sobol": qmc.Sobol(2, seed=11).random(8)[:6],
-    }  # fmt: skip
+        "random": np.random.default_rng(11).random((6, 2)),
+        "halton": qmc.Halton(2, seed=11).random(6),
+        "latin_hypercube": qmc.LatinHypercube(2, seed=11).random(6),
+        "sobol": qmc.Sobol(2, seed=11).random(8)[:6],
+    }
     for method, share in points.items():
         found = drawn(method)
         assert found["y"].dims == ("draw",) and found["g"].dims == ("draw",)
@@ -169,10 +183,14 @@ def test_arrays_of_numpy_and_more_than_an_attribute_holds() -> None:
     lengths = np.linspace(0.5, 2.0, 3)
     windows = {f"window_{k}": {"from": " + ".join(["0 s"] * 40)} for k in range(300)}
     study = {
-        "mechanism": "pendulum", "parameters": {"length": lengths}, "t_end": 1e-3, "output": np.int64(1),
-        "starts": {"count": np.int64(2), "absolute": {"length": 1e-3}}, "windows": windows,
+        "mechanism": "pendulum",
+        "parameters": {"length": lengths},
+        "t_end": 1e-3,
+        "output": np.int64(1),
+        "starts": {"count": np.int64(2), "absolute": {"length": 1e-3}},
+        "windows": windows,
         "measures": {"x": {"final": "bob.x", "window": "window_7"}},
-    }  # fmt: skip
+    }
     found = gudgeon.study(study)
     assert found.measures == ("x",) and found.runs == 6 and len(json.dumps(windows)) > 1 << 16
     assert list(found.to_dataframe().columns)[:2] == ["length", "start"]
@@ -184,11 +202,14 @@ def test_arrays_of_numpy_and_more_than_an_attribute_holds() -> None:
 def test_a_zip_is_one_dimension_and_the_end_follows_the_numbers() -> None:
     """A quarter of the pendulum's period, 2.367841947576 s at 9.81 m/s² and 1 m, and ∝ √(l/g): there it hangs."""
     study = {
-        "mechanism": "pendulum", "zip": {"run": {"g": [9.81, 1.62, 9.81], "length": ["1 m", "1 m", "25 cm"]}},
-        "t_end": "2.367841947576 s / 4 * sqrt(9.81 m/s^2 * length / (1 m * (g)))", "output": "t_end / 1 ms",
+        "mechanism": "pendulum",
+        "zip": {"run": {"g": [9.81, 1.62, 9.81], "length": ["1 m", "1 m", "25 cm"]}},
+        "t_end": "2.367841947576 s / 4 * sqrt(9.81 m/s^2 * length / (1 m * (g)))",
+        "output": "t_end / 1 ms",
         "windows": {"hanging": {"from": "t_end"}},
-        "measures": {"swing": {"max": "swing", "window": "hanging"}, "fast": {"final": "bob.vx"}}, "keep": ["bob.y"],
-    }  # fmt: skip
+        "measures": {"swing": {"max": "swing", "window": "hanging"}, "fast": {"final": "bob.vx"}},
+        "keep": ["bob.y"],
+    }
     found = gudgeon.study(study).dataset
     assert found["swing"].dims == ("run",) and found["g"].dims == found["length"].dims == ("run",)
     np.testing.assert_allclose(found["swing"], 0.0, atol=1e-7)
@@ -201,17 +222,28 @@ def test_a_zip_is_one_dimension_and_the_end_follows_the_numbers() -> None:
 def test_contacts_and_choices_of_a_ball() -> None:
     """It falls 1 m: first contact at √(2h/g) with √(2gh); thrown back by e it comes again 2e√(2h/g) later."""
     study = {
-        "mechanism": "bouncing_ball", "scenes": "damped", "parameters": {"height": ["1 m", "0.25 m"]},
-        "choices": {"law": {"hunt": {"contacts.damped.normal.dissipation": "hunt_crossley"},
-                            "none": {"contacts.damped.normal.dissipation": "none"}}},
-        "t_end": "2.5 * sqrt(2*height/(9.81 m/s^2))", "output": 100,
+        "mechanism": "bouncing_ball",
+        "scenes": "damped",
+        "parameters": {"height": ["1 m", "0.25 m"]},
+        "choices": {
+            "law": {
+                "hunt": {"contacts.damped.normal.dissipation": "hunt_crossley"},
+                "none": {"contacts.damped.normal.dissipation": "none"},
+            }
+        },
+        "t_end": "2.5 * sqrt(2*height/(9.81 m/s^2))",
+        "output": 100,
         "windows": {"first": {"to": "1.5*sqrt(2*height/(9.81 m/s^2))"}, "after": {"from": "t_end"}},
         "measures": {"t": {"first_impact": "fall"}, "v": {"impact_speed": "fall"}, "n": {"impacts": "fall"}},
-    }  # fmt: skip
+    }
     with pytest.raises(InputError, match="the name 't' is taken"):
         gudgeon.study(study)
-    study["measures"] = {"when": {"first_impact": "fall"}, "speed": {"impact_speed": "fall"},
-                         "hits": {"impacts": "fall", "window": "first"}, "none": {"impacts": "fall", "window": "after"}}
+    study["measures"] = {
+        "when": {"first_impact": "fall"},
+        "speed": {"impact_speed": "fall"},
+        "hits": {"impacts": "fall", "window": "first"},
+        "none": {"impacts": "fall", "window": "after"},
+    }
     found = gudgeon.study(study).dataset
     assert found["when"].dims == ("law", "height") and list(found["law"].values) == ["hunt", "none"]
     height = found["height"].values * np.ones((2, 1))
@@ -222,13 +254,21 @@ def test_contacts_and_choices_of_a_ball() -> None:
 
 def test_perturbed_starts_are_off_by_their_size() -> None:
     study: dict[str, Any] = {
-        "mechanism": "pendulum", "parameters": {"g": [9.81, 20]}, "t_end": "1 ms", "output": 1,
-        "starts": {"count": 5, "seed": 4, "ensembles": {
-            "near": {"relative": {"g": "1e-6"}}, "far": {"relative": {"g": 0.1}, "absolute": {"length": "1 mm"}},
-            "away": {"absolute": {"parameters.g": "1 m/s^2"}},
-        }},
+        "mechanism": "pendulum",
+        "parameters": {"g": [9.81, 20]},
+        "t_end": "1 ms",
+        "output": 1,
+        "starts": {
+            "count": 5,
+            "seed": 4,
+            "ensembles": {
+                "near": {"relative": {"g": "1e-6"}},
+                "far": {"relative": {"g": 0.1}, "absolute": {"length": "1 mm"}},
+                "away": {"absolute": {"parameters.g": "1 m/s^2"}},
+            },
+        },
         "measures": {"a": {"final": "bob.ay"}, "x": {"final": "bob.x"}},
-    }  # fmt: skip
+    }
     found = gudgeon.study(study).dataset
     assert found["a"].dims == ("g", "ensemble", "start")
     off = np.stack([np.random.default_rng([4, k]).uniform(-1, 1, (5, 3)) for k in range(3)])
@@ -260,15 +300,17 @@ def test_starts_alone_and_one_run_alone() -> None:
     assert one.dataset["x"] == loaded("pendulum").simulate(1e-3, output=1)["bob.x"][-1]
 
 
-def test_failures_are_rows_with_their_reason(
-    call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A clearance larger than its bearing, an end before the start: the others are as they are without them."""
     study: dict[str, Any] = {
-        "mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": ["0.1 mm", "20 mm", "0.3 mm"],
-        "omega": ["300 rpm", "-300 rpm"]}, "t_end": "2 ms * omega / (300 rpm)", "output": 4, "keep": ["slider.x"],
+        "mechanism": "slider_crank",
+        "scenes": "dry",
+        "parameters": {"c": ["0.1 mm", "20 mm", "0.3 mm"], "omega": ["300 rpm", "-300 rpm"]},
+        "t_end": "2 ms * omega / (300 rpm)",
+        "output": 4,
+        "keep": ["slider.x"],
         "measures": {"x": {"final": "slider.x"}},
-    }  # fmt: skip
+    }
     found = gudgeon.study(study)
     failed = found.dataset["failure"].values != ""
     assert failed.tolist() == [[False, True], [True, True], [False, True]] and found.failed == 4
@@ -294,11 +336,14 @@ def test_failures_are_rows_with_their_reason(
     assert f"c = 0.1 mm, omega = −300 rpm: {late}" in document["first_failures"].values()
 
 
-@pytest.mark.parametrize(("told", "kind"), [
-    ("a.R is -0.0001 m with omega = 15.7 1/s, c = -1e-4 m: it is positive", "a.R is … m: it is positive"),
-    ("a.R is 2 m with c = 3 m: it is positive\n more", "a.R is … m: it is positive"),
-    ("rod12.a = 3.5e+02 m/s^2, -2 1/s^-2 and 11/s", "rod12.a = … m/s^2, … 1/s^-2 and …/s"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("told", "kind"),
+    [
+        ("a.R is -0.0001 m with omega = 15.7 1/s, c = -1e-4 m: it is positive", "a.R is … m: it is positive"),
+        ("a.R is 2 m with c = 3 m: it is positive\n more", "a.R is … m: it is positive"),
+        ("rod12.a = 3.5e+02 m/s^2, -2 1/s^-2 and 11/s", "rod12.a = … m/s^2, … 1/s^-2 and …/s"),
+    ],
+)
 def test_runs_that_failed_of_the_same_are_one_kind(told: str, kind: str) -> None:
     """Without the numbers of each; digits of names and units stay."""
     assert kind_of(told) == kind
@@ -306,10 +351,17 @@ def test_runs_that_failed_of_the_same_are_one_kind(told: str, kind: str) -> None
 
 def test_a_run_that_leaves_its_laws_domain_is_a_row_up_to_there() -> None:
     """Driven at 10⁹ rad/s the journal is pushed through its bearing within a nanosecond."""
-    found = gudgeon.study({
-        "mechanism": "slider_crank", "scenes": "dry", "parameters": {"omega": ["600 rpm", 1e9]}, "t_end": "1 ms",
-        "output": 20, "measures": {"x": {"final": "slider.x"}, "p": {"peak_force": "wristpin"}}, "keep": ["slider.x"],
-    })  # fmt: skip
+    found = gudgeon.study(
+        {
+            "mechanism": "slider_crank",
+            "scenes": "dry",
+            "parameters": {"omega": ["600 rpm", 1e9]},
+            "t_end": "1 ms",
+            "output": 20,
+            "measures": {"x": {"final": "slider.x"}, "p": {"peak_force": "wristpin"}},
+            "keep": ["slider.x"],
+        }
+    )
     own = found.dataset.isel(omega=1)
     assert found.failed == 1 and "deep in its bearing" in str(own["failure"].values)
     assert 0 < own["t_last"] < 1e-9 and own["x"].isnull() and own["p"].isnull()
@@ -347,8 +399,14 @@ measures: {x: {final: bob.x}}
 
 def test_a_scene_that_cannot_move_follows_its_drives() -> None:
     """Whatever method, tolerance and step say: those are of the scenes that are integrated, and a note says so."""
-    own: dict[str, Any] = {"parameters": {"omega": ["300 rpm", "600 rpm"]}, "output": 5, "t_end": "1 ms",
-                           "measures": {"x": {"final": "slider.x"}}, "method": "rk4", "step": "t_end / 1000"}
+    own: dict[str, Any] = {
+        "parameters": {"omega": ["300 rpm", "600 rpm"]},
+        "output": 5,
+        "t_end": "1 ms",
+        "measures": {"x": {"final": "slider.x"}},
+        "method": "rk4",
+        "step": "t_end / 1000",
+    }
     found = gudgeon.study({"mechanism": "slider_crank", "scenes": ["ideal", "dry"]} | own)
     assert found.failed == 0 and sum("no degree of freedom" in note for note in found.notes) == 1
     for omega in (10 * math.pi, 20 * math.pi):

@@ -79,10 +79,21 @@ def test_a_pendulum_that_is_let_go_level(found: gudgeon.Study) -> None:
     verdicts = {name: tuple(dict.fromkeys(trends.loc[[name], "alone"])) for name in trends.index.unique()}
     holds, fails = ("holds",), ("fails",)
     assert verdicts == {
-        "T1": holds, "T2": fails, "T3": holds, "T4": holds, "T5": ("holds", "undecided"), "T6": holds, "T7": holds,
-        "T8": fails, "T9": holds, "T10": ("not computed",), "T11": holds, "T12": holds, "T13": ("holds", "undecided"),
+        "T1": holds,
+        "T2": fails,
+        "T3": holds,
+        "T4": holds,
+        "T5": ("holds", "undecided"),
+        "T6": holds,
+        "T7": holds,
+        "T8": fails,
+        "T9": holds,
+        "T10": ("not computed",),
+        "T11": holds,
+        "T12": holds,
+        "T13": ("holds", "undecided"),
         "T14": fails,
-    }, verdicts  # fmt: skip
+    }, verdicts
     assert trends.loc["T5", "ensemble"].tolist() == ["near", "far"] and not trends.loc["T5", "agreed"].any()
     assert set(trends.loc["T5", "verdict"]) == {"undecided"} and set(trends.loc["T1":"T4", "agreed"]) == {True}
     assert trends.loc["T1", "ensemble"] == "" and trends.loc["T10", "note"] == "nobody measures a photograph"
@@ -118,13 +129,16 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     assert table["says"][0] == "'=x grows with length" and again.trends["says"][0] == "=x grows with length"
 
 
-@pytest.mark.parametrize(("medians", "off", "told"), [
-    ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: ours are off by 6 % or less for half of them"),
-    ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: ours is off by 5 %"),
-    ([math.nan, math.nan], [math.nan, math.nan], "2 printed numbers: none could be computed"),
-    ([math.nan], [math.nan], "1 printed number: none could be computed"),
-    ([2.0], [math.nan], "1 printed number: of a printed 0 ours is off by no share"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("medians", "off", "told"),
+    [
+        ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: ours are off by 6 % or less for half of them"),
+        ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: ours is off by 5 %"),
+        ([math.nan, math.nan], [math.nan, math.nan], "2 printed numbers: none could be computed"),
+        ([math.nan], [math.nan], "1 printed number: none could be computed"),
+        ([2.0], [math.nan], "1 printed number: of a printed 0 ours is off by no share"),
+    ],
+)
 def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off: list[float], told: str) -> None:
     """NaN, of runs that failed, is in no median of deviations."""
     names = [f"N{k}" for k in range(len(off))]
@@ -193,7 +207,7 @@ BAD = [  # in place of what, what; line and words of the message
     ("says: ours alone, beside: N4", "beside: N9", "21:70", "unknown number 'N9'"),
     ("says: ours alone, beside: N4", "beside: N1", "21:70", "expected a number of the same measure"),
     ("says: ours alone, beside: N4", "value: 3, beside: N4", "21:72", "both value and beside"),
-]  # fmt: skip
+]
 
 
 @needs_compiler
@@ -207,15 +221,22 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 
 
 @needs_compiler
-@pytest.mark.parametrize(("some", "most"), [
-    (50, 1000), pytest.param(500, claims.MOST_COMPARED, marks=pytest.mark.slow),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("some", "most"),
+    [
+        (50, 1000),
+        pytest.param(500, claims.MOST_COMPARED, marks=pytest.mark.slow),
+    ],
+)
 def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Any two of 50 values are 1225 pairs, of 500 124 750; the same values one by one are few, a million too many."""
     monkeypatch.setattr(claims, "MOST_COMPARED", most)
     study: dict[str, Any] = {"mechanism": "pendulum", "measures": {"x": {"final": "bob.x"}}}
-    for count, kind, words in ((some, "alike_along", f"more than {most} pairs"), (some, "grows_along", ""),
-                               (10**6, "grows_along", "1000000 values")):  # fmt: skip
+    for count, kind, words in (
+        (some, "alike_along", f"more than {most} pairs"),
+        (some, "grows_along", ""),
+        (10**6, "grows_along", "1000000 values"),
+    ):
         trend = {"says": "?", "measure": "x", kind: "g"} | ({"within": 0.1} if kind == "alike_along" else {})
         row = {"from": 1, "to": 2, "count": count}
         given = study | {"parameters": {"g": row}, "claims": {"source": "s", "trends": {"T": trend}}}
@@ -229,8 +250,11 @@ def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monke
 @needs_compiler
 def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
-    path.write_text(TEXT.replace("value: 2 m", "value: 2 kg").replace("grows_along: g", "grows_along: q").replace(
-        "-9.81 m/s^2", "-9.81 m"))  # fmt: skip
+    path.write_text(
+        TEXT.replace("value: 2 m", "value: 2 kg")
+        .replace("grows_along: g", "grows_along: q")
+        .replace("-9.81 m/s^2", "-9.81 m")
+    )
     with pytest.raises(InputErrors) as told:
         plans_of(path)
     assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "25", "30"], str(told.value)
@@ -242,8 +266,12 @@ def test_the_schema_takes_what_is_read() -> None:
     study = YAML(typ="safe").load(TEXT)
     assert not list(check.iter_errors(study))
     wrong: list[dict[str, Any]] = [
-        {"grow_along": "c"}, {"at": "c"}, {"measure": []}, {"counts": {"bodies": 1.5}}, {"all": []},
-    ]  # fmt: skip
+        {"grow_along": "c"},
+        {"at": "c"},
+        {"measure": []},
+        {"counts": {"bodies": 1.5}},
+        {"all": []},
+    ]
     for trend in wrong:
         study["claims"]["trends"]["T1"] = trend
         assert list(check.iter_errors(study)), trend

@@ -19,31 +19,43 @@ from tests.programs import needs_compiler
 pytestmark = needs_compiler
 G, M, K = 9.81, 0.092, 1.4e8  # of bouncing_ball
 CRANK: dict[str, Any] = {
-    "mechanism": "slider_crank", "scenes": ["ideal", "dry"],
+    "mechanism": "slider_crank",
+    "scenes": ["ideal", "dry"],
     "parameters": {"c": ["0.1 mm", "0.3 mm"], "omega": ["300 rpm", "600 rpm"]},
-    "starts": {"count": 3, "seed": 2, "relative": {"c": 0.01}}, "t_end": "pi/omega", "output": 200,
+    "starts": {"count": 3, "seed": 2, "relative": {"c": 0.01}},
+    "t_end": "pi/omega",
+    "output": 200,
     "windows": {"late": {"from": "t_end/2"}},
     "measures": {
-        "x": {"deviation": "slider.x", "from": "ideal"}, "v": {"rms": "slider.vx", "from": "ideal", "window": "late"},
+        "x": {"deviation": "slider.x", "from": "ideal"},
+        "v": {"rms": "slider.vx", "from": "ideal", "window": "late"},
         "a": {"deviation_of_steps": "slider.ax", "from": "ideal"},
         "least": {"min_of_steps": "slider.ax", "from": "ideal"},
         "force": {"peak_force": "wristpin"},
     },
-    "keep": ["slider.x", "slider.vx"], "titles": {"dry": "loose"},
-}  # fmt: skip
+    "keep": ["slider.x", "slider.vx"],
+    "titles": {"dry": "loose"},
+}
 
 
 def test_a_ball_that_falls_and_one_that_hangs() -> None:
     """Without play it hangs at 0: the falling one deviates by g t²/2, its rate by g t, sqrt(2 g h) at the floor."""
-    found = gudgeon.study({
-        "mechanism": "bouncing_ball", "scenes": "elastic", "parameters": {"height": ["1 m", "0.25 m"]},
-        "t_end": "1.5 * sqrt(2*height/(9.81 m/s^2))", "output": 300,
-        "windows": {"fall": {"to": "0.8 * sqrt(2*height/(9.81 m/s^2))"}},
-        "measures": {"y": {"deviation": "ball.y", "from": "ideal", "window": "fall"},
-                     "v": {"deviation": "ball.vy", "from": "ideal", "window": "fall"},
-                     "most": {"deviation_of_steps": "ball.vy", "from": "ideal"},
-                     "mean": {"mean": "ball.vy", "from": "ideal", "window": "fall"}},
-    }).dataset  # fmt: skip
+    found = gudgeon.study(
+        {
+            "mechanism": "bouncing_ball",
+            "scenes": "elastic",
+            "parameters": {"height": ["1 m", "0.25 m"]},
+            "t_end": "1.5 * sqrt(2*height/(9.81 m/s^2))",
+            "output": 300,
+            "windows": {"fall": {"to": "0.8 * sqrt(2*height/(9.81 m/s^2))"}},
+            "measures": {
+                "y": {"deviation": "ball.y", "from": "ideal", "window": "fall"},
+                "v": {"deviation": "ball.vy", "from": "ideal", "window": "fall"},
+                "most": {"deviation_of_steps": "ball.vy", "from": "ideal"},
+                "mean": {"mean": "ball.vy", "from": "ideal", "window": "fall"},
+            },
+        }
+    ).dataset
     height = found["height"].values
     fall = 0.8 * np.sqrt(2 * height / G)
     np.testing.assert_allclose(found["y"], G * fall**2 / 2, rtol=1e-9)
@@ -58,10 +70,17 @@ def test_a_ball_that_falls_and_one_that_hangs() -> None:
 def test_two_balls_are_the_same_until_they_touch() -> None:
     """Then one has its speed back, the other a share of it: what they differ by is known from each alone."""
     own = {"mechanism": "bouncing_ball", "t_end": "0.8 s", "output": 4000, "windows": {"fall": {"to": "0.45 s"}}}
-    found = gudgeon.study(own | {"scenes": ["damped", "elastic"], "measures": {
-        "fall": {"deviation": "ball.vy", "from": "elastic", "window": "fall"},
-        "v": {"deviation": "ball.vy", "from": "elastic"}, "steps": {"deviation_of_steps": "ball.vy", "from": "elastic"},
-    }}).dataset  # fmt: skip
+    found = gudgeon.study(
+        own
+        | {
+            "scenes": ["damped", "elastic"],
+            "measures": {
+                "fall": {"deviation": "ball.vy", "from": "elastic", "window": "fall"},
+                "v": {"deviation": "ball.vy", "from": "elastic"},
+                "steps": {"deviation_of_steps": "ball.vy", "from": "elastic"},
+            },
+        }
+    ).dataset
     assert (found["fall"] == 0.0).all() and (found.sel(scene="elastic")[["v", "steps"]].to_array() == 0.0).all()
     runs = [gudgeon.load("bouncing_ball", scene).simulate(0.8, output=4000) for scene in ("damped", "elastic")]
     assert found["v"].sel(scene="damped") == np.abs(runs[0]["ball.vy"] - runs[1]["ball.vy"]).max()
@@ -101,8 +120,11 @@ def test_a_scenes_deviation_from_itself_is_none(crank: gudgeon.Study) -> None:
 
 def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without works and events, samples of positions and velocities are the same, accelerations to rounding."""
-    study = CRANK | {"scenes": "dry", "keep": [], "measures": {
-        "a": {"deviation": "slider.ax", "from": "ideal"}, "x": {"rms": "slider.x", "from": "ideal"}}}  # fmt: skip
+    study = CRANK | {
+        "scenes": "dry",
+        "keep": [],
+        "measures": {"a": {"deviation": "slider.ax", "from": "ideal"}, "x": {"rms": "slider.x", "from": "ideal"}},
+    }
     found = []
     ways: list[Any] = [origins._followed, lambda *arguments: {}]
     for follow in ways:
@@ -136,25 +158,37 @@ def test_the_other_scene_is_run_once_for_its_own_numbers(monkeypatch: pytest.Mon
 
 def test_what_the_other_scene_cannot_run_is_a_row_with_its_reason() -> None:
     """A rod 0.1 mm shorter than the crank passes by the play of its pin, 0.3 mm, and without it gets stuck."""
-    found = gudgeon.study({
-        "mechanism": "slider_crank", "scenes": "dry", "t_end": "88 deg/omega", "output": 50,
-        "zip": {"run": {"bodies.rod.length": ["49.9 mm", "120 mm"], "c": ["0.3 mm", "0.3 mm"]}},
-        "measures": {"x": {"deviation": "slider.x", "from": "ideal"}, "force": {"peak_force": "wristpin"}},
-    })  # fmt: skip
+    found = gudgeon.study(
+        {
+            "mechanism": "slider_crank",
+            "scenes": "dry",
+            "t_end": "88 deg/omega",
+            "output": 50,
+            "zip": {"run": {"bodies.rod.length": ["49.9 mm", "120 mm"], "c": ["0.3 mm", "0.3 mm"]}},
+            "measures": {"x": {"deviation": "slider.x", "from": "ideal"}, "force": {"peak_force": "wristpin"}},
+        }
+    )
     told = found.dataset["failure"].values
     assert told[0].startswith("scene ideal: ") and told[1] == "" and found.failed == 1
     assert any("70.1 mm from its guess" in note for note in found.notes), found.notes
     np.testing.assert_array_equal(found.dataset["x"].isnull(), [True, False])
 
 
-@pytest.mark.parametrize(("measure", "place", "words"), [
-    ("{deviation: slider.x}", "4:15", "has no from"),
-    ("{deviation: slider.x, from: idael}", "4:43", "idael"),
-    ("{deviation: wristpin.e, from: ideal}", "4:27", "scene ideal: "),
-    ("{impacts: wristpin, from: ideal}", "4:35", "is of no series"),
-    ("{deviation_of_steps: slider.x, from: ideal, window: late}", "4:67", "knows no window"),
-    ("{deviation_of_steps: slider.x, from: ideal}, b: {max_of_steps: slider.x, from: dry}", "4:94", "go beside scene"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("measure", "place", "words"),
+    [
+        ("{deviation: slider.x}", "4:15", "has no from"),
+        ("{deviation: slider.x, from: idael}", "4:43", "idael"),
+        ("{deviation: wristpin.e, from: ideal}", "4:27", "scene ideal: "),
+        ("{impacts: wristpin, from: ideal}", "4:35", "is of no series"),
+        ("{deviation_of_steps: slider.x, from: ideal, window: late}", "4:67", "knows no window"),
+        (
+            "{deviation_of_steps: slider.x, from: ideal}, b: {max_of_steps: slider.x, from: dry}",
+            "4:94",
+            "go beside scene",
+        ),
+    ],
+)
 def test_mistakes_are_told_at_their_place(measure: str, place: str, words: str, tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
     path.write_text(f"format: gudgeon-study/1\nmechanism: slider_crank\nscenes: dry\nmeasures: {{a: {measure}}}\n")

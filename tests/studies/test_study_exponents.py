@@ -38,14 +38,22 @@ def own(folder: Path, rail: Simulation) -> dict[str, Any]:
 @pytest.mark.slow
 def test_exponents_of_hill_and_valley(own: dict[str, Any]) -> None:
     """√(k/m) on a hill of stiffness −k, −d/2m in a valley; a run that overflows is a row with its reason."""
-    found = gudgeon.study(own | {
-        "parameters": {"k3": 0.0, "A": 0.0},
-        "zip": {"case": {"k": [-4.0, 4.0, -4.0], "d": [0.0, 0.4, 0.0], "x0": [0.0, 1.0, 1.0]}},
-        "t_end": "where(x0 > 0 m, 80 s, 10 s)",
-        "rtol": "1e-9", "windows": {"late": {"from": "1 s", "to": "60 s"}},
-        "measures": {"rate": {"lyapunov": "run"}, "error": {"lyapunov_error": "run"},
-                     "far": {"believable": "run"}, "late": {"lyapunov": "run", "window": "late"}},
-    })  # fmt: skip
+    found = gudgeon.study(
+        own
+        | {
+            "parameters": {"k3": 0.0, "A": 0.0},
+            "zip": {"case": {"k": [-4.0, 4.0, -4.0], "d": [0.0, 0.4, 0.0], "x0": [0.0, 1.0, 1.0]}},
+            "t_end": "where(x0 > 0 m, 80 s, 10 s)",
+            "rtol": "1e-9",
+            "windows": {"late": {"from": "1 s", "to": "60 s"}},
+            "measures": {
+                "rate": {"lyapunov": "run"},
+                "error": {"lyapunov_error": "run"},
+                "far": {"believable": "run"},
+                "late": {"lyapunov": "run", "window": "late"},
+            },
+        }
+    )
     data = found.dataset
     hill, valley = data.isel(case=0), data.isel(case=1)
     for name in ("rate", "late"):
@@ -61,12 +69,19 @@ def test_exponents_of_hill_and_valley(own: dict[str, Any]) -> None:
 @pytest.mark.parametrize("damping", [[1.6], pytest.param([0.8, 1.6], marks=pytest.mark.slow)])
 def test_kinds_of_motion_once_a_period(damping: list[float], own: dict[str, Any]) -> None:
     """Forced and damped, transients gone, it repeats itself with the force: by −d/2m · 2π/ω a return."""
-    found = gudgeon.study(own | {
-        "parameters": own["parameters"] | {"k": 4.0, "A": 7.5, "d": damping}, "t_end": "140*pi/w",
-        "windows": {"late": {"from": "20 s"}},
-        "measures": {"kind": {"motion": "2*pi/w", "window": "late"}, "per": {"lyapunov_per_return": "2*pi/w"},
-                     "sure": {"motion_confidence": "2*pi/w", "window": "late"}},
-    }).dataset  # fmt: skip
+    found = gudgeon.study(
+        own
+        | {
+            "parameters": own["parameters"] | {"k": 4.0, "A": 7.5, "d": damping},
+            "t_end": "140*pi/w",
+            "windows": {"late": {"from": "20 s"}},
+            "measures": {
+                "kind": {"motion": "2*pi/w", "window": "late"},
+                "per": {"lyapunov_per_return": "2*pi/w"},
+                "sure": {"motion_confidence": "2*pi/w", "window": "late"},
+            },
+        }
+    ).dataset
     np.testing.assert_allclose(found["per"], -found["d"] / 2 * 2 * np.pi / 5.0, rtol=0.02)
     assert (found["kind"] == 1.0).all() and (found["sure"] >= 0.8).all()
 
@@ -79,11 +94,22 @@ def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
     text = RAIL.format(parameters="k: 4 N/m, x0: 1e-6 m", force="where(m.x < 1 m, k*m.x, m.x * 0 N/m - m.vx * 5 kg/s)")
     path = tmp_path / "edge.yaml"
     path.write_text(text.replace("events: {", "events: {edge: {zero: m.x - 1 m, action: stop}, "), encoding="utf-8")
-    measures = {"rate": {"lyapunov": "run"}, "far": {"believable": "run"}, "kind": {"motion": "9 s"},
-                "late": {"lyapunov": "run", "window": "late"}, "ups": {"crossings": "up", "window": "late"},
-                "edges": {"crossings": "edge"}}  # fmt: skip
-    wanted = {"mechanism": str(path), "t_end": "20 s", "output": 10, "rtol": 1e-6, "measures": measures,
-              "windows": {"late": {"from": "10 s"}}}  # fmt: skip
+    measures = {
+        "rate": {"lyapunov": "run"},
+        "far": {"believable": "run"},
+        "kind": {"motion": "9 s"},
+        "late": {"lyapunov": "run", "window": "late"},
+        "ups": {"crossings": "up", "window": "late"},
+        "edges": {"crossings": "edge"},
+    }
+    wanted = {
+        "mechanism": str(path),
+        "t_end": "20 s",
+        "output": 10,
+        "rtol": 1e-6,
+        "measures": measures,
+        "windows": {"late": {"from": "10 s"}},
+    }
     stopped, on = gudgeon.study(wanted), gudgeon.study(wanted | {"stop": False}).dataset
     ended = stopped.dataset
     assert float(ended["t_last"]) == pytest.approx(math.acosh(1e6) / 2.0, rel=1e-5) and not stopped.failed
@@ -108,10 +134,12 @@ def test_a_run_in_place_of_a_time(rail: Simulation) -> None:
 
 
 BAD: list[tuple[dict[str, Any], str, str]] = [
-    ({}, "{motion: run}", "a period: 2*pi/omega"), ({}, "{lyapunov: upp}", "unknown name"),
-    ({}, "{lyapunov: 2*w}", "a time"), ({"step": "1 ms"}, "{believable: run}", "fixed step"),
+    ({}, "{motion: run}", "a period: 2*pi/omega"),
+    ({}, "{lyapunov: upp}", "unknown name"),
+    ({}, "{lyapunov: 2*w}", "a time"),
+    ({"step": "1 ms"}, "{believable: run}", "fixed step"),
     ({"mechanism": "slider_crank", "scenes": "ideal", "parameters": {}}, "{lyapunov: run}", "no degree of freedom"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("more", "measure", "words"), BAD, ids=[str(k) for k in range(len(BAD))])

@@ -103,7 +103,7 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "step: -1 ms", "5:7", "a positive time"),
     ("from: t_end/2", "from: 2*t_end", "7:16", "goes from 2 s to 1 s"),
     ("from: t_end/2", "to: -1 s", "7:14", "expected a part of the run"),
-]  # fmt: skip
+]
 
 
 def test_what_a_choice_varies_is_not_set_for_all_runs(tmp_path: Path) -> None:
@@ -178,9 +178,7 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
 
 
 @needs_compiler
-def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As mechanisms are; a file of that name in the folder counts before it."""
     monkeypatch.chdir(tmp_path)
     plans = plans_of("lubricated_10000")
@@ -201,8 +199,9 @@ def test_starts_may_be_more_or_others_than_the_file_says() -> None:
     starts: dict[str, Any] = {"count": 3, "seed": 4, "relative": {"length": 0.1}}
     none = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}}}
     study = none | {"starts": starts}
-    own, more, other = (gudgeon.study(study, starts=count, seed=seed).dataset
-                        for count, seed in ((None, None), (5, None), (None, 5)))  # fmt: skip
+    own, more, other = (
+        gudgeon.study(study, starts=count, seed=seed).dataset for count, seed in ((None, None), (5, None), (None, 5))
+    )
     assert own.sizes["start"] == other.sizes["start"] == 3 and more.sizes["start"] == 5
     assert (more["x"][:3] == own["x"]).all() and (other["x"] != own["x"]).all()
     said = gudgeon.study(none | {"starts": starts | {"seed": 5}}).dataset
@@ -217,17 +216,26 @@ def test_starts_may_be_more_or_others_than_the_file_says() -> None:
 def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
     """What goes together with it is as it was, drawn points too; titles of what is left out stay names."""
     study: dict[str, Any] = {
-        "mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}},
+        "mechanism": "pendulum",
+        "t_end": 1e-3,
+        "output": 1,
+        "measures": {"x": {"final": "bob.x"}},
         "parameters": {"g": {"from": 1, "to": 9, "count": 3}},
-        "draw": {"count": 4, "seed": 3, "parameters": {"length": {"from": 1, "to": 2}, "bodies.bob.mass": {
-            "from": "1 kg", "to": "2 kg"}}}, "titles": {"g": "gravity"},
-    }  # fmt: skip
+        "draw": {
+            "count": 4,
+            "seed": 3,
+            "parameters": {"length": {"from": 1, "to": 2}, "bodies.bob.mass": {"from": "1 kg", "to": "2 kg"}},
+        },
+        "titles": {"g": "gravity"},
+    }
     own, less = plans_of(study).each[""], plans_of(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""]
     assert own.dims == ("g", "draw") and less.dims == ("draw",) and less.fixed == {"parameters.g": 3.0, "length": 5.0}
     assert set(less.numbers[0].columns) == {"bodies.bob.mass"}
     assert (less.numbers[0].columns["bodies.bob.mass"] == own.numbers[1].columns["bodies.bob.mass"]).all()
-    assert less.notes == ("g is set for all runs, over the 3 values that the file has for it",
-                          "length is set for all runs, over the 4 values that the file has for it")  # fmt: skip
+    assert less.notes == (
+        "g is set for all runs, over the 3 values that the file has for it",
+        "length is set for all runs, over the 4 values that the file has for it",
+    )
     assert plans_of(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
     both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}
     both["zip"] = {"pair": {"g": [1, 2], "length": [3, 4]}}

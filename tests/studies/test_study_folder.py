@@ -27,10 +27,13 @@ from tests.slow import slow_but
 
 pytestmark = [needs_compiler, pytest.mark.usefixtures("blocks_of_one")]
 STUDY: dict[str, Any] = {
-    "mechanism": "pendulum", "parameters": {"g": [1.62, 3.7, 9.81], "length": ["1 m", "2 m"]},
-    "t_end": "20 ms", "output": 10, "measures": {"y": {"final": "bob.y"}, "v": {"peak_of_steps": "bob.vy"}},
+    "mechanism": "pendulum",
+    "parameters": {"g": [1.62, 3.7, 9.81], "length": ["1 m", "2 m"]},
+    "t_end": "20 ms",
+    "output": 10,
+    "measures": {"y": {"final": "bob.y"}, "v": {"peak_of_steps": "bob.vy"}},
     "keep": ["bob.x"],
-}  # fmt: skip
+}
 
 
 def killed(act: Callable[[], object]) -> int:

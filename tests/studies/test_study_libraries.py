@@ -24,9 +24,12 @@ pytestmark = needs_compiler
 CRANK = str(Path(__file__).parents[1] / "mechanisms" / "methods" / "jump.yaml")
 DRIVES = ["30 rpm * t", "60 rpm * t", "pi/2 + 60 rpm * t"]
 STUDY: dict[str, Any] = {
-    "mechanism": CRANK, "choices": {"drives.crank.value": DRIVES}, "t_end": "20 ms", "output": 2,
+    "mechanism": CRANK,
+    "choices": {"drives.crank.value": DRIVES},
+    "t_end": "20 ms",
+    "output": 2,
     "measures": {"y": {"final": "L2.y"}},
-}  # fmt: skip
+}
 STRUCTURES = [Structure(CRANK, "ideal", (("drives.crank.value", drive),)) for drive in DRIVES]
 
 
@@ -72,9 +75,7 @@ def test_the_other_process_makes_what_this_one_does_not_come_to(
 
 # s, about: while it begins, derives, compiles, or has done
 @pytest.mark.parametrize("moment", slow_but([0.9], [0.1, 0.9, 1.3]))
-def test_it_ends_where_this_one_does(
-    moment: float, begun: list[subprocess.Popen[str]], tmp_path: Path
-) -> None:
+def test_it_ends_where_this_one_does(moment: float, begun: list[subprocess.Popen[str]], tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt), made_beside(STRUCTURES):
         with suppress(subprocess.TimeoutExpired):
             begun[0].communicate(timeout=moment)

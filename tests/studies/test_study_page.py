@@ -57,9 +57,14 @@ def test_the_schema_takes_its_file_and_refuses_others() -> None:
     check = jsonschema.Draft202012Validator(whole)
     assert not list(check.iter_errors(study))
     wrong: list[dict[str, Any]] = [
-        {"mechansim": "a"}, {"starts": {"count": 0}}, {"measures": {"a": {"finale": "b"}}}, {"windows": {"1": {}}},
-        {"measures": {"a": {"max_of_steps": "b", "window": "c"}}}, {"draw": {"count": 2}}, {"method": "rk5"},
-    ]  # fmt: skip
+        {"mechansim": "a"},
+        {"starts": {"count": 0}},
+        {"measures": {"a": {"finale": "b"}}},
+        {"windows": {"1": {}}},
+        {"measures": {"a": {"max_of_steps": "b", "window": "c"}}},
+        {"draw": {"count": 2}},
+        {"method": "rk5"},
+    ]
     for own in wrong:
         assert list(check.iter_errors(study | own)), own
     quoted = {
@@ -82,11 +87,15 @@ def test_what_it_quotes_is_read() -> None:
 def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> None:
     """On the page, in a figure; a title of what the file has not is told at its place."""
     own = {
-        "mechanism": "pendulum", "parameters": {"length": ["10 cm", "2e-1 m"], "g": [1.62, 9.81]}, "t_end": "1 ms",
-        "output": 4, "measures": {"low": {"min": "bob.y"}},
-        "titles": {"low": "lowest <place>", "length": "ℓ"}, "about": ["a pendulum & more", "in two\nparagraphs"],
+        "mechanism": "pendulum",
+        "parameters": {"length": ["10 cm", "2e-1 m"], "g": [1.62, 9.81]},
+        "t_end": "1 ms",
+        "output": 4,
+        "measures": {"low": {"min": "bob.y"}},
+        "titles": {"low": "lowest <place>", "length": "ℓ"},
+        "about": ["a pendulum & more", "in two\nparagraphs"],
         "claims": {"numbers": {"N1": {"measure": "low", "at": {"length": "0.1 m", "g": 9.81}, "value": "1 mm"}}},
-    }  # fmt: skip
+    }
     study = gudgeon.study(own, tmp_path / "s")
     page = re.sub(r"<[^>]*>", " ", re.sub(r"<svg.*?</svg>", "", study.report().to_html(), flags=re.DOTALL))
     assert "lowest &lt;place&gt;, ℓ = 10 cm, g = 9.81" in page and "10 cm, 2·10⁻¹ m" in page
@@ -106,21 +115,39 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
             gudgeon.study(own | {"about": about})
 
 
-@pytest.mark.parametrize(("text", "shown"), [
-    ("3*pi rad/s", "3π rad/s"), ("0.6 mm", "0.6 mm"), ("1e-4 m/s", "10⁻⁴ m/s"), ("-9.81 m/s^2", "−9.81 m/s²"),
-    ("pi rad/s", "π rad/s"), ("-pi rad/s", "−π rad/s"), ("pi", ""), ("pin rad/s", ""),
-    ("5 um", "5 µm"), ("9.81", ""), ("2*c", ""), ("aluminium", ""),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("3*pi rad/s", "3π rad/s"),
+        ("0.6 mm", "0.6 mm"),
+        ("1e-4 m/s", "10⁻⁴ m/s"),
+        ("-9.81 m/s^2", "−9.81 m/s²"),
+        ("pi rad/s", "π rad/s"),
+        ("-pi rad/s", "−π rad/s"),
+        ("pi", ""),
+        ("pin rad/s", ""),
+        ("5 um", "5 µm"),
+        ("9.81", ""),
+        ("2*c", ""),
+        ("aluminium", ""),
+    ],
+)
 def test_a_number_as_people_write_it(text: str, shown: str) -> None:
     assert as_people_write(text) == shown
 
 
-@pytest.mark.parametrize(("row", "shown"), [
-    ({"from": "60 rpm", "to": "2.4e2 rpm", "count": 3}, ("60 rpm", "150 rpm", "2.4·10² rpm")),
-    ({"from": "pi rad/s", "to": "8*pi rad/s", "count": 4, "spacing": "geometric"},
-     ("π rad/s", "2π rad/s", "4π rad/s", "8π rad/s")),
-    ({"from": "60 rpm", "to": "8*pi rad/s", "count": 3}, ()), ({"from": 1, "to": "60 rpm", "count": 3}, ()),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("row", "shown"),
+    [
+        ({"from": "60 rpm", "to": "2.4e2 rpm", "count": 3}, ("60 rpm", "150 rpm", "2.4·10² rpm")),
+        (
+            {"from": "pi rad/s", "to": "8*pi rad/s", "count": 4, "spacing": "geometric"},
+            ("π rad/s", "2π rad/s", "4π rad/s", "8π rad/s"),
+        ),
+        ({"from": "60 rpm", "to": "8*pi rad/s", "count": 3}, ()),
+        ({"from": 1, "to": "60 rpm", "count": 3}, ()),
+    ],
+)
 @needs_compiler
 def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tuple[str, ...]) -> None:
     """What is between is that of the runs; without a unit that both have in SI."""

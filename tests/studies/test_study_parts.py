@@ -32,8 +32,15 @@ parts:
     measures: {x: {final: bob.x}}
     keep: [bob.y]
 """
-ALONE = {"title": "of rods", "mechanism": "pendulum", "parameters": {"length": ["1 m", "2 m", "3 m"]}, "t_end": "20 ms",
-         "output": 5, "measures": {"x": {"final": "bob.x"}}, "keep": ["bob.y"]}  # fmt: skip
+ALONE = {
+    "title": "of rods",
+    "mechanism": "pendulum",
+    "parameters": {"length": ["1 m", "2 m", "3 m"]},
+    "t_end": "20 ms",
+    "output": 5,
+    "measures": {"x": {"final": "bob.x"}},
+    "keep": ["bob.y"],
+}
 
 
 def test_a_part_is_the_study_that_it_is_alone(tmp_path: Path) -> None:
@@ -101,8 +108,12 @@ def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
 def test_mistakes_of_all_parts_at_once(tmp_path: Path) -> None:
     """What they share is told once; names and units of what is run too."""
     path = tmp_path / "s.yaml"
-    path.write_text(TEXT.replace("final: bob.y", "finale: bob.y").replace("length: [1", "length: [1 m, 1").replace(
-        "planets:", "1planets:").replace("    keep", "    kept"))  # fmt: skip
+    path.write_text(
+        TEXT.replace("final: bob.y", "finale: bob.y")
+        .replace("length: [1", "length: [1 m, 1")
+        .replace("planets:", "1planets:")
+        .replace("    keep", "    kept")
+    )
     with pytest.raises(InputErrors) as told:
         plans_of(path)
     places = [str(error).removeprefix(f"{path}:").split(": ")[0] for error in told.value.errors]

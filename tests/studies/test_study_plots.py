@@ -36,14 +36,23 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Study:
     """x = 1 + x0 cos ωt, ω = √k; the amplitude is one of a Latin hypercube of nine."""
     folder = tmp_path_factory.mktemp("oscillator")
     (folder / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
-    return gudgeon.study({
-        "mechanism": str(folder / "mass.yaml"), "parameters": {"k": [100, 400, 900]},
-        "zip": {"way": {"bodies.load.mass": ["1 kg", "4 kg"]}},
-        "draw": {"count": 9, "seed": 2, "method": "latin_hypercube",
-                 "parameters": {"x0": {"from": "5 cm", "to": "20 cm"}}},
-        "t_end": 2.0, "output": 400, "measures": {"far": {"max": "load.x"}, "fast": {"peak": "load.vx"}},
-        "keep": ["load.x", "load.vx"],
-    })  # fmt: skip
+    return gudgeon.study(
+        {
+            "mechanism": str(folder / "mass.yaml"),
+            "parameters": {"k": [100, 400, 900]},
+            "zip": {"way": {"bodies.load.mass": ["1 kg", "4 kg"]}},
+            "draw": {
+                "count": 9,
+                "seed": 2,
+                "method": "latin_hypercube",
+                "parameters": {"x0": {"from": "5 cm", "to": "20 cm"}},
+            },
+            "t_end": 2.0,
+            "output": 400,
+            "measures": {"far": {"max": "load.x"}, "fast": {"peak": "load.vx"}},
+            "keep": ["load.x", "load.vx"],
+        }
+    )
 
 
 def plots(study: gudgeon.Study) -> Any:
@@ -105,11 +114,15 @@ def test_bands_are_quantiles_by_hand(study: gudgeon.Study) -> None:
 def test_bands_over_shares_are_of_the_same_share_of_each_run(tmp_path: Path) -> None:
     """One turn of x = 1 + x0 cos ωt at 314, 157 and 105 samples: one line, to what chords leave of an arc; from any."""
     (tmp_path / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
-    turn: Any = gudgeon.study({
-        "mechanism": str(tmp_path / "mass.yaml"),
-        "parameters": {"k": [400, 100, 900], "bodies.load.mass": ["1 kg", -1]}, "t_end": "2*pi*sqrt(1 kg/k)",
-        "output": "t_end/2 ms", "keep": ["load.x"],
-    })  # fmt: skip
+    turn: Any = gudgeon.study(
+        {
+            "mechanism": str(tmp_path / "mass.yaml"),
+            "parameters": {"k": [400, 100, 900], "bodies.load.mass": ["1 kg", -1]},
+            "t_end": "2*pi*sqrt(1 kg/k)",
+            "output": "t_end/2 ms",
+            "keep": ["load.x"],
+        }
+    )
     assert turn.dataset.sizes["sample"] == 315 and turn.failed == 3
     atol = 0.1 * (2 * np.pi / 105) ** 2 / 8 + 1e-9
     for at, samples in (({}, 315), ({"k": 900}, 106)):
@@ -192,9 +205,11 @@ def test_a_number_of_a_draw_picks_the_run_that_is_nearest(study: gudgeon.Study) 
 
 def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
     for call in (
-        lambda plot: plot.measure("fats"), lambda plot: plot.measure("fast", "kk"), lambda plot: plot.bands("load.y"),
+        lambda plot: plot.measure("fats"),
+        lambda plot: plot.measure("fast", "kk"),
+        lambda plot: plot.bands("load.y"),
         lambda plot: plot.bands("load.x", at={"c": 1.0}),
-    ):  # fmt: skip
+    ):
         with pytest.raises(UnknownNameError):
             call(plots(study))
     with pytest.raises(BadValueError, match="does not vary"):
@@ -205,10 +220,13 @@ def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
 
 def test_odd_arguments_are_told(study: gudgeon.Study) -> None:
     odd: list[tuple[str, tuple[Any, ...], dict[str, Any]]] = [
-        ("measure", ("fast",), {"at": "k"}), ("bands", ("load.x",), {"at": np.zeros(2)}),
-        ("measure", ("fast", "k"), {"published": 2}), ("measure", ("fast", "k"), {"published": "k"}),
-        ("measure", ("fast", "k", "k"), {}), ("bands", ("load.x",), {"share": np.zeros(2)}),
-    ]  # fmt: skip
+        ("measure", ("fast",), {"at": "k"}),
+        ("bands", ("load.x",), {"at": np.zeros(2)}),
+        ("measure", ("fast", "k"), {"published": 2}),
+        ("measure", ("fast", "k"), {"published": "k"}),
+        ("measure", ("fast", "k", "k"), {}),
+        ("bands", ("load.x",), {"share": np.zeros(2)}),
+    ]
     for name, given, options in odd:
         with pytest.raises(BadValueError, match=next(iter(options), "over and by")):
             getattr(study.plot, name)(*given, **options)

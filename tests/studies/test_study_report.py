@@ -39,12 +39,19 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Runs of their own lengths, a third of them without a stiffness that the mass could have."""
     place = tmp_path_factory.mktemp("report")
     (place / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
-    gudgeon.study({
-        "title": HOSTILE, "mechanism": str(place / "mass.yaml"),
-        "parameters": {"k": [100, 400], "bodies.load.mass": [1, 4, -1]},
-        "starts": {"count": 5, "seed": 1, "relative": {"x0": 0.1}}, "t_end": "0.1 m/x0*1 s", "output": 20,
-        "measures": {"far": {"max": "load.x"}, "fast": {"peak": "load.vx"}}, "keep": ["load.x"],
-    }, place / "mass.study")  # fmt: skip
+    gudgeon.study(
+        {
+            "title": HOSTILE,
+            "mechanism": str(place / "mass.yaml"),
+            "parameters": {"k": [100, 400], "bodies.load.mass": [1, 4, -1]},
+            "starts": {"count": 5, "seed": 1, "relative": {"x0": 0.1}},
+            "t_end": "0.1 m/x0*1 s",
+            "output": 20,
+            "measures": {"far": {"max": "load.x"}, "fast": {"peak": "load.vx"}},
+            "keep": ["load.x"],
+        },
+        place / "mass.study",
+    )
     return place / "mass.study"
 
 
@@ -92,8 +99,14 @@ def test_one_run_and_one_that_failed_have_pages(tmp_path: Path) -> None:
     check(page)
     assert "1 run, none failed" in page and f"<td>{1e3 * float(one.dataset['low']):.5g}</td>" in page
     (tmp_path / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
-    none = gudgeon.study({"mechanism": str(tmp_path / "mass.yaml"), "parameters": {"bodies.load.mass": [-1, -2]},
-                          "measures": {"far": {"max": "load.x"}}, "keep": ["load.x"]})  # fmt: skip
+    none = gudgeon.study(
+        {
+            "mechanism": str(tmp_path / "mass.yaml"),
+            "parameters": {"bodies.load.mass": [-1, -2]},
+            "measures": {"far": {"max": "load.x"}},
+            "keep": ["load.x"],
+        }
+    )
     assert none.failed == 2
     page = none.report().to_html()
     check(page)
@@ -103,15 +116,40 @@ def test_one_run_and_one_that_failed_have_pages(tmp_path: Path) -> None:
 def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     """Of an object that has them: tables of pandas, and studies by name."""
     study = gudgeon.load_study(folder)
-    row = {"claim": "<i>peak</i>", "figure": "Fig 3", "says": "", "part": "one", "at": "c 0.3 mm", "measure": "peak",
-           "unit": "m", "printed": 2.5e-3, "ensemble": "near", "n": 5, "q25": 1.9e-3, "median": 2e-3, "q75": 2.1e-3,
-           "deviation": -20.0, "note": "a & b"}  # fmt: skip
+    row = {
+        "claim": "<i>peak</i>",
+        "figure": "Fig 3",
+        "says": "",
+        "part": "one",
+        "at": "c 0.3 mm",
+        "measure": "peak",
+        "unit": "m",
+        "printed": 2.5e-3,
+        "ensemble": "near",
+        "n": 5,
+        "q25": 1.9e-3,
+        "median": 2e-3,
+        "q75": 2.1e-3,
+        "deviation": -20.0,
+        "note": "a & b",
+    }
     far = row | {"ensemble": "far", "median": 3e-3, "q25": 2e-3, "q75": 4e-3, "deviation": 20.0}
     lone = row | {"claim": "N2", "ensemble": "", "n": 1, "figure": "", "printed": np.nan, "deviation": 4.21}
     trend = {"claim": "T1", "figure": "", "says": "it grows", "note": ""}
-    judged = [trend | {"ensemble": name, "verdict": "undecided", "alone": alone, "probability": odds, "low": odds,
-                       "high": high, "chance": 0.5, "agreed": False}
-              for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))]  # fmt: skip
+    judged = [
+        trend
+        | {
+            "ensemble": name,
+            "verdict": "undecided",
+            "alone": alone,
+            "probability": odds,
+            "low": odds,
+            "high": high,
+            "chance": 0.5,
+            "agreed": False,
+        }
+        for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))
+    ]
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
     claims = Claimed(*tables, "a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
@@ -141,15 +179,42 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
 def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path) -> None:
     """What is drawn without a number is in its place; a heading takes its own; nothing stands in an empty column."""
     study = gudgeon.load_study(folder)
-    row = {"claim": "N1", "figure": "Fig 3", "says": "", "part": "", "at": "one place", "measure": "far", "unit": "rad",
-           "printed": 0.5, "ensemble": "near", "n": 5, "q25": 0.1, "median": 0.2, "q75": 0.3, "deviation": -60.0,
-           "note": "", "heading": ""}  # fmt: skip
+    row = {
+        "claim": "N1",
+        "figure": "Fig 3",
+        "says": "",
+        "part": "",
+        "at": "one place",
+        "measure": "far",
+        "unit": "rad",
+        "printed": 0.5,
+        "ensemble": "near",
+        "n": 5,
+        "q25": 0.1,
+        "median": 0.2,
+        "q75": 0.3,
+        "deviation": -60.0,
+        "note": "",
+        "heading": "",
+    }
     other = row | {"ensemble": "wide", "deviation": -60.04}
     drawn_only = row | {"claim": "D1", "printed": np.nan, "deviation": np.nan, "ensemble": "", "n": 1}
     ours = drawn_only | {"claim": "U1", "figure": "", "says": "not so", "note": "why", "heading": "Not <printed>"}
-    trend = {"claim": "X1", "figure": "", "says": "it holds", "note": "", "heading": "Not <printed>", "ensemble": "",
-             "verdict": "holds", "alone": "holds", "probability": 1.0, "low": 1.0, "high": 1.0, "chance": 1.0,
-             "agreed": True}  # fmt: skip
+    trend = {
+        "claim": "X1",
+        "figure": "",
+        "says": "it holds",
+        "note": "",
+        "heading": "Not <printed>",
+        "ensemble": "",
+        "verdict": "holds",
+        "alone": "holds",
+        "probability": 1.0,
+        "low": 1.0,
+        "high": 1.0,
+        "chance": 1.0,
+        "agreed": True,
+    }
     claims = Claimed(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
     whole: Any = SimpleNamespace(claims=claims, parts={"": study})
     pictures = Pictures()
@@ -196,9 +261,11 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
     told = CliRunner().invoke(app, ["study", "report", str(folder)])
     assert told.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
     for wrong, why in (
-        (["report"], "of which study"), (["report", "none.study"], "no folder of a study"),
-        (["mass.yaml", "x"], "takes one file"), (["mass.yaml", "--out", "x.html"], "a study is a folder"),
+        (["report"], "of which study"),
+        (["report", "none.study"], "no folder of a study"),
+        (["mass.yaml", "x"], "takes one file"),
+        (["mass.yaml", "--out", "x.html"], "a study is a folder"),
         (["report", str(folder), "--out", "page.txt"], "ends in .html"),
-    ):  # fmt: skip
+    ):
         told = CliRunner().invoke(app, ["study", *wrong])
         assert told.exit_code == 2 and why in told.stderr, told.stderr

@@ -21,9 +21,13 @@ from tests.pump import Gudgeon
 
 pytestmark = [needs_compiler, pytest.mark.usefixtures("blocks_of_one")]
 STUDY: dict[str, Any] = {
-    "mechanism": "pendulum", "parameters": {"g": {"from": 1, "to": 10, "count": 12}},
-    "t_end": "20 ms", "output": 10, "measures": {"y": {"final": "bob.y"}}, "keep": ["bob.x"],
-}  # fmt: skip
+    "mechanism": "pendulum",
+    "parameters": {"g": {"from": 1, "to": 10, "count": 12}},
+    "t_end": "20 ms",
+    "output": 10,
+    "measures": {"y": {"final": "bob.y"}},
+    "keep": ["bob.x"],
+}
 
 
 def killing(victims: Callable[[], list[int]], times: int = 1) -> Callable[[float, str], None]:

@@ -31,26 +31,43 @@ SWITCH, JOINT = (
     re.compile(r"side_of\(side,\s+g,\s+(\d+),"),
     re.compile(r"for \(int k = (\d+); k < (\d+); k\+\+\)\s+g\[k\]"),
 )
-RIGHT_HAND_SIDE = {"a": "N_Q", "aside->power": "3", "aside->event": "N_USER_EVENTS", "aside->clearance": "N_CLEARANCES",
-                   "aside->friction": "N_FRICTIONS"}  # fmt: skip
+RIGHT_HAND_SIDE = {
+    "a": "N_Q",
+    "aside->power": "3",
+    "aside->event": "N_USER_EVENTS",
+    "aside->clearance": "N_CLEARANCES",
+    "aside->friction": "N_FRICTIONS",
+}
 ABSOLUTE = {"all_q": "N_Q", "all_v": "N_Q"}
 FILLED: Mapping[str, Mapping[str, str]] = {
-    "mass_matrix": {"m": "N_Q"}, "constraints": {"phi": "N_ALL_ROWS"}, "velocity_rhs": {"nu": "N_ALL_ROWS"},
+    "mass_matrix": {"m": "N_Q"},
+    "constraints": {"phi": "N_ALL_ROWS"},
+    "velocity_rhs": {"nu": "N_ALL_ROWS"},
     "acceleration_rhs": {"gamma_rows": "N_ALL_ROWS"},
     "start_values": {"guess": "N_GUESS", "set": "N_SET", "rates": "N_RATES + N_APART"},
     "outputs": {"torques": "N_DRIVES", "series": "N_SERIES"},
     "dynamics": RIGHT_HAND_SIDE | {"aside->lambda": "N_ROWS", "aside->phi": "N_ROWS", "aside->phi_dot": "N_ROWS"},
     "reduced_dynamics": RIGHT_HAND_SIDE | {"a": "N_X", "aside->lambda": "N_LOOPS"},
-    "expand": ABSOLUTE, "reduce_state": {"s": "N_X + N_CHAIN", "s_rate": "N_X + N_CHAIN"},
-    "reduce_accelerations": {"a": "N_X"}, "closures": {"out": "N_LOOPS"}, "closure_rates": {"out": "N_LOOPS"},
-    "reduced_project": {"x": "N_X"}, "tree_multipliers": {"closing": "N_LOOPS"},
-    "chain_step": {"step": "N_CHAIN", "bend": "N_CHAIN"}, "chain_third": {"out": "N_CHAIN"},
-    "linearize": {"lin->value": "N_VALUES"}, "newton_factor": {"lin->lu": "N_FACTORS"},
-    "newton_factor_complex": {"lin->lu": "2 * N_FACTORS"}, "closing_step": {"dq": "N_X", "dv": "N_X"},
-    "close_step": {"step": "N_X", "rates": "N_X"}, "arrive": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
-    "project": {"x": "N_Q"}, "time_terms": {"out": "N_TERMS"}, "watched_functions": {"aside->event": "N_USER_EVENTS"},
+    "expand": ABSOLUTE,
+    "reduce_state": {"s": "N_X + N_CHAIN", "s_rate": "N_X + N_CHAIN"},
+    "reduce_accelerations": {"a": "N_X"},
+    "closures": {"out": "N_LOOPS"},
+    "closure_rates": {"out": "N_LOOPS"},
+    "reduced_project": {"x": "N_X"},
+    "tree_multipliers": {"closing": "N_LOOPS"},
+    "chain_step": {"step": "N_CHAIN", "bend": "N_CHAIN"},
+    "chain_third": {"out": "N_CHAIN"},
+    "linearize": {"lin->value": "N_VALUES"},
+    "newton_factor": {"lin->lu": "N_FACTORS"},
+    "newton_factor_complex": {"lin->lu": "2 * N_FACTORS"},
+    "closing_step": {"dq": "N_X", "dv": "N_X"},
+    "close_step": {"step": "N_X", "rates": "N_X"},
+    "arrive": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
+    "project": {"x": "N_Q"},
+    "time_terms": {"out": "N_TERMS"},
+    "watched_functions": {"aside->event": "N_USER_EVENTS"},
     "watched_ranges": {"out": "N_WATCHED"},
-}  # fmt: skip
+}
 
 
 class Emitted:
@@ -98,8 +115,9 @@ class Emitted:
         joints = {k for a, b in JOINT.findall(self.text) for k in range(int(a), int(b))}
         idle = re.search(r"short idle\[\] = \{([^}]*)\}", self.header)
         joints |= {int(k) for k in idle[1].split(",")} if idle else set()  # NaN in motion()
-        told = joints | {int(k) for name in (main, "chain_corners") if name in self.bodies
-                         for k in SWITCH.findall(self.body(name))}  # fmt: skip
+        told = joints | {
+            int(k) for name in (main, "chain_corners") if name in self.bodies for k in SWITCH.findall(self.body(name))
+        }
         if left := sorted(set(range(count)) - told):
             yield f"{main}: aside->g{left} of N_SWITCHES"
         own = {k - first for k in self.watched if first <= k < first + count} if self.sizes["N_WATCHED"] else set()
@@ -114,8 +132,11 @@ def check(data: bytes, name: str, scene: str, formulation: str) -> None:
 
 
 @pytest.mark.parametrize("formulation", ["reduced", "full", STAGES])
-@pytest.mark.parametrize("file", slow_but([f for f in FILES if f.stem in ("shaker", "guided_slider_crank")], FILES),
-                         ids=lambda file: file.stem)  # fmt: skip
+@pytest.mark.parametrize(
+    "file",
+    slow_but([f for f in FILES if f.stem in ("shaker", "guided_slider_crank")], FILES),
+    ids=lambda file: file.stem,
+)
 def test_mechanisms(file: Path, formulation: str) -> None:
     for scene in read_mechanism(file.read_bytes(), file.name).scenes:
         check(file.read_bytes(), file.name, scene, formulation)

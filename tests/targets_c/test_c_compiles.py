@@ -133,10 +133,16 @@ def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Pat
 
 @pytest.mark.parametrize(
     ("name", "scene"),
-    [("slider_crank", "ideal"), ("slider_crank", "dry"), ("belt_block", "ideal"),
-     *(pytest.param(*scene, marks=pytest.mark.slow)
-       for scene in (("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"), ("andrews_squeezer", "ideal")))],
-)  # fmt: skip
+    [
+        ("slider_crank", "ideal"),
+        ("slider_crank", "dry"),
+        ("belt_block", "ideal"),
+        *(
+            pytest.param(*scene, marks=pytest.mark.slow)
+            for scene in (("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"), ("andrews_squeezer", "ideal"))
+        ),
+    ],
+)
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
     """Python sees only what cffi is told: prototypes and structs must be the library's."""
@@ -147,7 +153,7 @@ def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulat
     calls = declarations(source)
     ffi.cdef(calls)
     fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in calls else []
-    same = [f"_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), \"{f}\");" for f in fields]
+    same = [f'_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), "{f}");' for f in fields]
     same += ['_Static_assert(sizeof(Batch) == sizeof(Told), "Batch");'] * bool(fields)
     told = f"#define Batch Told\n{calls}#undef Batch\n"
     (tmp_path / "both.c").write_text(WHOLE + told + "\n".join(same) + "\n", encoding="utf-8")
@@ -157,10 +163,12 @@ def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulat
 # Structure that no shipped scene has: each option of each law once.
 OPTIONS: dict[str, dict[str, str | float | bool]] = {
     "as printed": {
-        "contacts.wet.film.as_printed": True, "contacts.wet.film.shear": False, "contacts.wet.clip_ratio": False,
+        "contacts.wet.film.as_printed": True,
+        "contacts.wet.film.shear": False,
+        "contacts.wet.clip_ratio": False,
     },
     "internal, shear, relative, clipped": {},  # as it is
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("option", slow_but(["as printed"], OPTIONS))  # test_whole_format compiles it as it is
@@ -192,7 +200,7 @@ def test_clean_under_the_sanitizers(of: tuple[str, str], tmp_path: Path) -> None
     write(simulation.source, tmp_path)
     go = INTEGRATE if sizes(simulation.source)["INTEGRATES"] else FOLLOW
     driver = tmp_path / "driver.c"
-    driver.write_text(f'{WHOLE}#define STEP 2e-6\n{go}{MAIN}', encoding="utf-8")
+    driver.write_text(f"{WHOLE}#define STEP 2e-6\n{go}{MAIN}", encoding="utf-8")
     sanitize = ["-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
     probe = tmp_path / "probe.c"
     probe.write_text("int main(void) { return 0; }\n")

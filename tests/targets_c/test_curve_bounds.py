@@ -65,8 +65,10 @@ def test_values_and_slopes_lie_within(ends: str, tmp_path: Path) -> None:
                 held = side == 0.0 or all(np.sign(natural) * side >= 0)  # in pieces of that side, as steps are
                 if not held:
                     continue
-                found = [library.value(order, number(z), number(side)) if order >= 0 else n
-                         for z, n in zip(at, natural, strict=True)]  # fmt: skip
+                found = [
+                    library.value(order, number(z), number(side)) if order >= 0 else n
+                    for z, n in zip(at, natural, strict=True)
+                ]
                 library.bounds(order, number(lo), number(hi), number(side), out)
                 assert out[0] - 1e-12 <= min(found) and max(found) <= out[1] + 1e-12
                 rises = np.diff(found) / np.maximum(np.diff(at), 1e-300)

@@ -47,8 +47,9 @@ def scene(names: list[str]) -> bytes:
     groups = [parameters[k : k + 10] for k in range(0, len(parameters), 10)]
     forces = "\n".join(
         f"  push_{k}: {{torque: {b}, value: -0.02*({' + '.join(f'{(3 + j) / 8}*{x}' for j, x in enumerate(group))})"
-        f"*sin({b}.theta + {k + 1}*t/(4 s))}}" for k, group in enumerate(groups)
-    )  # fmt: skip
+        f"*sin({b}.theta + {k + 1}*t/(4 s))}}"
+        for k, group in enumerate(groups)
+    )
     return f"""
 format: gudgeon/1
 name: clash
@@ -140,8 +141,11 @@ def test_the_vocabulary_holds_what_code_has() -> None:
 
 def test_no_fixed_name_has_the_form_of_those_that_are_made() -> None:
     """What `made_name` returns ends in one underscore; no identifier of the engine and of the templates does."""
-    templates = [one.read_text(encoding="utf-8") for one in resources.files("gudgeon.templates").joinpath("c").iterdir()
-                 if one.name.endswith(".jinja")]  # fmt: skip
+    templates = [
+        one.read_text(encoding="utf-8")
+        for one in resources.files("gudgeon.templates").joinpath("c").iterdir()
+        if one.name.endswith(".jinja")
+    ]
     code = [re.sub(r"/\*.*?\*/|\w+##\w*", " ", text, flags=re.S) for text in (*engine_files().values(), *templates)]
     words = {word for text in code for word in re.findall(r"\b[A-Za-z]\w*", text)}
     assert not [word for word in words if made_name(word) == word]

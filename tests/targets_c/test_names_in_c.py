@@ -111,8 +111,11 @@ def macros() -> frozenset[str]:
     include = f"-I{sysconfig.get_paths()['include']}"
     done = subprocess.run(
         [*find_compiler(), "-std=c11", "-dM", "-E", "-x", "c", include, "-"],
-        input=INCLUDES, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        input=INCLUDES,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     return frozenset(filter(accepted, re.findall(r"^#define ([A-Za-z]\w*) ", done.stdout, flags=re.M)))
 
 
@@ -124,18 +127,29 @@ def with_parameters(names: Iterable[str]) -> bytes:
         f"  f{i}: {{torque: a, value: t * sign(b.omega) * max(0, min(b.x, 1)) * ({s})}}" for i, s in enumerate(sums)
     ]
     parameters = [f"  {name}: 1.5" for name in names]
-    return "\n".join([
-        "format: gudgeon/1", "name: names", "parameters:", *parameters, "gravity: [0, -9.81]",
-        "bodies: {a: {length: 1, mass: 1, inertia: 1}, b: {length: 1, mass: 1, inertia: 1}}", "ground: {O: [0, 0]}",
-        "joints: {g: {revolute: [ground.O, a.tail]}, A: {revolute: [a.head, b.tail]}}",
-        "materials: {s: {E: 1e9, nu: 0.3}}",
-        "bearings: {pin: {radius: 1, clearance: 0.1, length: 1, bearing_material: s, journal_material: s}}",
-        "contacts:", "  oil:", "    normal: {law: lankarani_nikravesh, restitution: 0.9}",
-        "    friction: {law: modified_coulomb, mu: 0.1, v0: 1, v1: 2}",
-        "    film: {law: pinkus_sternlicht, viscosity: 1}", "    transition: 0.01",
-        "scenes: {oiled: {play: {A: {bearing: pin, contact: oil}}}}",
-        "forces:", *forces,
-    ]).encode()  # fmt: skip
+    return "\n".join(
+        [
+            "format: gudgeon/1",
+            "name: names",
+            "parameters:",
+            *parameters,
+            "gravity: [0, -9.81]",
+            "bodies: {a: {length: 1, mass: 1, inertia: 1}, b: {length: 1, mass: 1, inertia: 1}}",
+            "ground: {O: [0, 0]}",
+            "joints: {g: {revolute: [ground.O, a.tail]}, A: {revolute: [a.head, b.tail]}}",
+            "materials: {s: {E: 1e9, nu: 0.3}}",
+            "bearings: {pin: {radius: 1, clearance: 0.1, length: 1, bearing_material: s, journal_material: s}}",
+            "contacts:",
+            "  oil:",
+            "    normal: {law: lankarani_nikravesh, restitution: 0.9}",
+            "    friction: {law: modified_coulomb, mu: 0.1, v0: 1, v1: 2}",
+            "    film: {law: pinkus_sternlicht, viscosity: 1}",
+            "    transition: 0.01",
+            "scenes: {oiled: {play: {A: {bearing: pin, contact: oil}}}}",
+            "forces:",
+            *forces,
+        ]
+    ).encode()
 
 
 NAMED = ("oiled", 12), ("oiled", 1), ("ideal", 1)
@@ -277,10 +291,24 @@ def test_hostile_names_do_not_change_a_number(tmp_path: Path) -> None:
     """The same linkage under plain and under hostile names: Φ, Φ_q, γ and the right-hand side agree."""
     plain = clashing([f"n{i}" for i in range(14)], ["p0", "p1"])
     hostile = clashing(
-        ["a_b", "a", "aside_", "max_of", "clearance_A", "dynamics", "a_b_c", "arm_a", "phi_a", "b_c_value", "out_",
-         "Parameters", "a_b_mass", "inverse_a_b_mass"],
+        [
+            "a_b",
+            "a",
+            "aside_",
+            "max_of",
+            "clearance_A",
+            "dynamics",
+            "a_b_c",
+            "arm_a",
+            "phi_a",
+            "b_c_value",
+            "out_",
+            "Parameters",
+            "a_b_mass",
+            "inverse_a_b_mass",
+        ],
         ["c", "b_c"],
-    )  # fmt: skip
+    )
     rng = np.random.default_rng(5)
     q, v = rng.uniform(-1.0, 1.0, 9), rng.uniform(-1.0, 1.0, 9)
     found = []

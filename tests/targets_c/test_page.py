@@ -105,22 +105,43 @@ def each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
         assert told and not re.search(r"kg.*s", told[1]), "units have names"
 
 
-@pytest.mark.parametrize(("name", "unit"), [
-    ("steel_E", "Pa"), ("steel_nu", "1"), ("crank_mass", "kg"), ("crank_inertia", "kg*m^2"), ("dry_pin_K", "N/m^1.5"),
-    ("velocity_floor", "m/s"), ("dry_pin_friction_slope", "s/m"),
-    ("two_alpha", "1/s"), ("beta_squared", "1/s^2"), ("pin_length", "m"), ("guess_slider_x", "m"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("steel_E", "Pa"),
+        ("steel_nu", "1"),
+        ("crank_mass", "kg"),
+        ("crank_inertia", "kg*m^2"),
+        ("dry_pin_K", "N/m^1.5"),
+        ("velocity_floor", "m/s"),
+        ("dry_pin_friction_slope", "s/m"),
+        ("two_alpha", "1/s"),
+        ("beta_squared", "1/s^2"),
+        ("pin_length", "m"),
+        ("guess_slider_x", "m"),
+    ],
+)
 def test_units_as_people_write_them(name: str, unit: str) -> None:
     header = emitted("slider_crank", "dry").files["model.h"]
     assert re.search(rf"double {name}_;  /\* .*, {re.escape(unit)} \*/", header)
 
 
-@pytest.mark.parametrize(("of", "unit"), [
-    (units.FORCE, "N"), (units.TORQUE, "N*m"), (units.POWER, "W"), (units.STIFFNESS, "N/m"), (units.DAMPING, "N*s/m"),
-    (units.VISCOSITY, "Pa*s"), (units.DAMPING * units.LENGTH, "N*s"), (units.TORQUE * units.TIME, "N*m*s"),
-    (units.DAMPING / units.LENGTH**Fraction(3, 2), "N*s/m^2.5"), (units.ACCELERATION, "m/s^2"),
-    (units.LENGTH ** Fraction(-1, 3), "1/m^(1/3)"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("of", "unit"),
+    [
+        (units.FORCE, "N"),
+        (units.TORQUE, "N*m"),
+        (units.POWER, "W"),
+        (units.STIFFNESS, "N/m"),
+        (units.DAMPING, "N*s/m"),
+        (units.VISCOSITY, "Pa*s"),
+        (units.DAMPING * units.LENGTH, "N*s"),
+        (units.TORQUE * units.TIME, "N*m*s"),
+        (units.DAMPING / units.LENGTH ** Fraction(3, 2), "N*s/m^2.5"),
+        (units.ACCELERATION, "m/s^2"),
+        (units.LENGTH ** Fraction(-1, 3), "1/m^(1/3)"),
+    ],
+)
 def test_units_of_every_kind(of: units.Dimension, unit: str) -> None:
     assert unit_text(of) == unit
 
@@ -130,11 +151,20 @@ def test_a_law_says_the_unit_that_hangs_on_an_exponent() -> None:
     assert "/* contacts.elastic.normal.stiffness, force at unit penetration, N/m^n */" in header
 
 
-@pytest.mark.parametrize(("number", "text"), [
-    (math.pi, "PI"), (-math.pi / 2, "-PI/2.0"), (20 * math.pi, "20.0*PI"), (math.pi / 6, "PI/6.0"),
-    (math.radians(7), "7.0*PI/180.0"), (3.4814082589530893, "3.4814082589530893"), (0.5, "0.5"), (1e9, "1000000000.0"),
-    (math.nextafter(math.pi / 6, 1), repr(math.nextafter(math.pi / 6, 1))),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (math.pi, "PI"),
+        (-math.pi / 2, "-PI/2.0"),
+        (20 * math.pi, "20.0*PI"),
+        (math.pi / 6, "PI/6.0"),
+        (math.radians(7), "7.0*PI/180.0"),
+        (3.4814082589530893, "3.4814082589530893"),
+        (0.5, "0.5"),
+        (1e9, "1000000000.0"),
+        (math.nextafter(math.pi / 6, 1), repr(math.nextafter(math.pi / 6, 1))),
+    ],
+)
 def test_pi_by_name_to_the_bit(number: float, text: str) -> None:
     """And in a product as one number."""
     x, one = sp.Symbol("x"), sp.Float(number, 17)
@@ -220,8 +250,10 @@ def test_joints_with_other_bearings_and_contacts_share_a_law(tmp_path: Path) -> 
 def test_laws_of_other_options_are_other_functions() -> None:
     text = VALID.joinpath("slider_crank.yaml").read_text(encoding="utf-8")
     assert text.count("shear: true") == 1
-    shear, plain = (generate(x.encode(), "f", "oiled").files["clearance.c"]
-                    for x in (text, text.replace("shear: true", "shear: false")))  # fmt: skip
+    shear, plain = (
+        generate(x.encode(), "f", "oiled").files["clearance.c"]
+        for x in (text, text.replace("shear: true", "shear: false"))
+    )
     assert "void pinkus_sternlicht_shear_relative(" in shear and "void pinkus_sternlicht_relative(" in plain
 
 

@@ -114,8 +114,10 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
     kept = np.unique([*range(0, count, count // 24), *np.argsort(np.abs(deep), axis=0)[:12].ravel()])
     q, v, memory, table = q[kept], v[kept], memory[kept], table[kept]
     columns = {joint: dict(zip(CLEARANCE_COLUMNS, table[:, k].T, strict=True)) for k, joint in enumerate(joints)}
-    states = [{"t": 0.0, "q": a, "v": b, "p": p.tolist(), "memory": m}
-              for a, b, m in zip(q.tolist(), v.tolist(), memory.tolist(), strict=True)]  # fmt: skip
+    states = [
+        {"t": 0.0, "q": a, "v": b, "p": p.tolist(), "memory": m}
+        for a, b, m in zip(q.tolist(), v.tolist(), memory.tolist(), strict=True)
+    ]
     names = sorted(set(found.values["clearance.c"].values()))
     script = ASKED % (equations_script(found.program), *map(json.dumps, (states, joints, names)))
     (folder / "ask.js").write_text(script, encoding="utf-8")

@@ -38,9 +38,14 @@ console.log(JSON.stringify(%s.map(({memory, a, ...state}) => {
 })));
 """
 FUNCTIONS = (
-    "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", "reduced_dynamics",
+    "reduce_state",
+    "reduce_accelerations",
+    "expand",
+    "closures",
+    "closure_rates",
+    "reduced_dynamics",
     "reduced_project",
-)  # fmt: skip
+)
 CHAINS = "chain_directions", "chain_step", "chain_rates", "chain_third"
 METHODS = Path(__file__).parents[1] / "mechanisms/methods"
 CASES = [("nine_bar_press", "dry", 0.02), ("four_bar", None, 0.5), ("nine_bar_press", "lubricated", 0.2)]
@@ -141,8 +146,11 @@ def test_lines_of_driven_chains_at_samples_of_a_run(mechanism: str, tmp_path: Pa
     assert tree and tree.chains
     check_every_line(page, [one for one in (*FUNCTIONS, *CHAINS) if one != "reduce_accelerations"], told)
     n, names = len(tree.system.unknowns), tree.chains.chain.names
-    of = {name: k for body in page.found.model.bodies for k, name in enumerate(
-        (f"{body.name}.x", f"{body.name}.y", body.name), body.index)}  # fmt: skip
+    of = {
+        name: k
+        for body in page.found.model.bodies
+        for k, name in enumerate((f"{body.name}.x", f"{body.name}.y", body.name), body.index)
+    }
     chain, free = [of[name] for name in names], [of[x] for x in tree.system.unknowns if x in of]
     rates, second = range(n, n + len(chain)), range(n + len(chain), n + 2 * len(chain))
     size = np.abs(run.v).max()

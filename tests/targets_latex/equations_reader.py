@@ -15,13 +15,23 @@ from gudgeon.language.units import UNITS
 NAME = re.compile(r"(?<![\w.])[^\W\d_][\w\u0302\u0307\u0308]*(?:\.\w+)*[⁰⁻']*")
 _EQUATION = re.compile(rf"  ({NAME.pattern}|∂\S+/∂\S+) = (.*)")
 FUNCTIONS: dict[str, Callable[..., float]] = {
-    "cos": math.cos, "sin": math.sin, "tan": math.tan, "sqrt": math.sqrt, "atan2": math.atan2,
+    "cos": math.cos,
+    "sin": math.sin,
+    "tan": math.tan,
+    "sqrt": math.sqrt,
+    "atan2": math.atan2,
     "exp": math.exp,
-    "atan": math.atan, "tanh": math.tanh,
-    "log": math.log, "abs": abs, "max": max, "min": min, "sgn": lambda x: (x > 0) - (x < 0),
-    "H": lambda x: float(x > 0), "mod": lambda a, b: a % b,
+    "atan": math.atan,
+    "tanh": math.tanh,
+    "log": math.log,
+    "abs": abs,
+    "max": max,
+    "min": min,
+    "sgn": lambda x: (x > 0) - (x < 0),
+    "H": lambda x: float(x > 0),
+    "mod": lambda a, b: a % b,
     "where": lambda holds, then, otherwise: then if holds else otherwise,
-}  # fmt: skip
+}
 
 
 def sections(text: str) -> dict[str, list[str]]:

@@ -223,9 +223,16 @@ def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     assert names["inverse_half_inverse_length_"] == "half_inverse_length_inverse"
 
 
-@pytest.mark.parametrize(("latex", "text"), [
-    (r"\mu", "μ"), (r"\sigma_{0}", "σ_0"), ("c_e", "c_e"), (r"\mathrm{max}_{a b}", "max_ab"), (r"\varphi", "φ"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("latex", "text"),
+    [
+        (r"\mu", "μ"),
+        (r"\sigma_{0}", "σ_0"),
+        ("c_e", "c_e"),
+        (r"\mathrm{max}_{a b}", "max_ab"),
+        (r"\varphi", "φ"),
+    ],
+)
 def test_letters_that_are_given_in_latex(latex: str, text: str) -> None:
     assert of_latex(latex) == Name(latex, text)
 

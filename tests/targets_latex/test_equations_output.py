@@ -78,8 +78,15 @@ def test_every_sign_with_a_command_of_its_own(sign: str) -> None:
 @settings(derandomize=True, max_examples=200, deadline=None)
 def test_ascii_is_kept_to_the_letter(text: str) -> None:
     """Undo the escapes: the text must come back."""
-    names = {"backslash": "\\", "asciicircum": "^", "asciitilde": "~", "less": "<", "greater": ">", "bar": "|",
-             "quoteleft": "`"}  # fmt: skip
+    names = {
+        "backslash": "\\",
+        "asciicircum": "^",
+        "asciitilde": "~",
+        "less": "<",
+        "greater": ">",
+        "bar": "|",
+        "quoteleft": "`",
+    }
     back = re.sub(r"\\text([a-z]+)\{\}|\\([{}$&#%_])", lambda m: names[m[1]] if m[1] else m[2], tex(text))
     assert back == text.replace('"', "''")
 
@@ -130,11 +137,18 @@ def test_letters() -> None:
     assert letter("theta", "L7").latex == r"\theta_{\text{L7}}" and letter("theta", "L7").text == "θ_L7"
     assert letter("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
     assert [word(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
-        "ω_4", "l_5", "v_max", "speed", "ω_in_2",
-    ]  # fmt: skip
+        "ω_4",
+        "l_5",
+        "v_max",
+        "speed",
+        "ω_in_2",
+    ]
     assert [of_latex(sign).text for sign in ("c_e", r"\mu", r"\sigma_{0}", r"v_{\mathrm{s}}")] == [
-        "c_e", "μ", "σ_0", "v_s",
-    ]  # fmt: skip
+        "c_e",
+        "μ",
+        "σ_0",
+        "v_s",
+    ]
 
 
 def test_the_same_bytes_under_another_hash_seed() -> None:

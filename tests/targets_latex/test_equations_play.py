@@ -152,15 +152,19 @@ def test_what_is_read_is_what_is_computed(case: tuple[str, str]) -> None:
 
 def test_the_printed_sign_is_shown() -> None:
     """Parting surfaces: the paper's sign pushes where the film pulls; approaching ones do not differ."""
-    right, printed = (sections(equations_text(derive(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
-                      for film in (FILM, FILM[:-1] + ", as_printed: true}"))  # fmt: skip
+    right, printed = (
+        sections(equations_text(derive(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
+        for film in (FILM, FILM[:-1] + ", as_printed: true}")
+    )
     text = [" ".join(document["Joint A: film"]) for document in (right, printed)]
     assert "Option as_printed: false" in text[0] and "Option as_printed: true" in text[1]
     assert equations(right["Joint A: film"]) != equations(printed["Joint A: film"])
     for w_n, sign in ((1.0, 1.0), (-1.0, -1.0)):
         law = {"ε": 0.5, "w_n": w_n, "w_t": 0.3, "S": 2.0, "e": 1e-4}
-        F_r = [evaluate([f"  {a} = {b}" for a, b in equations(d["Joint A: film"]) if a not in law], law)["F_r"]
-               for d in (right, printed)]  # fmt: skip
+        F_r = [
+            evaluate([f"  {a} = {b}" for a, b in equations(d["Joint A: film"]) if a not in law], law)["F_r"]
+            for d in (right, printed)
+        ]
         assert F_r[0] * w_n < 0.0
         assert F_r[1] == pytest.approx(sign * F_r[0], rel=1e-14)
 

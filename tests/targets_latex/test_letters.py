@@ -48,8 +48,26 @@ scenes:
   oiled: {play: {B: {bearing: pin, contact: oil}}}
 """
 NAMES = re.findall(r"<(\w+)>: ", FILE)
-ALWAYS = {"n'", "M'", "g'", "q'", "Φ'", "λ_1'", "γ'", "F'", "d'", "α'", "β'", "ν'", "Φ_1'", "x_a'", "v_rub'", "v'",
-          "z_top'", "r_P'"}  # fmt: skip
+ALWAYS = {
+    "n'",
+    "M'",
+    "g'",
+    "q'",
+    "Φ'",
+    "λ_1'",
+    "γ'",
+    "F'",
+    "d'",
+    "α'",
+    "β'",
+    "ν'",
+    "Φ_1'",
+    "x_a'",
+    "v_rub'",
+    "v'",
+    "z_top'",
+    "r_P'",
+}
 OF_PLAY = {"e'", "δ'", "R_i'", "c'", "K'", "i'", "F_x'", "c_e'", "L'"}
 PRIMED = {"ideal": ALWAYS, "dry": ALWAYS | OF_PLAY, "oiled": ALWAYS | OF_PLAY | {"ε'", "f'", "W'", "μ'"}}
 

@@ -33,8 +33,14 @@ FILE = resources.files("gudgeon.mechanisms").joinpath("nine_bar_press.yaml")
 ARRAYS = {"constraints": "phi", "velocity_rhs": "nu", "acceleration_rhs": "gamma_rows", "jacobian": "phi_q"}
 SCENES = slow_but(["lubricated"], ["ideal", "dry", "lubricated"])  # the last has what the others have
 FUNCTIONS: dict[str, Any] = {
-    "cos": math.cos, "sin": math.sin, "sqrt": math.sqrt, "PI": math.pi, "fabs": abs, "max_of": max, "min_of": min,
-}  # fmt: skip
+    "cos": math.cos,
+    "sin": math.sin,
+    "sqrt": math.sqrt,
+    "PI": math.pi,
+    "fabs": abs,
+    "max_of": max,
+    "min_of": min,
+}
 
 
 @cache
@@ -274,8 +280,16 @@ def test_light_in_a_browser(tmp_path: Path) -> None:
     rows = [f"row-{k}" for k in range(1, 1 + len(found.model.rows))]
     text = page("lubricated").replace("</body>", ASKED % (len(found.model.q), json.dumps(rows)) + "</body>")
     (tmp_path / "page.html").write_text(text, encoding="utf-8")
-    line = [program, "--headless", "--no-sandbox", "--disable-gpu", "--window-size=390,800",
-            "--virtual-time-budget=8000", "--dump-dom", (tmp_path / "page.html").as_uri()]  # fmt: skip
+    line = [
+        program,
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--window-size=390,800",
+        "--virtual-time-budget=8000",
+        "--dump-dom",
+        (tmp_path / "page.html").as_uri(),
+    ]
     done = subprocess.run(line, capture_output=True, text=True, timeout=120)
     told = json.loads(done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0])
     listed = carried(text)["texts"]
@@ -286,8 +300,11 @@ def test_light_in_a_browser(tmp_path: Path) -> None:
             for number, of in found.lines[file].items()
             if row in of or any(token.startswith(f"entry-{k}-") for token in of)
         }
-        own = {f"{FILE.name}:{line}" for line, of in yaml_tokens(found.model, found).items()
-               if row in of or any(token.startswith(f"entry-{k}-") for token in of)}  # fmt: skip
+        own = {
+            f"{FILE.name}:{line}"
+            for line, of in yaml_tokens(found.model, found).items()
+            if row in of or any(token.startswith(f"entry-{k}-") for token in of)
+        }
         assert {one for one in told[row] if FILE.name not in one} == wanted and own <= set(told[row])
     assert told["values"] == ["0.25", "\u22121.3208", "7.5", "\u22121"]  # of guide.angle: 0.25 - pi/2
     assert (told["keyed"], told["dark"], told["clicked"], told["again"], told["wide"]) == (True, 0, True, 0, 0)

@@ -51,8 +51,12 @@ def close(got: np.ndarray, want: np.ndarray, share: float) -> None:
 
 
 # Film and contact, friction, joints without play; the others have nothing else.
-APART = [("nine_bar_press", "lubricated"), ("belt_block", "ideal"), ("slider_crank_spring", "ideal"),
-         ("bouncing_ball", "damped")]  # fmt: skip
+APART = [
+    ("nine_bar_press", "lubricated"),
+    ("belt_block", "ideal"),
+    ("slider_crank_spring", "ideal"),
+    ("bouncing_ball", "damped"),
+]
 
 
 @pytest.mark.parametrize("of", slow_but(APART, SCENES), ids="-".join)
@@ -198,7 +202,7 @@ def test_long_lines_are_broken_within_brackets() -> None:
         exec(text, {"max": max}, found)
         assert found["y"] == sum((k + 1) ** 2 for k in range(40))
     assert printer.assigned("y", "1", "what it is") == ["y = 1  # what it is"]
-    assert printer.docstring(['a "b" \\ c\nd']) == ['\"\"\"a \'b\' / c d\"\"\"']
+    assert printer.docstring(['a "b" \\ c\nd']) == ['"""a \'b\' / c d"""']
 
 
 def test_the_equations_can_still_be_read() -> None:

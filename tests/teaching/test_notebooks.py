@@ -33,10 +33,15 @@ def executed(text: str, capsys: pytest.CaptureFixture[str]) -> tuple[dict[str, A
 # all joints closed; with play; free, with a spring; smooth steps; names that the notebook has for something else
 @pytest.mark.parametrize(
     ("name", "scene"),
-    [("four_bar", "ideal"), ("slider_crank", "dry"), pytest.param("car_axis", "ideal", marks=pytest.mark.slow),
-    pytest.param("toggle_clamp", "ideal", marks=pytest.mark.slow),
-     pytest.param("n_four_bar", "ideal", marks=pytest.mark.slow), ("bouncing_ball", "elastic")],
-)  # fmt: skip
+    [
+        ("four_bar", "ideal"),
+        ("slider_crank", "dry"),
+        pytest.param("car_axis", "ideal", marks=pytest.mark.slow),
+        pytest.param("toggle_clamp", "ideal", marks=pytest.mark.slow),
+        pytest.param("n_four_bar", "ideal", marks=pytest.mark.slow),
+        ("bouncing_ball", "elastic"),
+    ],
+)
 def test_its_cells_run_and_agree(name: str, scene: str, capsys: pytest.CaptureFixture[str]) -> None:
     model = derive(shipped_file(name).read_bytes(), name, scene)
     names, printed = executed(notebook(model, name), capsys)
@@ -76,7 +81,12 @@ def test_it_is_a_notebook_and_always_the_same(call: Gudgeon, tmp_path: Path) -> 
 
 def test_angles_are_shares_of_pi() -> None:
     assert [number_of_code(x) for x in (np.pi / 2, -np.pi, 3 * np.pi / 4, 1.5, 1.57)] == [
-        "sp.pi/2", "-sp.pi", "3*sp.pi/4", "1.5", "1.57"]  # fmt: skip
+        "sp.pi/2",
+        "-sp.pi",
+        "3*sp.pi/4",
+        "1.5",
+        "1.57",
+    ]
     text = notebook(derive(TURNING.encode(), "turning.yaml", "ideal"), "turning.yaml")
     assert "sp.pi/2" in text and "1.5707963" not in text
 

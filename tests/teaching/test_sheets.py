@@ -141,10 +141,18 @@ def test_dots_stand_over_the_letter_alone() -> None:
     assert any(re.match(r"_\{\\text\{\w+\}\}", behind) for letters, behind in accents if letters == r"\theta")
 
 
-@pytest.mark.parametrize(("value", "text"), [
-    (1.1 + 0.55, "1.65"), (0.1 + 0.2, "0.3"), (-0.3 - 0.6, "-0.9"), (1.0 / 3.0, "0.3333333333333333"),
-    (1.65 + 1e-14, "1.65000000000001"), (7e10, "7e10"), (0.0, "0"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1.1 + 0.55, "1.65"),
+        (0.1 + 0.2, "0.3"),
+        (-0.3 - 0.6, "-0.9"),
+        (1.0 / 3.0, "0.3333333333333333"),
+        (1.65 + 1e-14, "1.65000000000001"),
+        (7e10, "7e10"),
+        (0.0, "0"),
+    ],
+)
 def test_numbers_without_what_a_sum_rounded(value: float, text: str) -> None:
     """Two units of the last digit at most; what differs by more is read back as it was."""
     assert number_text(value) == text
@@ -323,9 +331,18 @@ def test_a_triangle_of_sides_fits_on_a_line() -> None:
 
 @pytest.mark.parametrize(
     ("text", "power"),
-    [("pi/6", 1), ("-20 deg", 1), ("90 rpm", 1), ("pi + atan2(4, 3)", 1), ("90 deg / (45 deg)", 0), ("0.3", 0),
-     ("2 * pi rad / 1 s", 1), ("3 N*m/rad", -1), ("sin(20 deg)", 0)],
-)  # fmt: skip
+    [
+        ("pi/6", 1),
+        ("-20 deg", 1),
+        ("90 rpm", 1),
+        ("pi + atan2(4, 3)", 1),
+        ("90 deg / (45 deg)", 0),
+        ("0.3", 0),
+        ("2 * pi rad / 1 s", 1),
+        ("3 N*m/rad", -1),
+        ("sin(20 deg)", 0),
+    ],
+)
 def test_what_is_an_angle(text: str, power: int) -> None:
     assert angle_power(parse(text, Location("file", 1, 1))) == power
 

@@ -24,9 +24,13 @@ from tests.web.node import needs_node, node
 HERE = Path(__file__).parent
 NAMES = ("pow", "exp", "log", "sin", "cos", "asin")
 EXACT: dict[str, Callable[[Any, Any], Any]] = {
-    "pow": mpmath.power, "exp": lambda x, y: mpmath.exp(x), "log": lambda x, y: mpmath.log(x),
-    "sin": lambda x, y: mpmath.sin(x), "cos": lambda x, y: mpmath.cos(x), "asin": lambda x, y: mpmath.asin(x),
-}  # fmt: skip
+    "pow": mpmath.power,
+    "exp": lambda x, y: mpmath.exp(x),
+    "log": lambda x, y: mpmath.log(x),
+    "sin": lambda x, y: mpmath.sin(x),
+    "cos": lambda x, y: mpmath.cos(x),
+    "asin": lambda x, y: mpmath.asin(x),
+}
 WITHIN = {"pow": 0.56, "exp": 0.52, "log": 0.52, "sin": 0.8, "cos": 0.8, "asin": 0.75}  # units in the last place
 Array = NDArray[np.float64]
 Values = Callable[[str, Array, Array], Array]

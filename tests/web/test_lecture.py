@@ -22,8 +22,13 @@ from tests.web.chromium import written  # noqa: E402
 def test_sliders_reach_nothing_that_is_refused() -> None:
     """A clearance follows the parameter c: zero is the end of its condition, and no end of the slider."""
     press = gudgeon.load("nine_bar_press", "lubricated")
-    ends = [(one["k"], one[end]) for group in groups(press, press.p) for one in group["numbers"]
-            for end in ("low", "high") if end in one]  # fmt: skip
+    ends = [
+        (one["k"], one[end])
+        for group in groups(press, press.p)
+        for one in group["numbers"]
+        for end in ("low", "high")
+        if end in one
+    ]
     assert len(ends) > 100
     for k, end in ends:
         prepare(press.compiled, {press.source.slots[k].address: end})
@@ -78,7 +83,10 @@ def test_forces_of_a_moment_and_what_rounding_leaves(opened: Any, page_of_four_b
     none = "(x) => [gudgeonApp.isNone(x, 'N'), gudgeonApp.isNone(-x, 'N')]"
     assert page.evaluate(none, 0.9e-9 * force) == [True, True] and page.evaluate(none, 1.1e-9 * force) == [False, False]
     assert page.evaluate("['1.25e-17', '-3e-9', '0.5'].map((x) => gudgeonValues.text(Number(x)))") == [
-        "1.25·10⁻¹⁷", "−3·10⁻⁹", "0.5"]  # fmt: skip
+        "1.25·10⁻¹⁷",
+        "−3·10⁻⁹",
+        "0.5",
+    ]
     assert "drifts" in page.inner_text("#g-numbers") and shown.complaints == []
 
 

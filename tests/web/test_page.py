@@ -88,8 +88,10 @@ def test_frames_while_a_slider_moves(opened: Any, press: Path, capsys: pytest.Ca
     first = shown.array("q")
     apart = shown.page.evaluate(FRAMES)
     with capsys.disabled():
-        print(f"\n    press: {1e3 / np.mean(apart):.0f} frames a second while a slider moves and time goes on"
-              f" (median {apart[len(apart) // 2]:.1f} ms, worst {apart[-1]:.0f} ms)")  # fmt: skip
+        print(
+            f"\n    press: {1e3 / np.mean(apart):.0f} frames a second while a slider moves and time goes on"
+            f" (median {apart[len(apart) // 2]:.1f} ms, worst {apart[-1]:.0f} ms)"
+        )
     assert not np.array_equal(shown.array("q"), first)  # it has gone on to new runs all the while
     assert shown.complaints == []
 

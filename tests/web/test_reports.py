@@ -21,11 +21,17 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder = tmp_path_factory.mktemp("reports")
     simulation = gudgeon.load("bouncing_ball", "damped")
     run = gudgeon.examine(simulation, simulation.simulate(1.0))
-    study = gudgeon.study({
-        "mechanism": "bouncing_ball", "scenes": ["elastic", "damped"], "t_end": 0.6, "output": 30,
-        "parameters": {"height": [0.5, 1.0], "contacts.damped.normal.stiffness": [1e8, 2e8]}, "keep": ["ball.y"],
-        "measures": {"hits": {"impacts": "fall"}, "force": {"peak_force": "fall"}},
-    })  # fmt: skip
+    study = gudgeon.study(
+        {
+            "mechanism": "bouncing_ball",
+            "scenes": ["elastic", "damped"],
+            "t_end": 0.6,
+            "output": 30,
+            "parameters": {"height": [0.5, 1.0], "contacts.damped.normal.stiffness": [1e8, 2e8]},
+            "keep": ["ball.y"],
+            "measures": {"hits": {"impacts": "fall"}, "force": {"peak_force": "fall"}},
+        }
+    )
     (folder / "run.html").write_text(run.report().to_html(), encoding="utf-8")
     (folder / "study.html").write_text(study.report().to_html(), encoding="utf-8")
     return [folder / "run.html", folder / "study.html"]

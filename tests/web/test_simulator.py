@@ -27,19 +27,22 @@ pytest.importorskip("ziglang", reason="the extra web is not installed: no compil
 # Runs whose numbers the native run gives too
 RUNS: dict[tuple[str, str], list[dict[str, Any]]] = {
     ("pendulum", "ideal"): [
-        {"t_end": 2, "output": 50, "method": "dop853"}, {"t_end": 2, "output": 50, "method": "rodas5p"},
+        {"t_end": 2, "output": 50, "method": "dop853"},
+        {"t_end": 2, "output": 50, "method": "rodas5p"},
         {"t_end": 2, "output": 50, "method": "rk4", "step": 1e-3},
     ],
     ("four_bar", "ideal"): [{"t_end": 1, "output": 100}],
     ("slider_crank", "dry"): [
-        {"t_end": 0.2, "output": 100}, {"t_end": 0.02, "output": 20, "method": "rk4"},
+        {"t_end": 0.2, "output": 100},
+        {"t_end": 0.02, "output": 20, "method": "rk4"},
         {"t_end": 0.02, "output": 20, "method": "rodas5p"},
     ],
     ("nine_bar_press", "lubricated"): [
-        {"t_end": 0.02, "output": 20, "method": "dop853"}, {"t_end": 0.01, "output": 9, "step": 5e-6},
+        {"t_end": 0.02, "output": 20, "method": "dop853"},
+        {"t_end": 0.01, "output": 9, "step": 5e-6},
     ],
     ("andrews_squeezer", "ideal"): [{"t_end": 0.03, "output": 60}],
-}  # fmt: skip
+}
 
 FAST: dict[str, Any] = {"t_end": 0.05, "output": 10, "method": "rk4", "step": 2e-4}
 SOON: dict[str, Any] = {"t_end": 0.02, "output": 20, "method": "dop853"}
@@ -115,23 +118,33 @@ def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
     clearance, material = "bearings.pin.clearance", "bearings.pin.bearing_material"
     parameters: dict[str, Any] = {material: "steel_45", clearance: 4e-4}
     wrong = {
-        f"{clearance} is -0.0001": {clearance: -1e-4}, "bearings.pon": {"bearings.pon.clearance": 1.0},
-        f"{clearance} is 1 mm: expected a number": {clearance: "1 mm"}, f"{material} is lead": {material: "lead"},
-    }  # fmt: skip
+        f"{clearance} is -0.0001": {clearance: -1e-4},
+        "bearings.pon": {"bearings.pon.clearance": 1.0},
+        f"{clearance} is 1 mm: expected a number": {clearance: "1 mm"},
+        f"{material} is lead": {material: "lead"},
+    }
     odd: dict[str, dict[str, Any]] = {
-        "method is": {"method": "kinematic"}, "t_end is": {"t_end": 0}, "rtol is": {"rtol": 2},
-        "output is": {"output": 0}, "slice is 0: expected a whole number": {"slice": 0},
-        "slice is -1": {"slice": -1}, "slice is 0.5": {"slice": 0.5},
+        "method is": {"method": "kinematic"},
+        "t_end is": {"t_end": 0},
+        "rtol is": {"rtol": 2},
+        "output is": {"output": 0},
+        "slice is 0: expected a whole number": {"slice": 0},
+        "slice is -1": {"slice": -1},
+        "slice is 0.5": {"slice": 0.5},
         "slice is 2,3: expected a number": {"slice": [2, 3]},
-        "rtol is 1e-6: expected a number": {"rtol": "1e-6"}, "tend is no option: expected t_end": {"tend": 1},
-    }  # fmt: skip
+        "rtol is 1e-6: expected a number": {"rtol": "1e-6"},
+        "tend is no option: expected t_end": {"tend": 1},
+    }
     kinds: list[tuple[str, dict[str, Any]]] = [
-        ("options is null: expected an object", {"options": None}), ("options is 5", {"options": 5}),
+        ("options is null: expected an object", {"options": None}),
+        ("options is 5", {"options": 5}),
         ("options is 1: expected an object", {"options": [1]}),
-        *((f"parameters is {told}: expected an object", {"parameters": one, "options": options})
-          for told, one in (("null", None), ("5", 5), ("omega", "omega"), ("", []))),
+        *(
+            (f"parameters is {told}: expected an object", {"parameters": one, "options": options})
+            for told, one in (("null", None), ("5", 5), ("omega", "omega"), ("", []))
+        ),
         ("omega is [object Object]: expected a number", {"parameters": {"omega": {}}, "options": options}),
-    ]  # fmt: skip
+    ]
     runs: list[dict[str, Any]] = [{"parameters": parameters, "options": options}]
     runs += [{"parameters": one, "options": options} for one in wrong.values()]
     runs += [{"options": options | one} for one in odd.values()]

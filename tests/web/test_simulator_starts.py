@@ -24,9 +24,14 @@ def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: P
     """The pendulum's: gravity leaves it, another length moves it, and so it is followed."""
     pendulum = gudgeon.load("pendulum")
     options: dict[str, Any] = {"t_end": 2.0, "output": 37}
-    weaker, longer = in_node(pendulum, tmp_path, [
-        {"parameters": {"g": 1.62}, "options": options}, {"parameters": {"length": 2.0}, "options": options},
-    ])  # fmt: skip
+    weaker, longer = in_node(
+        pendulum,
+        tmp_path,
+        [
+            {"parameters": {"g": 1.62}, "options": options},
+            {"parameters": {"length": 2.0}, "options": options},
+        ],
+    )
     assert same_bits(weaker, pendulum.simulate(parameters={"g": 1.62}, **options))
     assert not weaker.followed and longer.followed
     assert_near(longer, pendulum.simulate(parameters={"length": 2.0}, **options))
@@ -57,14 +62,19 @@ start: {guess: {rocker.head: [130 mm, 80 mm], coupler.theta: 10 deg, rocker.thet
 BRIEF: dict[str, Any] = {"t_end": 0.02, "output": 4}
 MOVED: dict[str, list[dict[str, float]]] = {
     "jansen_leg": [
-        {"turn": 7.0}, {"bodies.m.mass": 0.1, "bodies.lower.inertia": 1e-4}, {"bodies.j.length": 0.052},
+        {"turn": 7.0},
+        {"bodies.m.mass": 0.1, "bodies.lower.inertia": 1e-4},
+        {"bodies.j.length": 0.052},
         {"bodies.j.length": 0.049, "bodies.c.length": 0.0405, "ground.Y.x": -0.039, "turn": 5.0},
     ],
     "four_bar": [
-        {"omega": 5.0}, {"bodies.rocker.mass": 1.0}, {"a": 0.042}, {"a": 0.036, "bodies.coupler.length": 0.125},
+        {"omega": 5.0},
+        {"bodies.rocker.mass": 1.0},
+        {"a": 0.042},
+        {"a": 0.036, "bodies.coupler.length": 0.125},
         {"start.guess.coupler.theta": 0.4},
     ],
-}  # fmt: skip
+}
 
 
 @needs_node

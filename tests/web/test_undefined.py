@@ -18,24 +18,38 @@ from tests.web.node import in_node, needs_node, node
 
 # trees of files' expressions: they hold parameters d and e, and t, which is no parameter
 TREES = [
-    ["cos", ["acos", "d"]], ["+", ["*", ["acos", "d"], 0.0], 1.0], ["**", ["sqrt", "d"], 2.0], ["/", "d", "d"],
-    ["/", 1.0, ["/", 1.0, "d"]], ["*", ["/", "t", "d"], "e"], ["-", ["log", "d"]], ["mod", "e", "d"],
-    ["mod", ["*", "t", "e"], "d"], ["ramp", "t", "e", "d"], ["atan", ["/", "e", "d"]], ["exp", ["-", ["/", 1.0, "d"]]],
-    ["where", "d", 1.0, 2.0, ["log", ["-", "d", 1.0]]], ["where", ["sqrt", "d"], 1.0, 2.0, 3.0],
-    ["where", "d", "e", ["/", "t", "d"], ["sqrt", "e"]], ["*", 0.0, ["where", "t", "d", ["log", "e"], 1.0]],
-]  # fmt: skip
+    ["cos", ["acos", "d"]],
+    ["+", ["*", ["acos", "d"], 0.0], 1.0],
+    ["**", ["sqrt", "d"], 2.0],
+    ["/", "d", "d"],
+    ["/", 1.0, ["/", 1.0, "d"]],
+    ["*", ["/", "t", "d"], "e"],
+    ["-", ["log", "d"]],
+    ["mod", "e", "d"],
+    ["mod", ["*", "t", "e"], "d"],
+    ["ramp", "t", "e", "d"],
+    ["atan", ["/", "e", "d"]],
+    ["exp", ["-", ["/", 1.0, "d"]]],
+    ["where", "d", 1.0, 2.0, ["log", ["-", "d", 1.0]]],
+    ["where", ["sqrt", "d"], 1.0, 2.0, 3.0],
+    ["where", "d", "e", ["/", "t", "d"], ["sqrt", "e"]],
+    ["*", 0.0, ["where", "t", "d", ["log", "e"], 1.0]],
+]
 VALUES = (-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0)
 
 
 @needs_node
 def test_undefined_parts_are_those_of_python(tmp_path: Path) -> None:
     cases = [(tree, {"d": d, "e": e}) for tree in TREES for d in VALUES for e in VALUES]
-    program = "\n".join((
-        file_text("run.js").split("/* A run")[0], file_text("undefined.js"),
-        f"const cases = {json.dumps(cases)}, divides = {json.dumps(sorted(DIVIDING))};",
-        "const found = cases.map(([tree, known]) => undefinedPart(tree, known, divides));",
-        "console.log(JSON.stringify(found.map((value) => (value === undefined ? 'defined' : String(value)))));",
-    ))  # fmt: skip
+    program = "\n".join(
+        (
+            file_text("run.js").split("/* A run")[0],
+            file_text("undefined.js"),
+            f"const cases = {json.dumps(cases)}, divides = {json.dumps(sorted(DIVIDING))};",
+            "const found = cases.map(([tree, known]) => undefinedPart(tree, known, divides));",
+            "console.log(JSON.stringify(found.map((value) => (value === undefined ? 'defined' : String(value)))));",
+        )
+    )
     (tmp_path / "cases.js").write_text(program, encoding="utf-8")
     run = subprocess.run([node() or "", str(tmp_path / "cases.js")], capture_output=True, text=True, check=True)
     said = {"defined": None, "NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}

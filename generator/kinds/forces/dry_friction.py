@@ -44,13 +44,19 @@ ELEMENT = ElementType(
     (
         vector("direction", "of sliding, in the first body's frame", DIMENSIONLESS, required=True, nonzero=True),
         number(
-            "static", "largest force at stick", FORCE, required=True,
+            "static",
+            "largest force at stick",
+            FORCE,
+            required=True,
             bounds=(*NOT_NEGATIVE, Bound(">=", "kinetic", "static is at least kinetic")),
         ),
         number("kinetic", "force while slipping", FORCE, required=True, bounds=NOT_NEGATIVE),
         number(
-            "stribeck_velocity", "slip in which friction falls from static to kinetic, v_s of exp(-(v/v_s)^2)",
-            VELOCITY, otherwise="it falls at once", bounds=(Bound(">", 0.0),),
+            "stribeck_velocity",
+            "slip in which friction falls from static to kinetic, v_s of exp(-(v/v_s)^2)",
+            VELOCITY,
+            otherwise="it falls at once",
+            bounds=(Bound(">", 0.0),),
         ),
         number("speed", "speed of the first's surface along the direction", VELOCITY, otherwise="0"),
     ),
@@ -58,4 +64,4 @@ ELEMENT = ElementType(
     build,
     __doc__,
     also=("friction", "coulomb", "brake"),
-)  # fmt: skip
+)

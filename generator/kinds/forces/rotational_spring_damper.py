@@ -34,12 +34,15 @@ ELEMENT = ElementType(
         number("stiffness", "k: moment by angle", TORQUE, bounds=NOT_NEGATIVE, otherwise="0"),
         number("free_angle", "θ_0: angle without moment", DIMENSIONLESS, otherwise="0"),
         number(
-            "damping", "d: moment by angular velocity", dimension(mass=1, length=2, time=-1),
-            bounds=NOT_NEGATIVE, otherwise="0",
+            "damping",
+            "d: moment by angular velocity",
+            dimension(mass=1, length=2, time=-1),
+            bounds=NOT_NEGATIVE,
+            otherwise="0",
         ),
     ),
     (("M", TORQUE),),
     build,
     __doc__,
     also=("torsion_spring", "torsional_spring", "rotational_spring", "rotational_damper", "rsda"),
-)  # fmt: skip
+)

@@ -21,8 +21,10 @@ def build(targets: Any, fields: Any) -> Loads:
 
     P, Q = targets
     k, l_0, d = (fields.quantity(name) for name in ("stiffness", "free_length", "damping"))
-    (x, y), (vx, vy) = fields.named_vector("span", (Q.x - P.x, Q.y - P.y)), fields.named_vector("span_rate", tuple(
-        b - a for a, b in zip(P.velocity, Q.velocity, strict=True)))  # fmt: skip
+    (x, y), (vx, vy) = (
+        fields.named_vector("span", (Q.x - P.x, Q.y - P.y)),
+        fields.named_vector("span_rate", tuple(b - a for a, b in zip(P.velocity, Q.velocity, strict=True))),
+    )
     squared = x**2 + y**2
     if l_0 == 0 and d == 0:
         pull, potential, series = k, k * squared / 2, {"length": (sp.sqrt(squared), "m")}

@@ -37,8 +37,11 @@ JOINT = JointType(
     "cam with a translating follower",
     (
         number(
-            "profile", "position of the follower's point along the axis, measured from the cam's point", LENGTH,
-            required=True, varies=OF_CAM_ANGLE,
+            "profile",
+            "position of the follower's point along the axis, measured from the cam's point",
+            LENGTH,
+            required=True,
+            varies=OF_CAM_ANGLE,
         ),
         vector("axis", "direction of the lift in the carrier's frame", DIMENSIONLESS, required=True, nonzero=True),
         body_or_ground("carrier", "what the cam turns on: phi is the cam's angle less its"),
@@ -50,4 +53,4 @@ JOINT = JointType(
     __doc__,
     Symbol(gap=gap),
     also=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
-)  # fmt: skip
+)

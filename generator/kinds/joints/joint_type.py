@@ -15,8 +15,11 @@ from gudgeon.generator.kinds import declared
 
 # Of a slider with play: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or the right.
 CORNERS: Mapping[str, tuple[int, int]] = {
-    "front_upper": (1, 1), "front_lower": (1, -1), "rear_upper": (-1, 1), "rear_lower": (-1, -1),
-}  # fmt: skip
+    "front_upper": (1, 1),
+    "front_lower": (1, -1),
+    "rear_upper": (-1, 1),
+    "rear_lower": (-1, -1),
+}
 
 
 def draw_squares(pen: Any) -> None:

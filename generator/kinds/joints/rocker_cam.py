@@ -27,7 +27,10 @@ JOINT = JointType(
     "cam with an oscillating follower",
     (
         number(
-            "profile", "angle of the rocker, measured from the carrier", DIMENSIONLESS, required=True,
+            "profile",
+            "angle of the rocker, measured from the carrier",
+            DIMENSIONLESS,
+            required=True,
             varies=OF_CAM_ANGLE,
         ),
         body_or_ground("carrier", "what both turn on: phi is the cam's angle less its"),
@@ -39,4 +42,4 @@ JOINT = JointType(
     __doc__,
     joins="bodies",
     also=("oscillating_follower", "cam_rocker", "swinging_follower"),
-)  # fmt: skip
+)

@@ -36,15 +36,21 @@ LAW = Law(
     title="Bengisu and Akay's friction: static friction at v0, then a decay to kinetic friction",
     source="M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557-570",
     reference="M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "
-              "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "
-              "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
+    "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "
+    "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
     validity="sliding; creeps below v0 where Coulomb's law would stick; a decay of 1/xi in slip",
     fields=(
-        MU, MU_S, slip_of("v0", "slip of the largest friction", "v_0"),
+        MU,
+        MU_S,
+        slip_of("v0", "slip of the largest friction", "v_0"),
         number(
-            "decay", "slip beyond v0 in which friction falls by 1/e of what it falls, 1/xi", VELOCITY,
-            symbol="v_d", required=True, bounds=(Bound(">", 0.0),),
+            "decay",
+            "slip beyond v0 in which friction falls by 1/e of what it falls, 1/xi",
+            VELOCITY,
+            symbol="v_d",
+            required=True,
+            bounds=(Bound(">", 0.0),),
         ),
     ),
     build=build,
-)  # fmt: skip
+)

@@ -29,9 +29,9 @@ LAW = Law(
     title="Brown and McPhee's friction: a smooth peak of static friction",
     source="P. Brown, J. McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502",
     reference="P. Brown, J. McPhee, A continuous velocity-based friction model for dynamics and control with "
-              "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "
-              "doi 10.1115/1.4033658, without its viscous part",
+    "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "
+    "doi 10.1115/1.4033658, without its viscous part",
     validity="sliding; creeps below v0, where its friction is largest",
     fields=(MU, MU_S, slip_of("v0", "slip of the peak of friction", "v_0")),
     build=build,
-)  # fmt: skip
+)

@@ -89,10 +89,12 @@ def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -
         return _real(f"probe_{name}")
 
     inputs = LawInputs(
-        {name: _real(f"probe_{name}") for name in numbers}, options,
+        {name: _real(f"probe_{name}") for name in numbers},
+        options,
         PairSymbols(**{name: _real(f"probe_{name}") for name in PAIR}),
-        {name: sp.Symbol(name, real=True) for name in law.variables}, derive,
-    )  # fmt: skip
+        {name: sp.Symbol(name, real=True) for name in law.variables},
+        derive,
+    )
     return Probe(build(law, inputs), derived)
 
 
@@ -220,9 +222,12 @@ def alone(
 
     symbols = {name: sp.Symbol(name, real=True) for name in law.variables}
     given = LawInputs(
-        {name: x if isinstance(x, sp.Expr) else sp.Float(x) for name, x in numbers.items()}, options,
-        PairSymbols(**{name: sp.Float(x) for name, x in pair.items()}), symbols, lambda _, expression, __: expression,
-    )  # fmt: skip
+        {name: x if isinstance(x, sp.Expr) else sp.Float(x) for name, x in numbers.items()},
+        options,
+        PairSymbols(**{name: sp.Float(x) for name, x in pair.items()}),
+        symbols,
+        lambda _, expression, __: expression,
+    )
     known, functions = list(symbols.values()), []
     for name, step in build(law, given).items():
         functions.append((name, sp.lambdify(known, step, "numpy")))

@@ -33,10 +33,10 @@ LAW = Law(
     title="Christensen: film and contact share the area, by the film thickness ratio",
     source="H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013-1026 and 186 (1972) 421-430",
     reference="H. Christensen, Stochastic models for hydrodynamic lubrication of rough surfaces, Proceedings of the "
-              "Institution of Mechanical Engineers 184 (1969) 1013-1026; H. Christensen, A theory of mixed "
-              "lubrication, the same 186 (1972) 421-430",
+    "Institution of Mechanical Engineers 184 (1969) 1013-1026; H. Christensen, A theory of mixed "
+    "lubrication, the same 186 (1972) 421-430",
     validity="heights nearly normal, of one size over both surfaces; film alone above 3 sigma, contact alone below -3 "
-             "sigma; the clearance is that of the tips, the film's larger by 3 sigma; smooth to the third derivative",
+    "sigma; the clearance is that of the tips, the film's larger by 3 sigma; smooth to the third derivative",
     fields=(ROUGHNESS,),
     build=build,
-)  # fmt: skip
+)

@@ -26,9 +26,9 @@ LAW = Law(
     title="Coulomb's friction, smoothed by a hyperbolic tangent",
     source="C. A. Coulomb (1785); smoothed as in E. Pennestri et al., Nonlinear Dynamics 83 (2016) 1785-1801",
     reference="C. A. Coulomb (1785), smoothed as in E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Review and "
-              "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "
-              "doi 10.1007/s11071-015-2485-3",
+    "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "
+    "doi 10.1007/s11071-015-2485-3",
     validity="sliding; creeps below v0 where Coulomb's law would stick",
     fields=(MU, slip_of("v0", "slip at which tanh 1 = .76 of the friction is there", "v_0")),
     build=build,
-)  # fmt: skip
+)

@@ -34,15 +34,19 @@ LAW = Law(
     title="Dahl's friction, with the deflection of bristles",
     source="P. R. Dahl (1968), exponent 1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
     reference="P. R. Dahl, A solid friction model, report TOR-0158(3107-18)-1, Aerospace Corporation (1968), exponent "
-              "1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
+    "1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
     validity="presliding and sliding; no difference between static and kinetic friction",
     fields=(
         MU,
         number(
-            "presliding", "deflection at which it slides", LENGTH,
-            symbol="z_s", required=True, bounds=(Bound(">", 0.0),),
+            "presliding",
+            "deflection at which it slides",
+            LENGTH,
+            symbol="z_s",
+            required=True,
+            bounds=(Bound(">", 0.0),),
         ),
     ),
     build=build,
     states=(State("z", "deflection of the bristles"),),
-)  # fmt: skip
+)

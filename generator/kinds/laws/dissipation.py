@@ -35,33 +35,37 @@ _SECOND_HAND = (
 
 SOURCES: Mapping[str, str] = {
     "hunt_crossley": "K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, "
-                     "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
+    "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
     "herbert_mcwhannell": "R. G. Herbert, D. C. McWhannell, Shape and frequency composition of pulses from an impact "
-                          f"pair, Journal of Engineering for Industry 99 (1977) 513-518, {_SECOND_HAND}",
+    f"pair, Journal of Engineering for Industry 99 (1977) 513-518, {_SECOND_HAND}",
     "lee_wang": "T. W. Lee, A. C. Wang, On the dynamics of intermittent-motion mechanisms, part 1: dynamic model and "
-                "response, Journal of Mechanisms, Transmissions, and Automation in Design 105 (1983) 534-540, "
-                f"{_SECOND_HAND}",
+    "response, Journal of Mechanisms, Transmissions, and Automation in Design 105 (1983) 534-540, "
+    f"{_SECOND_HAND}",
     "lankarani_nikravesh": "H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact "
-                           "analysis of multibody systems, Journal of Mechanical Design 112 (1990) 369-376, "
-                           "doi 10.1115/1.2912617",
+    "analysis of multibody systems, Journal of Mechanical Design 112 (1990) 369-376, "
+    "doi 10.1115/1.2912617",
     "gonthier": "Y. Gonthier, J. McPhee, C. Lange, J.-C. Piedboeuf, A regularized contact model with asymmetric "
-                "damping and dwell-time dependent friction, Multibody System Dynamics 11 (2004) 209-233, "
-                "doi 10.1023/B:MUBO.0000029392.21648.bc",
+    "damping and dwell-time dependent friction, Multibody System Dynamics 11 (2004) 209-233, "
+    "doi 10.1023/B:MUBO.0000029392.21648.bc",
     "zhiying_qishao": "Z. Qin, Q. Lu, Analysis of impact process based on restitution coefficient, Journal of "
-                      f"Dynamics and Control 4 (2006) 294-298, {_SECOND_HAND}",
+    f"Dynamics and Control 4 (2006) 294-298, {_SECOND_HAND}",
     "flores": "P. Flores, M. Machado, M. T. Silva, J. M. Martins, On the continuous contact force models for soft "
-              "materials in multibody dynamics, Multibody System Dynamics 25 (2011) 357-375, "
-              "doi 10.1007/s11044-010-9237-4",
+    "materials in multibody dynamics, Multibody System Dynamics 25 (2011) 357-375, "
+    "doi 10.1007/s11044-010-9237-4",
     "hu_guo": "S. Hu, X. Guo, A dissipative contact force model for impact analysis in multibody dynamics, Multibody "
-              "System Dynamics 35 (2015) 131-151, doi 10.1007/s11044-015-9453-z",
+    "System Dynamics 35 (2015) 131-151, doi 10.1007/s11044-015-9453-z",
     "exact": "a (1 + c_e) = ln[(1 + a)/(1 - a c_e)], which every factor a obeys with what it delivers, solved for a",
-}  # fmt: skip
+}
 PULLS = flag("pulls", "as printed: the force may be below 0, and pulls the surfaces together while they part fast")
 EXACT = "exact"  # delivers the restitution that it is given
 RESTITUTION = number(
-    "restitution", "coefficient of restitution", DIMENSIONLESS,
-    symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
-)  # fmt: skip
+    "restitution",
+    "coefficient of restitution",
+    DIMENSIONLESS,
+    symbol="c_e",
+    default=1.0,
+    bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
+)
 DISSIPATION = word("dissipation", "whose hysteresis damping factor", (*FACTORS, EXACT), "hunt_crossley", SOURCES)
 
 

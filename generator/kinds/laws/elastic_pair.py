@@ -29,8 +29,9 @@ GEOMETRY = word(
     "geometry",
     "curvature of the pair: external R_i + R_j, as the press's paper prints it, hence the default; internal R_i - R_j,"
     " of a pin in a hole (steel, 10 and 9.5 mm: 1.06e10 and 6.61e10 N/m^1.5, of which the literature has the second)",
-    ("external", "internal"), "external",
-)  # fmt: skip
+    ("external", "internal"),
+    "external",
+)
 
 
 def pair_stiffness(s: LawInputs) -> Any:

@@ -29,12 +29,12 @@ LAW = Law(
     title="ESDU 78035: cylinders with parallel axes, with a choice of hysteresis damping",
     source="ESDU 78035 (1978), as in Pereira et al. (2011)",
     reference="ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded "
-              "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "
-              "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
-              "10.1007/s11071-010-9830-3",
+    "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "
+    "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
+    "10.1007/s11071-010-9830-3",
     validity="a contact that is narrow beside the radii; its load has an end at penetrations of 4 clearances, and a "
-             "run that goes deeper than 3.7 stops; driven apart fast it would pull, and is 0 there unless it pulls",
+    "run that goes deeper than 3.7 stops; driven apart fast it would pull, and is 0 there unless it pulls",
     fields=CYLINDER_FIELDS,
     build=build,
     in_hole=True,
-)  # fmt: skip
+)

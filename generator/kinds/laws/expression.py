@@ -38,20 +38,30 @@ LAW = Law(
     title="An elastic force as an expression of the penetration, with a choice of hysteresis damping",
     source="the file; the damping as K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="The elastic force is the file's own; its damping has the form of K. H. Hunt, F. R. E. Crossley, Journal "
-              "of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
+    "of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
     validity="what is known of the expression; it is 0 at no penetration, which every run asks of its numbers, and not "
-             "negative up to the clearance or `deepest`, which is looked at with the numbers of the file and of its "
-             "scenes; driven apart fast it would pull, and is 0 there unless it pulls",
+    "negative up to the clearance or `deepest`, which is looked at with the numbers of the file and of its "
+    "scenes; driven apart fast it would pull, and is 0 there unless it pulls",
     fields=(
         number(
-            "force", "elastic force, an expression of the penetration delta, of parameters and of curves", FORCE,
-            symbol="f", required=True, varies=OF_PENETRATION,
+            "force",
+            "elastic force, an expression of the penetration delta, of parameters and of curves",
+            FORCE,
+            symbol="f",
+            required=True,
+            varies=OF_PENETRATION,
         ),
         number(
-            DEEPEST, "penetration up to which the expression holds; a run that goes deeper stops", LENGTH,
-            symbol=r"\delta_{\mathrm{max}}", bounds=(Bound(">", 0.0),), otherwise="a tenth of the bearing's radius",
+            DEEPEST,
+            "penetration up to which the expression holds; a run that goes deeper stops",
+            LENGTH,
+            symbol=r"\delta_{\mathrm{max}}",
+            bounds=(Bound(">", 0.0),),
+            otherwise="a tenth of the bearing's radius",
         ),
-        RESTITUTION, DISSIPATION, PULLS,
+        RESTITUTION,
+        DISSIPATION,
+        PULLS,
     ),
     build=build,
-)  # fmt: skip
+)

@@ -74,11 +74,11 @@ LAW = Law(
     title="Journal bearing of finite length, Reynolds' condition: fitted potential",
     source="fit to gudgeon.reynolds by tools/finite_length.py; limits: F. W. Ocvirk, NACA TN 2808 (1952)",
     reference="A potential of four terms, fitted to Reynolds' equation (p above 0, open ends); the impedance of short, "
-              "long and finite bearings is that of D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99 "
-              "(1977) 198--214",
+    "long and finite bearings is that of D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99 "
+    "(1977) 198--214",
     validity="L/D .1 to 2, epsilon to .95: within 1.2 % of the largest force at that epsilon, whatever the motion, and "
-             "steady rotation within 2 % of itself; to L/D = 3 and epsilon = .9985 within 3 % and 4 %; capped at .9999",
+    "steady rotation within 2 % of itself; to L/D = 3 and epsilon = .9985 within 3 % and 4 %; capped at .9999",
     limits=Limits(l_over_d=(0.1, 2.0), epsilon=0.95),
     fields=OIL_FIELDS,
     build=build,
-)  # fmt: skip
+)

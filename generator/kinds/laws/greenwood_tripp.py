@@ -33,14 +33,14 @@ LAW = Law(
     role="mixed",
     title="Greenwood and Tripp: the asperities' share of the load, by the film thickness ratio",
     source="J. A. Greenwood, J. H. Tripp, Proc. Instn Mech. Engrs 185 (1970) 625-633; fit of N. Patir, H. S. Cheng "
-           "(1978)",
+    "(1978)",
     reference="J. A. Greenwood, J. H. Tripp, The contact of two nominally flat rough surfaces, Proceedings of the "
-              "Institution of Mechanical Engineers 185 (1970) 625-633; their integral as in N. Patir, H. S. Cheng, "
-              "Effect of surface roughness orientation on the central film thickness in EHD contacts, Proceedings of "
-              "the 5th Leeds-Lyon Symposium (1978) 15-21; K. L. Johnson, J. A. Greenwood, S. Y. Poon, A simple theory "
-              "of asperity contact in elastohydrodynamic lubrication, Wear 19 (1972) 91-108",
+    "Institution of Mechanical Engineers 185 (1970) 625-633; their integral as in N. Patir, H. S. Cheng, "
+    "Effect of surface roughness orientation on the central film thickness in EHD contacts, Proceedings of "
+    "the 5th Leeds-Lyon Symposium (1978) 15-21; K. L. Johnson, J. A. Greenwood, S. Y. Poon, A simple theory "
+    "of asperity contact in elastohydrodynamic lubrication, Wear 19 (1972) 91-108",
     validity="normal heights; film alone above 4 sigma, contact alone where the mean surfaces meet; the clearance is "
-             "that of the tips, the film's larger by 4 sigma; the fit keeps the integral's share to .014",
+    "that of the tips, the film's larger by 4 sigma; the fit keeps the integral's share to .014",
     fields=(ROUGHNESS,),
     build=build,
-)  # fmt: skip
+)

@@ -31,21 +31,33 @@ LAW = Law(
     title="Hertz contact with a choice of hysteresis damping",
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
-              "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",
+    "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",
     validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations; "
-             "driven apart fast it would pull, and is 0 there unless it pulls",
+    "driven apart fast it would pull, and is 0 there unless it pulls",
     fields=(
         number(
-            "stiffness", "force at unit penetration, N/m^n", None, symbol="K", bounds=(Bound(">", 0.0),),
-            per="exponent", otherwise="it follows from materials and radii",
+            "stiffness",
+            "force at unit penetration, N/m^n",
+            None,
+            symbol="K",
+            bounds=(Bound(">", 0.0),),
+            per="exponent",
+            otherwise="it follows from materials and radii",
         ),
         number(
-            "exponent", "exponent of the penetration", DIMENSIONLESS,
-            symbol="n", default=1.5, bounds=(Bound(">=", 1.0),),
+            "exponent",
+            "exponent of the penetration",
+            DIMENSIONLESS,
+            symbol="n",
+            default=1.5,
+            bounds=(Bound(">=", 1.0),),
         ),
-        RESTITUTION, DISSIPATION, GEOMETRY, PULLS,
+        RESTITUTION,
+        DISSIPATION,
+        GEOMETRY,
+        PULLS,
     ),
     build=build,
     also={name: {"dissipation": name} for name in FACTORS if name not in ("none", "lankarani_nikravesh")},
     instead={"geometry": "stiffness"},
-)  # fmt: skip
+)

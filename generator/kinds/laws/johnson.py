@@ -28,12 +28,12 @@ LAW = Law(
     title="Johnson: cylinders with parallel axes, with a choice of hysteresis damping",
     source="K. L. Johnson, Contact mechanics (1985), section 5.6, as in Pereira et al. (2011)",
     reference="K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form C. "
-              "Pereira, A. Ramalho, J. Ambrosio, A critical overview of internal and external cylinder contact force "
-              "models, Nonlinear Dynamics 63 (2011) 681-697, doi 10.1007/s11071-010-9830-3",
+    "Pereira, A. Ramalho, J. Ambrosio, A critical overview of internal and external cylinder contact force "
+    "models, Nonlinear Dynamics 63 (2011) 681-697, doi 10.1007/s11071-010-9830-3",
     validity="a contact that is narrow beside the radii; its load has an end at penetrations of .541 clearances, and a "
-             "run that goes deeper than half a clearance stops; driven apart fast it would pull, and is 0 there unless "
-             "it pulls",
+    "run that goes deeper than half a clearance stops; driven apart fast it would pull, and is 0 there unless "
+    "it pulls",
     fields=CYLINDER_FIELDS,
     build=build,
     in_hole=True,
-)  # fmt: skip
+)

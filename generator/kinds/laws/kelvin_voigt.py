@@ -37,14 +37,14 @@ LAW = Law(
     title="Kelvin and Voigt: a linear spring and a damper side by side",
     source="W. Goldsmith, Impact (1960); T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469",
     reference="W. Goldsmith, Impact: the theory and physical behaviour of colliding solids, Edward Arnold, London "
-              "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "
-              "Granular Matter 9 (2007) 465-469",
+    "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "
+    "Granular Matter 9 (2007) 465-469",
     validity="restitution is the same at any speed; the force begins with damping times speed at the onset; in the end "
-             "of each contact it would pull, and is 0 there unless it pulls",
+    "of each contact it would pull, and is 0 there unless it pulls",
     fields=(
         number("stiffness", "force by penetration", STIFFNESS, symbol="K", required=True, bounds=(Bound(">", 0.0),)),
         number("damping", "force by its rate", DAMPING, symbol="D", required=True, bounds=(Bound(">", 0.0),)),
         PULLS,
     ),
     build=build,
-)  # fmt: skip
+)

@@ -30,14 +30,22 @@ LAW = Law(
     validity="c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal",
     fields=(
         number(
-            "restitution", "coefficient of restitution", DIMENSIONLESS,
-            symbol="c_e", required=True, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
+            "restitution",
+            "coefficient of restitution",
+            DIMENSIONLESS,
+            symbol="c_e",
+            required=True,
+            bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
         number(
-            "exponent", "exponent of the penetration", DIMENSIONLESS,
-            symbol="n", default=1.5, bounds=(Bound(">=", 1.0),),
+            "exponent",
+            "exponent of the penetration",
+            DIMENSIONLESS,
+            symbol="n",
+            default=1.5,
+            bounds=(Bound(">=", 1.0),),
         ),
         GEOMETRY,
     ),
     build=build,
-)  # fmt: skip
+)

@@ -61,9 +61,11 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
 FURTHER: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
 HELD = ("held_force",)  # N, what a law of surfaces that do not give reads in place of it: the force that keeps e = c
 RESULTS: Mapping[str, tuple[str, ...]] = {
-    "normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0"),
+    "normal": ("F_n",),
+    "friction": ("F_t",),
+    "film": ("F_r", "F_t", "T0"),
     "mixed": ("share",),  # of the dry contact: 0 at δ = 0, never falling, 1 where no film is left
-}  # fmt: skip
+}
 # What a mixed law may derive: the film's clearance, between the mean surfaces.
 MEAN_CLEARANCE = "mean_clearance"
 # What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.

@@ -30,12 +30,14 @@ LAW = Law(
     title="Liu, Zhang and Yang: conforming cylinders, with a choice of hysteresis damping",
     source="C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183-197",
     reference="C. S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with "
-              "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",
+    "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",
     validity="a pin in a hole with parallel axes, penetrations up to some clearances; driven apart fast it would "
-             "pull, and is 0 there unless it pulls",
+    "pull, and is 0 there unless it pulls",
     fields=(
-        RESTITUTION, DISSIPATION, PULLS,
+        RESTITUTION,
+        DISSIPATION,
+        PULLS,
     ),
     build=build,
     in_hole=True,
-)  # fmt: skip
+)

@@ -43,24 +43,39 @@ LAW = Law(
     role="friction",
     title="LuGre friction, with the deflection of bristles",
     source="C. Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425; load as in C. Canudas de Wit, "
-           "P. Tsiotras (1999)",
+    "P. Tsiotras (1999)",
     reference="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with "
-              "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; load as in "
-              "C. Canudas de Wit, P. Tsiotras (1999)",
+    "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; load as in "
+    "C. Canudas de Wit, P. Tsiotras (1999)",
     validity="presliding and sliding; gives no energy where sigma_1 <= 4 g/|v_t|, for which c_f instead of g is enough",
     fields=(
-        number("mu", "coefficient of kinetic friction", MU.dimension, symbol="c_f", required=True,
-               bounds=(Bound(">", 0.0),)),
-        MU_S, slip_of("v_s", "slip in which static friction falls", "v_s"),
         number(
-            "stiffness", "of the bristles, by the normal force", dimension(length=-1),
-            symbol=r"\sigma_0", required=True, bounds=(Bound(">", 0.0),),
+            "mu",
+            "coefficient of kinetic friction",
+            MU.dimension,
+            symbol="c_f",
+            required=True,
+            bounds=(Bound(">", 0.0),),
+        ),
+        MU_S,
+        slip_of("v_s", "slip in which static friction falls", "v_s"),
+        number(
+            "stiffness",
+            "of the bristles, by the normal force",
+            dimension(length=-1),
+            symbol=r"\sigma_0",
+            required=True,
+            bounds=(Bound(">", 0.0),),
         ),
         number(
-            "damping", "of the bristles, by the normal force", dimension(length=-1, time=1),
-            symbol=r"\sigma_1", default=0.0, bounds=(Bound(">=", 0.0),),
+            "damping",
+            "of the bristles, by the normal force",
+            dimension(length=-1, time=1),
+            symbol=r"\sigma_1",
+            default=0.0,
+            bounds=(Bound(">=", 0.0),),
         ),
     ),
     build=build,
     states=(State("z", "deflection of the bristles"),),
-)  # fmt: skip
+)

@@ -45,13 +45,21 @@ LAW = Law(
     fields=(
         MU,
         number(
-            "v0", "slip below which there is no friction", VELOCITY,
-            symbol="v_0", required=True, bounds=(Bound(">=", 0.0),),
+            "v0",
+            "slip below which there is no friction",
+            VELOCITY,
+            symbol="v_0",
+            required=True,
+            bounds=(Bound(">=", 0.0),),
         ),
         number(
-            "v1", "slip above which friction is full", VELOCITY,
-            symbol="v_1", required=True, bounds=(Bound(">", "v0"),),
+            "v1",
+            "slip above which friction is full",
+            VELOCITY,
+            symbol="v_1",
+            required=True,
+            bounds=(Bound(">", "v0"),),
         ),
     ),
     build=build,
-)  # fmt: skip
+)

@@ -38,24 +38,32 @@ LAW = Law(
     title="Newton's restitution between surfaces that do not give",
     source="I. Newton, Principia (1687); J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988) 1-82",
     reference="J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, in: J. J. Moreau, P. D. "
-              "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "
-              "doi 10.1007/978-3-7091-2624-0_1; F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, "
-              "Wiley (1996); friction in a blow: A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law "
-              "based on impulse space considerations, Journal of Applied Mechanics 65 (1998) 939-951, "
-              "doi 10.1115/1.2791938",
+    "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "
+    "doi 10.1007/978-3-7091-2624-0_1; F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, "
+    "Wiley (1996); friction in a blow: A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law "
+    "based on impulse space considerations, Journal of Applied Mechanics 65 (1998) 939-951, "
+    "doi 10.1115/1.2791938",
     validity="a blow parts surfaces with e_n times their speed of approach, what is closed is a constraint that only "
-             "pushes; blows are far shorter than all else in the motion, how hard they press is not told; in a blow "
-             "friction brings slip to rest as far as mu times the impulse lets it, and energy is never gained",
+    "pushes; blows are far shorter than all else in the motion, how hard they press is not told; in a blow "
+    "friction brings slip to rest as far as mu times the impulse lets it, and energy is never gained",
     fields=(
         number(
-            "restitution", "speed of parting by speed of approach", DIMENSIONLESS,
-            symbol="e_n", required=True, bounds=(Bound(">=", 0.0), Bound("<=", 1.0)),
+            "restitution",
+            "speed of parting by speed of approach",
+            DIMENSIONLESS,
+            symbol="e_n",
+            required=True,
+            bounds=(Bound(">=", 0.0), Bound("<=", 1.0)),
         ),
         number(
-            "threshold", "speed of parting below which a contact closes", VELOCITY,
-            symbol="v_0", default=1e-4, bounds=(Bound(">", 0.0),),
+            "threshold",
+            "speed of parting below which a contact closes",
+            VELOCITY,
+            symbol="v_0",
+            default=1e-4,
+            bounds=(Bound(">", 0.0),),
         ),
     ),
     build=build,
     rigid=True,
-)  # fmt: skip
+)

@@ -64,9 +64,9 @@ LAW = Law(
     title="Ocvirk: short journal bearing, half film, with squeeze",
     source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
-              "with squeeze: the half film lies where the pressure is above that of the ends",
+    "with squeeze: the half film lies where the pressure is above that of the ends",
     validity="short bearing (L/D < 1/2; at L/D = 1 it carries twice too much and more); epsilon capped at .9999",
     limits=Limits(l_over_d=(0.0, 0.5)),
     fields=(*OIL_FIELDS, CAVITATION),
     build=build,
-)  # fmt: skip
+)

@@ -24,7 +24,7 @@ from gudgeon.generator.kinds.laws.roles import (
     VISCOUS,
     film_clearance,
     shear_torque,
-)  # fmt: skip
+)
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -56,13 +56,15 @@ LAW = Law(
     title="Pinkus and Sternlicht: long journal bearing, half film",
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
     reference="O. Pinkus, B. Sternlicht, Theory of hydrodynamic lubrication, McGraw-Hill, New York (1961), sign "
-              "corrected",
+    "corrected",
     validity="long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999",
     limits=Limits(l_over_d=(4.0, math.inf), slow_squeeze=True),  # at L/D = 4 it is off by 16 % in rotation
     fields=(
-        VISCOUS, EXTRA_CLEARANCE,
+        VISCOUS,
+        EXTRA_CLEARANCE,
         flag("as_printed", "the radial force's sign as the paper's Eq. 12 prints it (wrong)"),
-        SHEAR, ANGULAR_VELOCITY,
+        SHEAR,
+        ANGULAR_VELOCITY,
     ),
     build=build,
-)  # fmt: skip
+)

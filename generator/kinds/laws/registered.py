@@ -189,8 +189,11 @@ def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
         _need(isinstance(getattr(own, what), str), f"the {what} of {own.name} is no text")
     if own.kind != NUMBER:
         words = own.values
-        _need(isinstance(words, tuple) and len(words) > 0 and all(isinstance(x, (str, bool)) for x in words),
-              f"the words of {own.name} are none", "expected word(name, meaning, (words, …), default)")  # fmt: skip
+        _need(
+            isinstance(words, tuple) and len(words) > 0 and all(isinstance(x, (str, bool)) for x in words),
+            f"the words of {own.name} are none",
+            "expected word(name, meaning, (words, …), default)",
+        )
         fits = own.default in words and isinstance(own.default, (str, bool))
         _need(fits, f"the default of {own.name} is {own.default!r}", known_hint(str(own.default), map(str, words)))
         return
@@ -206,9 +209,11 @@ def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
         limit = bound.limit
         if isinstance(limit, str):
             _need(limit in kinds, f"a bound of {own.name} names no key of the law")
-        _need(bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
-              f"a bound of {own.name} is none: {bound.relation!r} {limit!r}",
-              f'expected Bound(relation, limit), with {" ".join(RELATIONS)} and a number or a key')  # fmt: skip
+        _need(
+            bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
+            f"a bound of {own.name} is none: {bound.relation!r} {limit!r}",
+            f"expected Bound(relation, limit), with {' '.join(RELATIONS)} and a number or a key",
+        )
         if _is_number(default) and not isinstance(limit, str):
             met = RELATIONS[bound.relation](default, limit)
             _need(met, f"the default of {own.name} is {default!r}, its bound {bound.relation} {limit!r}")

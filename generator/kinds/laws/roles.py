@@ -19,8 +19,13 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH, VELOCITY, VISCOSITY
 
 MU = number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),))
 MU_S = number(
-    "mu_s", "coefficient of static friction", DIMENSIONLESS, symbol="c_s", required=True, bounds=(Bound(">=", "mu"),),
-)  # fmt: skip
+    "mu_s",
+    "coefficient of static friction",
+    DIMENSIONLESS,
+    symbol="c_s",
+    required=True,
+    bounds=(Bound(">=", "mu"),),
+)
 
 
 def slip_of(name: str, meaning: str, symbol: str) -> Field:
@@ -46,18 +51,26 @@ TINY = 1e-150
 
 VISCOUS = number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),))
 EXTRA_CLEARANCE = number(
-    "extra_clearance", "added to c in the film alone", LENGTH, symbol="e_t", default=0.0, bounds=(Bound(">=", 0.0),),
-)  # fmt: skip
+    "extra_clearance",
+    "added to c in the film alone",
+    LENGTH,
+    symbol="e_t",
+    default=0.0,
+    bounds=(Bound(">=", 0.0),),
+)
 SHEAR = flag("shear", "shear torque, and the film's resultant at each pin centre")
 ANGULAR_VELOCITY = word(
     "angular_velocity",
     "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
-    ("absolute", "relative"), "absolute",
-)  # fmt: skip
+    ("absolute", "relative"),
+    "absolute",
+)
 CAVITATION = word(
-    "cavitation", "half, Guembel's: no pressure below that of the ends; full, Sommerfeld's: it pulls as it pushes",
-    ("half", "full"), "half",
-)  # fmt: skip
+    "cavitation",
+    "half, Guembel's: no pressure below that of the ends; full, Sommerfeld's: it pulls as it pushes",
+    ("half", "full"),
+    "half",
+)
 OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCITY)
 
 
@@ -77,9 +90,13 @@ def shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
 
 
 ROUGHNESS = number(
-    "roughness", "of both surfaces together: the root of the sum of the squares of their rms roughness", LENGTH,
-    symbol=r"\sigma", required=True, bounds=(Bound(">", 0.0),),
-)  # fmt: skip
+    "roughness",
+    "of both surfaces together: the root of the sum of the squares of their rms roughness",
+    LENGTH,
+    symbol=r"\sigma",
+    required=True,
+    bounds=(Bound(">", 0.0),),
+)
 
 
 def overlap(s: LawInputs, first: int, last: int) -> Any:

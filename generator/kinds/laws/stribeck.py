@@ -29,12 +29,14 @@ LAW = Law(
     title="Stribeck's friction: static friction falls to kinetic friction",
     source="R. Stribeck (1902); L. C. Bo, D. Pavelescu, Wear 82 (1982) 277-289, exponent 2",
     reference="R. Stribeck, Zeitschrift des Vereines deutscher Ingenieure 46 (1902); L. C. Bo, D. Pavelescu, The "
-              "friction-speed relation and its influence on the critical velocity of stick-slip motion, Wear 82 (1982) "
-              "277-289, exponent 2",
+    "friction-speed relation and its influence on the critical velocity of stick-slip motion, Wear 82 (1982) "
+    "277-289, exponent 2",
     validity="sliding; creeps below v0, which is to be well below v_s",
     fields=(
-        MU, MU_S, slip_of("v_s", "slip in which static friction falls", "v_s"),
+        MU,
+        MU_S,
+        slip_of("v_s", "slip in which static friction falls", "v_s"),
         slip_of("v0", "slip at which tanh 1 = .76 of the friction is there", "v_0"),
     ),
     build=build,
-)  # fmt: skip
+)

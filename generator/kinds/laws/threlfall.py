@@ -29,9 +29,9 @@ LAW = Law(
     title="Threlfall's friction: an exponential rise with the slip",
     source="A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475-483",
     reference="A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
-              "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "
-              "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
+    "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "
+    "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
     validity="sliding; creeps below v_r where Coulomb's law would stick; .9502 mu is its largest coefficient",
     fields=(MU, slip_of("v_r", "slip above which friction no longer rises", "v_r")),
     build=build,
-)  # fmt: skip
+)

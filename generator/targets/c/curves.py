@@ -37,11 +37,18 @@ def _table(curve: Curve) -> str:
         return "\n".join([f"/* {told} */", _LITTLE_ENDIAN, *tables, ""])
     knots = [", ".join(map(repr, curve.x[k : k + 4])) for k in range(0, len(curve.x), 4)]
     pieces = [f"    {{{', '.join(map(repr, piece))}}}," for piece in curve.coefficients]
-    return "\n".join([
-        f"/* {told} */",
-        f"static const double knots_of_{curve.name}[] = {{", *(f"    {line}," for line in knots), "};",
-        f"static const double pieces_of_{curve.name}[][4] = {{", *pieces, "};", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f"/* {told} */",
+            f"static const double knots_of_{curve.name}[] = {{",
+            *(f"    {line}," for line in knots),
+            "};",
+            f"static const double pieces_of_{curve.name}[][4] = {{",
+            *pieces,
+            "};",
+            "",
+        ]
+    )
 
 
 def _bytes(what: str, name: str, table: Any) -> list[str]:

@@ -40,13 +40,23 @@ UNTOLD = Story()
 
 
 def describe(
-    model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "",
+    model: Model,
+    *,
+    files: Mapping[str, str] = MappingProxyType({}),
+    main: str = "",
     units: tuple[int, ...] = (),
-    pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
-    operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
-    motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
-    chain: Chain | None = None, stages: bool = False,
-) -> KernelSource:  # fmt: skip
+    pivots: tuple[str, ...] = (),
+    start_pivots: tuple[str, ...] = (),
+    operations: Mapping[str, int] = MappingProxyType({}),
+    tree: tuple[str, ...] = (),
+    closures: tuple[str, ...] = (),
+    motion_pivots: tuple[str, ...] = (),
+    formulation: str = "full",
+    story: Story = UNTOLD,
+    lanes: str = "",
+    chain: Chain | None = None,
+    stages: bool = False,
+) -> KernelSource:
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
     place = {symbol: k for k, symbol in enumerate(_prepared(model))}
@@ -55,8 +65,14 @@ def describe(
     unit_of = {row.name: row.unit for row in model.all_rows}
     start = mechanism.start
     return KernelSource(
-        mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
-        files=files, main=main, units=units, stages=stages,
+        mechanism=mechanism.name,
+        scene=scene.name,
+        title=mechanism.title,
+        sha256=mechanism.sha256,
+        files=files,
+        main=main,
+        units=units,
+        stages=stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),
@@ -66,27 +82,45 @@ def describe(
         clearances=_clearances(model, place, body_of),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
-        start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
-        frictions=tuple(friction.name for friction in model.frictions), pivots=pivots,
-        start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
+        start_guess=tuple(start.guess),
+        start_set=tuple(start.set),
+        start_rates=tuple(start.rates),
+        frictions=tuple(friction.name for friction in model.frictions),
+        pivots=pivots,
+        start_pivots=start_pivots,
+        indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(_slots(model)),
         derived=tuple(symbol.name.removesuffix("_") for symbol in model.slots.derived),
         conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
-        operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
-        tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
-        chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
+        operations=dict(operations),
+        notes=scene_notes(model),
+        gravity=any(c != 0 for c in model.gravity),
+        tree=tree,
+        closures=closures,
+        motion_pivots=motion_pivots,
+        formulation=formulation,
+        chain=chain.names if chain else (),
+        chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
-        tables=tuple(mechanism.tables.items()), laws=tuple(sorted(mechanism.laws.items())),
+        lines=_lines(mechanism),
+        massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
+        tables=tuple(mechanism.tables.items()),
+        laws=tuple(sorted(mechanism.laws.items())),
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
-        peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
+        peaks=tuple(map(str, model.scene.peaks)),
+        written=tuple(_written(model)),
         expressions=tuple(_info(one, one.written) for one in mechanism.expressions.values()),
-        simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
-        parts=tuple(_parts(mechanism)), rigid=model.rigid, contours=tuple(_contours(model)),
-    )  # fmt: skip
+        simulate_written=tuple(_simulate_written(model)),
+        states=_states(model),
+        story=story,
+        lanes=lanes,
+        parts=tuple(_parts(mechanism)),
+        rigid=model.rigid,
+        contours=tuple(_contours(model)),
+    )
 
 
 def _slots(model: Model) -> Iterator[Slot]:
@@ -131,12 +165,15 @@ def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int])
     """Joints without play."""
     return tuple(
         JointInfo(
-            joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
+            joint.name,
+            joint.kind,
+            body_of[joint.first.body],
+            body_of[joint.second.body],
             _ends(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
             tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in kept_joints(model)
-    )  # fmt: skip
+    )
 
 
 def _conditions(model: Model) -> tuple[Condition, ...]:
@@ -202,13 +239,17 @@ def _points(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, 
 def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[ClearanceInfo, ...]:
     return tuple(
         ClearanceInfo(
-            c.name, body_of[c.joint.first.body], body_of[c.joint.second.body],
+            c.name,
+            body_of[c.joint.first.body],
+            body_of[c.joint.second.body],
             f"{c.joint.second.body}.{c.joint.second.point}",
-            c.normal is not None, c.film is not None, place[c.pair.c],
+            c.normal is not None,
+            c.film is not None,
+            place[c.pair.c],
             {name: place[value] for name, value in c.constants.items() if value in place},
         )
         for c in model.clearances
-    )  # fmt: skip
+    )
 
 
 def _contours(model: Model) -> Iterator[ContourInfo]:

@@ -68,18 +68,28 @@ def described(program: Program, files: Mapping[str, str], units: tuple[int, ...]
     """All that is told of a scene beside its texts."""
     model, tree, integrated, course = program.model, program.tree, program.integrated, program.course
     return describe(
-        model, files=files, main=MAIN, units=units,
-        pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
+        model,
+        files=files,
+        main=MAIN,
+        units=units,
+        pivots=program.kkt.pivots,
+        start_pivots=course.pivots if course else (),
+        motion_pivots=integrated.pivots,
         operations=_operations(program),
-        tree=tree.system.unknowns if tree else (), chain=integrated.chain,
-        closures=tuple(row.name for row in tree.system.rows) if tree else (), formulation=program.formulation,
+        tree=tree.system.unknowns if tree else (),
+        chain=integrated.chain,
+        closures=tuple(row.name for row in tree.system.rows) if tree else (),
+        formulation=program.formulation,
         story=tell(
-            model, program.kkt, course.solved if course else integrated.kkt, integrated.system,
+            model,
+            program.kkt,
+            course.solved if course else integrated.kkt,
+            integrated.system,
             course.groups if course else (),
         ),
         lanes=lanes_code.MAIN if program.has_lanes else "",
         stages=program.staged,
-    )  # fmt: skip
+    )
 
 
 def file_names(program: Program) -> list[str]:

@@ -33,10 +33,15 @@ def function_table() -> str:
     by_lane = [f for f in IN_SYMPY.values() if not f.has_vector_code]
     calls = [f"{'OF_ONE' if len(f.arguments) == 1 else 'OF_TWO'}({f.in_c})" for f in by_lane]
     rising = [_rising(f) for f in FUNCTIONS.values() if f.bounds]
-    return "".join((
-        _HEAD, _macro("LANE_AFTER_LANE_FUNCTIONS(OF_ONE, OF_TWO)", calls),
-        _RISING, _macro("RISING_FUNCTIONS(RISING)", rising), "\n#endif\n",
-    ))  # fmt: skip
+    return "".join(
+        (
+            _HEAD,
+            _macro("LANE_AFTER_LANE_FUNCTIONS(OF_ONE, OF_TWO)", calls),
+            _RISING,
+            _macro("RISING_FUNCTIONS(RISING)", rising),
+            "\n#endif\n",
+        )
+    )
 
 
 def _macro(head: str, calls: list[str]) -> str:

@@ -40,19 +40,51 @@ from gudgeon.generator.symbols.storage import Place, key_of
 from gudgeon.generator.targets.c.printer import WIDTH, CPrinter, Text, broken, comment_text, expression
 
 # Functions that engine/scene/kernels.h declares: the engine calls them from a unit of its own.
-CALLED_BY_ENGINE = frozenset({
-    "prepare", "mass_matrix", "constraints", "jacobian", "velocity_rhs", "acceleration_rhs", "start_values",
-    "dynamics", "outputs", "expand", "reduce_state", "reduce_accelerations", "reduced_dynamics", "closures",
-    "closure_rates", "reduced_project", "closing_step", "linearize", "newton_factor", "newton_substitute",
-    "newton_solve", "newton_factor_complex", "newton_solve_complex", "chain_directions", "chain_step",
-    "chain_rates", "chain_third", "chain_corners", "close_step", "arrive", "project", "watched_functions",
-    "watched_ranges", "time_terms",
-})  # fmt: skip
+CALLED_BY_ENGINE = frozenset(
+    {
+        "prepare",
+        "mass_matrix",
+        "constraints",
+        "jacobian",
+        "velocity_rhs",
+        "acceleration_rhs",
+        "start_values",
+        "dynamics",
+        "outputs",
+        "expand",
+        "reduce_state",
+        "reduce_accelerations",
+        "reduced_dynamics",
+        "closures",
+        "closure_rates",
+        "reduced_project",
+        "closing_step",
+        "linearize",
+        "newton_factor",
+        "newton_substitute",
+        "newton_solve",
+        "newton_factor_complex",
+        "newton_solve_complex",
+        "chain_directions",
+        "chain_step",
+        "chain_rates",
+        "chain_third",
+        "chain_corners",
+        "close_step",
+        "arrive",
+        "project",
+        "watched_functions",
+        "watched_ranges",
+        "time_terms",
+    }
+)
 
 _NUMBERS = {Number.REAL: "double", Number.INTEGER: "int", Number.BYTE: "unsigned char"}
 _PLAIN: dict[type, str] = {
-    Status: "int pivot = 0;", Jump: "goto powers;", RunNumbers: "const Parameters *const p = lin->p;",
-}  # fmt: skip
+    Status: "int pivot = 0;",
+    Jump: "goto powers;",
+    RunNumbers: "const Parameters *const p = lin->p;",
+}
 
 
 class Lines(Text):
@@ -97,8 +129,10 @@ class Lines(Text):
             case Largest():
                 name = f"*{item.target}"
                 before = ["0.0", *[name] * len(item.values)]
-                largest = [f"{name} = max_of({old}, fabs({self.expression(x)}));"
-                           for old, x in zip(before, item.values, strict=False)]
+                largest = [
+                    f"{name} = max_of({old}, fabs({self.expression(x)}));"
+                    for old, x in zip(before, item.values, strict=False)
+                ]
                 return largest or [f"{name} = 0.0;"]
             case LargestRow():
                 return self._largest_row(item)
@@ -114,10 +148,13 @@ class Lines(Text):
         declared = [f"{self.number} {target};"] if item.defines else []
         comment = [f"/* {comment_text(item.comment)} */"] if item.comment else []
         return [
-            *comment, *declared, f"if ({self.expression(item.side)} < 0.0)",
-            f"    {target} = {self.expression(item.otherwise)};", "else",
+            *comment,
+            *declared,
+            f"if ({self.expression(item.side)} < 0.0)",
+            f"    {target} = {self.expression(item.otherwise)};",
+            "else",
             f"    {target} = {self.expression(item.then)};",
-        ]  # fmt: skip
+        ]
 
     def _call(self, item: Call) -> str:
         given = [self.handed_over(x) if isinstance(x, Place) else self._number(x) for x in item.given]
@@ -153,9 +190,10 @@ class Lines(Text):
                 f"many_sines_and_cosines({item.count}, angles_{of}, sines_{of}, cosines_{of});",
             ]
         return [
-            f"const Four angles_{of} = {{{groups[0]}}};", f"Four sines_{of}, cosines_{of};",
+            f"const Four angles_{of} = {{{groups[0]}}};",
+            f"Four sines_{of}, cosines_{of};",
             f"sines_and_cosines(&angles_{of}, &sines_{of}, &cosines_{of});",
-        ]  # fmt: skip
+        ]
 
     def _rescue(self, item: Rescue) -> list[str]:
         if not item.force:
@@ -163,10 +201,13 @@ class Lines(Text):
         given = (("force", item.force), ("rhs", item.rhs))
         stored = (f"{name}[{k}] = {self.expression(x)};" for name, some in given for k, x in enumerate(some))
         return [
-            "dependent: {", "    double force[N_Q], rhs[N_ROWS];",
+            "dependent: {",
+            "    double force[N_Q], rhs[N_ROWS];",
             *("\n".join(broken(f"        {code}"))[4:] for code in stored),
-            "    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);", "}", "powers:",
-        ]  # fmt: skip
+            "    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);",
+            "}",
+            "powers:",
+        ]
 
     def _largest_row(self, item: LargestRow) -> list[str]:
         first, *others = map(self.expression, item.values)

@@ -49,9 +49,15 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
     else:
         methods = _newton(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
-    return {MAIN: render(
-        "lanes.c.jinja", parameters=parameters, kernels=text, methods=methods, curves=curves,
-    )}  # fmt: skip
+    return {
+        MAIN: render(
+            "lanes.c.jinja",
+            parameters=parameters,
+            kernels=text,
+            methods=methods,
+            curves=curves,
+        )
+    }
 
 
 def _pin(pin: Pin, render: Render, states: int) -> str:
@@ -64,11 +70,20 @@ def _pin(pin: Pin, render: Render, states: int) -> str:
     if clearance.film is not None:
         parts["film_law"] = call_of_film(pin, "Lanes")
     return render(
-        "play/lane_pin.c.jinja", joint=clearance.label, kind=clearance.kind, dry=clearance.normal is not None,
-        film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
-        rates=braced("rate", clearance, states, "all_of(0.0)"), still=braced("", clearance, states, "all_of(0.0)"),
-        first=pin.corners.start, last=pin.corners.stop, states=states, wall=bool(clearance.wall), **parts,
-    )  # fmt: skip
+        "play/lane_pin.c.jinja",
+        joint=clearance.label,
+        kind=clearance.kind,
+        dry=clearance.normal is not None,
+        film=clearance.film is not None,
+        ratio_name="unclipped" if clearance.clip_ratio else "ratio",
+        rates=braced("rate", clearance, states, "all_of(0.0)"),
+        still=braced("", clearance, states, "all_of(0.0)"),
+        first=pin.corners.start,
+        last=pin.corners.stop,
+        states=states,
+        wall=bool(clearance.wall),
+        **parts,
+    )
 
 
 def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
@@ -85,15 +100,13 @@ def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) 
     return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_])
 
 
-def _tangent(
-    model: Model, clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int
-) -> str:  # fmt: skip
+def _tangent(model: Model, clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int) -> str:
     """What acts in a joint, as in its own function."""
     given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
-    calls = {part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
-             for part, (what, where) in given.items()}  # fmt: skip
+    calls = {
+        part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
+        for part, (what, where) in given.items()
+    }
     calls |= {"joint": clearance.label, "kind": clearance.kind.capitalize(), "c": f"p->{clearance.pair.c}"}
     calls["rise"] = lanes_printer.expression(in_place(model, clearance.wall.rise)) if clearance.wall else ""
-    return render(
-        "play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, wall=bool(clearance.wall), **calls
-    )
+    return render("play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, wall=bool(clearance.wall), **calls)

@@ -39,10 +39,16 @@ from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import Text
 
 _TYPES: dict[Type, Type] = {
-    Number.REAL: "Lanes", "Parameters": "LaneParameters", "Memory": "LaneMemory", "Aside": "LaneAside",
-    "Latch": "LaneLatch", "Linear": "LaneLinear", "ComplexLinear": "LaneComplexLinear", "PinSlopes": "LaneSlopes",
+    Number.REAL: "Lanes",
+    "Parameters": "LaneParameters",
+    "Memory": "LaneMemory",
+    "Aside": "LaneAside",
+    "Latch": "LaneLatch",
+    "Linear": "LaneLinear",
+    "ComplexLinear": "LaneComplexLinear",
+    "PinSlopes": "LaneSlopes",
     "Wide": "Lanes",
-}  # fmt: skip
+}
 _RARE = result("rare", "LaneBits")
 # Lines of single runs that have no counterpart: what becomes of a vanished pivot, and what they ask for alone.
 _LEFT_OUT = (Status, JointsAlone, Jump, Rescue, Return)
@@ -124,8 +130,11 @@ class LaneLines(functions.Lines):
             return f"{plain.expression(item.value)} > 0.0"
         if not item.of_itself:
             bare = plain.test(replace(item, size=False))
-            return f"lanes_fabs({plain.expression(item.value)}){bare.removeprefix(plain.expression(item.value))}" \
-                if item.size else bare
+            return (
+                f"lanes_fabs({plain.expression(item.value)}){bare.removeprefix(plain.expression(item.value))}"
+                if item.size
+                else bare
+            )
         value = plain.expression(item.value)
         size = f"lanes_fabs({value})" if item.size else value
         return f"({size} > 0.0) & ({size} < INFINITY)"
@@ -153,12 +162,15 @@ class LaneLines(functions.Lines):
             case Largest():
                 name = f"*{item.target}"
                 before = ["all_of(0.0)", *[name] * len(item.values)]
-                largest = [f"{name} = lanes_max_of({old}, lanes_fabs({self.expression(x)}));"
-                           for old, x in zip(before, item.values, strict=False)]
+                largest = [
+                    f"{name} = lanes_max_of({old}, lanes_fabs({self.expression(x)}));"
+                    for old, x in zip(before, item.values, strict=False)
+                ]
                 return largest or [f"{name} = all_of(0.0);"]
             case Gathered():
-                return [f"{item.array}[{WIDE * item.row + i}] = {self.expression(x)};"
-                        for i, x in enumerate(item.values)]
+                return [
+                    f"{item.array}[{WIDE * item.row + i}] = {self.expression(x)};" for i, x in enumerate(item.values)
+                ]
             case Sines():
                 return super()._lines(item)
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")

@@ -137,11 +137,17 @@ def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
         of_scene["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
     mechanism = model.scene.mechanism
     return {
-        "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
-        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
-        "sizes": _defines(of_scene), "thresholds": _defines(_THRESHOLDS), "tables": _tables(program, of_scene),
-        "engine_ends": ENGINE_ENDS, "gains": _gains(program),
-    }  # fmt: skip
+        "title": printer.comment_text(mechanism.title or mechanism.name),
+        "mechanism": mechanism.name,
+        "scene": model.scene.name,
+        "sha256": mechanism.sha256,
+        "parameters": parameter_fields(model.slots),
+        "sizes": _defines(of_scene),
+        "thresholds": _defines(_THRESHOLDS),
+        "tables": _tables(program, of_scene),
+        "engine_ends": ENGINE_ENDS,
+        "gains": _gains(program),
+    }
 
 
 def sizes(program: Program, bounds: Kernel | None) -> Sizes:
@@ -164,7 +170,7 @@ def _of_linkage(program: Program) -> Sizes:
         "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
         "N_SERIES": (len(outputs.element_series(model)), "results of force elements"),
-    }  # fmt: skip
+    }
 
 
 def _of_motion(program: Program) -> Sizes:
@@ -186,7 +192,7 @@ def _of_motion(program: Program) -> Sizes:
         "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
         "IMPLICIT_STAGES": (int(program.staged), "1: there are methods that find their stages together"),
         "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
-    }  # fmt: skip
+    }
 
 
 def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
@@ -199,7 +205,7 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
         "WATCHES_STATE": (int(bounds is not None and reads_state(bounds)), "they hang on more than time"),
         "N_TERMS": (program.terms.count, "terms of time alone, which may hide within a step"),
         "N_PULSES": (program.terms.pulses, "of these, the first: those that may in a step of any motion"),
-    }  # fmt: skip
+    }
     systems = (model, program.integrated.system.model)
     switches = [switch.g for some in systems for switch in some.symbols.switches.found.values()]
     if model.rigid:
@@ -228,7 +234,7 @@ def _of_start(program: Program) -> Sizes:
         "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
         "N_SET": (len(start["set_place"]), "those that it sets"),
         "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
-    }  # fmt: skip
+    }
     return sizes | {"N_APART": (len(apart), "rows that it holds apart: eccentricities of journals")} if apart else sizes
 
 
@@ -283,15 +289,17 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
     tables: dict[tuple[str, str], Sequence[int]] = {
         ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
         ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
-        ("int", "guess_place"): start["guess_place"], ("int", "set_place"): start["set_place"],
-        ("int", "rate_place"): start["rate_place"], ("int", "drive_row"): [place[d] for d in drives],
+        ("int", "guess_place"): start["guess_place"],
+        ("int", "set_place"): start["set_place"],
+        ("int", "rate_place"): start["rate_place"],
+        ("int", "drive_row"): [place[d] for d in drives],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
         ("int", "kept_row"): [place[row.name] for row in model.rows],
         ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
         ("short", "phi_q_place"): [column[q] for row in model.all_rows for q in row.phi_q],
         ("unsigned char", "is_angle"): program.integrated.angles,
         ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
-    }  # fmt: skip
+    }
     if apart := [k for k, _, _ in apart_rows(model)]:
         tables |= {("int", "apart_row"): apart}
     if model.rigid:
@@ -343,9 +351,10 @@ def _start(model: Model) -> dict[str, list[int]]:
     start = model.scene.mechanism.start
     rates = (name.partition(".") for name in start.rates)
     return {
-        "guess_place": [place.get(name, 0) for name in start.guess], "set_place": [place[name] for name in start.set],
+        "guess_place": [place.get(name, 0) for name in start.guess],
+        "set_place": [place[name] for name in start.set],
         "rate_place": [place[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
-    }  # fmt: skip
+    }
 
 
 def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:

@@ -38,10 +38,11 @@ def newton_code(newton: Newton, render: Render) -> str:
     kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
     counts = [(f"n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
-        "newton.c.jinja", kernels="\n".join(map(functions.kernel, kernels)),
+        "newton.c.jinja",
+        kernels="\n".join(map(functions.kernel, kernels)),
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, ("N_NODES", newton.nodes)],
-    )  # fmt: skip
+    )
 
 
 def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
@@ -72,10 +73,13 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: 
 def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render: Render) -> str:
     given = [symbol.name for symbol in OF_CONTOUR]
     return render(
-        "play/contour_tangent.c.jinja", joint=clearance.label, c=f"p->{clearance.pair.c}",
+        "play/contour_tangent.c.jinja",
+        joint=clearance.label,
+        c=f"p->{clearance.pair.c}",
         worn=[expression(contour.at(beta_i, order)) for order in range(3)],
-        unread="g" in functions.unread_sides([dry]), call=functions.shared_call(dry, (*given, "latch"), ("&F",)),
-    )  # fmt: skip
+        unread="g" in functions.unread_sides([dry]),
+        call=functions.shared_call(dry, (*given, "latch"), ("&F",)),
+    )
 
 
 def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:

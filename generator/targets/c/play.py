@@ -71,12 +71,21 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     if clearance.film is not None:
         yield _film(pin, render, states)
     text = render(
-        _template(pin), joint=joint, kind=clearance.kind, arguments=_ARGUMENTS % _also(clearance),
-        further="".join(f", {name}" for name in _further(pin)), gap=_lines(pin.gap), share=_lines(pin.share),
-        rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else CLOSED,
-        store=_store(clearance, states), told=_shared_by(clearance),
-        law=_law_of_share(clearance), first=pin.corners.start, last=pin.corners.stop,
-    )  # fmt: skip
+        _template(pin),
+        joint=joint,
+        kind=clearance.kind,
+        arguments=_ARGUMENTS % _also(clearance),
+        further="".join(f", {name}" for name in _further(pin)),
+        gap=_lines(pin.gap),
+        share=_lines(pin.share),
+        rigid=clearance.rigid,
+        closed="latch->closed" if clearance.rigid else CLOSED,
+        store=_store(clearance, states),
+        told=_shared_by(clearance),
+        law=_law_of_share(clearance),
+        first=pin.corners.start,
+        last=pin.corners.stop,
+    )
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
     yield PinFunction(function_name("clearance", joint), text, stores)

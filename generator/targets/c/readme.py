@@ -15,22 +15,22 @@ _EQUATIONS = {
     "constraints.c": "Φ, Φ_q, ν, γ and M of the closed linkage; where the start is; joint forces and other outputs",
     "clearance.c": "joints with play: each law once, as a function of its numbers, then each joint's force",
     "dynamics.c": "accelerations and multipliers in all coordinates, [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …], as they are "
-                  "taught; written out for this linkage",
+    "taught; written out for this linkage",
     "reduced.c": "the same motion in few coordinates: there and back, and the accelerations that are integrated",
-}  # fmt: skip
+}
 _NUMERICS = {
     "newton.c": "derivatives of the equations of motion, Newton's matrix solved (for stiff methods), and a step onto "
-                "the constraints",
+    "the constraints",
     "newton_complex.c": "the same matrix at complex steps (for `radau5` and `radau9`)",
     "positions.c": "no freedom is left: a step of Newton's method to the positions at a time, then velocities and "
-                   "accelerations",
+    "accelerations",
     "curves.c": "the file's curves: knots and coefficients of their pieces",
     "taylor.c": "the motion's Taylor series, at order 0 and at every higher order (for `taylor`)",
     "watched.c": "bounds over ranges of time and state: of what a step must not miss",
     "lanes.c": "the same functions for several runs side by side in vectors; to the same bits",
     "scene.c": "all files together, with what the engine adds to them: this one is compiled",
     "kernel.json": "names of everything for the Python runtime: coordinates, addresses, results",
-}  # fmt: skip
+}
 # Where no freedom is left and nothing is integrated.
 _FOLLOWED = {
     "reduced.c": "the same motion in few coordinates: there and back; its forces and powers, whose works are summed up",
@@ -51,14 +51,25 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
     rest = [name for name in _NUMERICS if name in names]
     rest = [*(name for name in names if name not in (*equations, *rest)), *rest]
     told = purposes(program)
-    return "\n".join([
-        f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}", "",
-        f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_sizes(program)}", "",
-        *_first(program, names), "", "## The equations, in the order in which they are to be read", "",
-        *(f"- `{name}`: {told[name]}" for name in equations), "", "## How they are solved", "",
-        *(f"- `{name}`: {told.get(name) or _comment(files.get(name, ''))}" for name in rest), "",
-        *_calls(program, names),
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}",
+            "",
+            f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_sizes(program)}",
+            "",
+            *_first(program, names),
+            "",
+            "## The equations, in the order in which they are to be read",
+            "",
+            *(f"- `{name}`: {told[name]}" for name in equations),
+            "",
+            "## How they are solved",
+            "",
+            *(f"- `{name}`: {told.get(name) or _comment(files.get(name, ''))}" for name in rest),
+            "",
+            *_calls(program, names),
+        ]
+    )
 
 
 def purposes(program: Program) -> dict[str, str]:
@@ -92,19 +103,30 @@ def _first(program: Program, names: Collection[str]) -> list[str]:
 
 def _calls(program: Program, names: Collection[str]) -> list[str]:
     """How it is compiled and called."""
-    runs = "`gudgeon_run_start`, `gudgeon_adaptive_setup`, then `gudgeon_adaptive_run`" if program.integrates else (
-        "`gudgeon_course_begin`, then `gudgeon_kinematic`"
-    )  # fmt: skip
+    runs = (
+        "`gudgeon_run_start`, `gudgeon_adaptive_setup`, then `gudgeon_adaptive_run`"
+        if program.integrates
+        else ("`gudgeon_course_begin`, then `gudgeon_kinematic`")
+    )
     lanes = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * ("lanes.c" in names)
     return [
-        "## How it is called", "", _ENGINE, "", _COMPILED, "", "```",
+        "## How it is called",
+        "",
+        _ENGINE,
+        "",
+        _COMPILED,
+        "",
+        "```",
         "cc -O1 -march=native -std=c11 -ffp-contract=off -fPIC -shared "
         "-I. -I$ROOT scene.c $ROOT/engine/engine.c -lm -o scene.so",
-        "```", "", *lanes,
+        "```",
+        "",
+        *lanes,
         "What is called from outside is declared in `engine/scene/calls.h`: `gudgeon_prepare` fills the parameters, "
         f"`gudgeon_start` closes the linkage, `gudgeon_rhs` is the right-hand side; a run is {runs}. "
-        "From Python all of it is `gudgeon.load(…).simulate(…)`.", "",
-    ]  # fmt: skip
+        "From Python all of it is `gudgeon.load(…).simulate(…)`.",
+        "",
+    ]
 
 
 def _plain(text: str) -> str:

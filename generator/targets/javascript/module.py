@@ -24,9 +24,18 @@ from gudgeon.generator.targets.javascript.play import joint_functions, motion
 from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, arguments, function
 
 _OF_STATES = (
-    "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", DYNAMICS, "reduced_project",
-    DIRECTIONS, STEP, RATES, THIRD,
-)  # fmt: skip
+    "reduce_state",
+    "reduce_accelerations",
+    "expand",
+    "closures",
+    "closure_rates",
+    DYNAMICS,
+    "reduced_project",
+    DIRECTIONS,
+    STEP,
+    RATES,
+    THIRD,
+)
 # as we write them: alone on their lines, or behind code with a space on either side
 _COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTALL | re.MULTILINE)
 
@@ -56,20 +65,25 @@ def equations_script(program: Program) -> str:
     place = {row.name: k for k, row in enumerate(model.all_rows)}
     told = {
         "numbers": {one: k for k, one in enumerate(members) if one in read},
-        "rows": [place[row.name] for row in model.rows], "names": [row.name for row in model.rows],
+        "rows": [place[row.name] for row in model.rows],
+        "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
         "joints": {clearance.label: _motion(model, i) for i, clearance in enumerate(model.clearances)},
-        "called": _called(program), "states": model.law_states, "bodies": [body.name for body in model.bodies],
+        "called": _called(program),
+        "states": model.law_states,
+        "bodies": [body.name for body in model.bodies],
         "closing": _closing(program),
-    }  # fmt: skip
+    }
     if model.slots.tables:
         place_of = {symbol: k for k, symbol in enumerate(model.slots.members())}
         first = {name: place_of[own[0]] for name, own in model.slots.tables.items()}
         told["tables"] = {name: [first[name], first[name] + len(own)] for name, own in model.slots.tables.items()}
     prelude = PRELUDE + CONTOUR * bool(model.slots.tables)
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
-    return (f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{text},\n}};\n"
-            f"return {{{parts}, functions}};\n}})();\n")  # fmt: skip
+    return (
+        f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{text},\n}};\n"
+        f"return {{{parts}, functions}};\n}})();\n"
+    )
 
 
 def tree_functions(program: Program, read: set[str]) -> dict[str, str]:

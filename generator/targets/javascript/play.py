@@ -96,10 +96,16 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     kept = ", ".join(share.locals)
     blended = (f'own["F.{one}"] = F.{one} += (1 - share) * (film.{one} - F.{one});' for one in BLENDED)
     return [
-        *body, f"if (!(delta > 0)) {_turned(film)}", *share.text,
-        f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{kept}}});", "if (share < 1) {",
-        f"    const film = {film};", *(f"    {line}" for line in blended), "}", _turned("F"),
-    ]  # fmt: skip
+        *body,
+        f"if (!(delta > 0)) {_turned(film)}",
+        *share.text,
+        f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{kept}}});",
+        "if (share < 1) {",
+        f"    const film = {film};",
+        *(f"    {line}" for line in blended),
+        "}",
+        _turned("F"),
+    ]
 
 
 def _turned(force: str) -> str:

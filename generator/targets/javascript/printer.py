@@ -33,9 +33,11 @@ from gudgeon.generator.symbols.storage import Place, Result
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 from gudgeon.language.functions import IN_SYMPY
 
-PRELUDE = f"""\
-const {{{', '.join(name for name in IN_SYMPY if name == IN_SYMPY[name].in_c)}, sqrt, pow, abs: fabs, PI}} = Math;
-""" + """\
+PRELUDE = (
+    f"""\
+const {{{", ".join(name for name in IN_SYMPY if name == IN_SYMPY[name].in_c)}, sqrt, pow, abs: fabs, PI}} = Math;
+"""
+    + """\
 const max_of = (x, y) => (x < y ? y : x), min_of = (x, y) => (x > y ? y : x), INFINITY = Infinity;
 const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x);
 const just_ahead = (x) => x + 1e-9 * (1 + fabs(x)), just_behind = (x) => x - 1e-9 * (1 + fabs(x));
@@ -50,6 +52,7 @@ const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
 });
 const period_side = (a, b) => sin(PI * a / b);
 """
+)
 CONTOUR = """\
 const contour = (depth, order, angle) => {
     const count = depth.length, turns = angle / (2 * PI), x = count * (turns - Math.floor(turns));

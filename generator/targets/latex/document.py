@@ -152,9 +152,12 @@ MOST_ROWS = 32  # a table does not break over pages
 
 
 def table(
-    header: tuple[Text, ...], rows: list[tuple[Text, ...]], wide: tuple[int, ...] = (),
-    of: Sequence[Sequence[str]] = (), upright: bool = False,
-) -> list[Block]:  # fmt: skip
+    header: tuple[Text, ...],
+    rows: list[tuple[Text, ...]],
+    wide: tuple[int, ...] = (),
+    of: Sequence[Sequence[str]] = (),
+    upright: bool = False,
+) -> list[Block]:
     """Rows in as many tables as they need; nothing for no rows. `of`: tokens by row."""
     starts = range(0, len(rows), MOST_ROWS)
     return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS]), upright) for k in starts]

@@ -110,17 +110,24 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
     """Joint by joint its rows of Φ, their entries of Φ_q, ν and γ."""
     blocks: list[Block] = [
         paragraph(
-            "The mechanism is closed while ", Name(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
+            "The mechanism is closed while ",
+            Name(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
             f" in all of its {len(model.rows)} rows. Velocities obey ",
-            Name(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"), ", accelerations ",
+            Name(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"),
+            ", accelerations ",
             Name(
                 r"\Phi_{q} \ddot{q} = \gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}",
                 "Φ_q·q̈ = γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt",
             ),
-            ". For each joint its rows, the columns of ", PHI_Q, " in which they have entries, and what of ",
-            NU, " and ", GAMMA, " is not zero:",
+            ". For each joint its rows, the columns of ",
+            PHI_Q,
+            " in which they have entries, and what of ",
+            NU,
+            " and ",
+            GAMMA,
+            " is not zero:",
         )
-    ]  # fmt: skip
+    ]
     for title, rows in _by_owner(model):
         own = rows[0][1]
         of = [owner_token(own), *(row_token(k) for k, _ in rows)]
@@ -180,11 +187,13 @@ def _jacobian(model: Model) -> list[Block]:
     of = f"{len(model.rows)} × {len(model.q)}"
     return [
         paragraph(
-            "The derivative of ", PHI, f" by the coordinates has {of} entries, of which {count} are not zero; "
+            "The derivative of ",
+            PHI,
+            f" by the coordinates has {of} entries, of which {count} are not zero; "
             "they stand with their rows above. All in their places:",
         ),
         *pattern(model),
-    ]  # fmt: skip
+    ]
 
 
 def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
@@ -197,9 +206,7 @@ def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) 
         if q not in row.phi_q:
             return name
         constant = row.phi_q[q].is_number
-        return replace(
-            name, of=[entry_token(k, place[q] + 1)], value="" if constant else f"phi_q.{k}.{place[q] + 1}"
-        )
+        return replace(name, of=[entry_token(k, place[q] + 1)], value="" if constant else f"phi_q.{k}.{place[q] + 1}")
 
     entries = [[entry(k, row, q) for q in columns] for k, row in rows]
     if sum(3 + max(len(one.text) for one in column) for column in zip(*entries, strict=True)) > WIDEST:

@@ -32,8 +32,11 @@ from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
 _ROLES: Mapping[str, str] = {
-    "normal": "the normal force", "friction": "dry friction", "film": "the oil film", "mixed": "mixed lubrication",
-}  # fmt: skip
+    "normal": "the normal force",
+    "friction": "dry friction",
+    "film": "the oil film",
+    "mixed": "mixed lubrication",
+}
 GIVEN = "given"  # what is chosen of a number that may be left out
 # What a law is given and gives: meaning, SI unit.
 _MEANINGS: Mapping[str, tuple[str, str]] = {
@@ -50,11 +53,15 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
     "F_t": ("force on the journal along t, n turned by +90°", "N"),
     "share": ("share of the dry contact in force and moments; the rest is the film's", "-"),
     "T0": ("shear torque by the difference of the angular velocities", "N·m·s"),
-    "R_i": ("radius of the bearing", "m"), "R_j": ("radius of the journal", "m"),
-    "c": ("radial clearance", "m"), "L": ("length of the bearing", "m"),
-    "E_i": ("modulus of elasticity of the bearing", "Pa"), "E_j": ("the same of the journal", "Pa"),
-    "nu_i": ("Poisson's ratio of the bearing", "-"), "nu_j": ("the same of the journal", "-"),
-}  # fmt: skip
+    "R_i": ("radius of the bearing", "m"),
+    "R_j": ("radius of the journal", "m"),
+    "c": ("radial clearance", "m"),
+    "L": ("length of the bearing", "m"),
+    "E_i": ("modulus of elasticity of the bearing", "Pa"),
+    "E_j": ("the same of the journal", "Pa"),
+    "nu_i": ("Poisson's ratio of the bearing", "-"),
+    "nu_j": ("the same of the journal", "-"),
+}
 
 
 @dataclass(frozen=True)
@@ -84,9 +91,8 @@ def forms(law: Law, name: str) -> list[Form]:
     known = {in_a_line(one) for one in first.equations}
     found = [first]
     chosen: list[tuple[str, str | bool]] = [
-        (own.name, value) for own in law.options if own.name not in made
-        for value in own.values if value != own.choice
-    ]  # fmt: skip
+        (own.name, value) for own in law.options if own.name not in made for value in own.values if value != own.choice
+    ]
     for key, value in (*chosen, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
         number = key not in defaults
         options, given = defaults if number else {**defaults, key: value}, (key,) if number else ()
@@ -114,12 +120,15 @@ def _document(law: Law, name: str) -> Document:
     blocks: Mapping[str, Iterable[Block]] = {
         "Equations": _equations(law, first, others),
         "Other choices": _choices(others),
-        "Numbers": table(cells("key", "letter", "unit", "bounds", "default", "meaning"),
-                         [_number(field) for field in own if field.kind == NUMBER], (5,)),
+        "Numbers": table(
+            cells("key", "letter", "unit", "bounds", "default", "meaning"),
+            [_number(field) for field in own if field.kind == NUMBER],
+            (5,),
+        ),
         "Options": [_option(field) for field in own if field.kind != NUMBER],
         "Validity": [paragraph(sentence(law.validity))],
         "Reference": _references(law, name),
-    }  # fmt: skip
+    }
     found = {title: tuple(some) for title, some in blocks.items()}
     return Document(law.title, tuple(facts), tuple(Section(title, some) for title, some in found.items() if some))
 
@@ -171,9 +180,12 @@ def _may_lack(own: Field) -> bool:
 
 
 def _form(
-    law: Law, chosen: Mapping[str, str | bool], options: Mapping[str, str | bool], given: Sequence[str],
+    law: Law,
+    chosen: Mapping[str, str | bool],
+    options: Mapping[str, str | bool],
+    given: Sequence[str],
     nothing: Set[str],
-) -> Form:  # fmt: skip
+) -> Form:
     """The law's equations in letters of its own. A constant that only repeats a number is not written.
 
     Nor is a step of `nothing`, those that are 0 by default, where it is 0.
@@ -190,14 +202,18 @@ def _form(
     names = _plain(distinct(_names(law, numbers, made.derived, made.steps)))
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {_probed(name): plain(value) for name, value in made.derived.items() if _probed(name) not in same}
-    steps = {sp.Symbol(name, real=True): plain(value) for name, value in made.steps.items()
-             if value != 0 or name not in nothing}  # fmt: skip
+    steps = {
+        sp.Symbol(name, real=True): plain(value)
+        for name, value in made.steps.items()
+        if value != 0 or name not in nothing
+    }
     found = [value.free_symbols for value in (*constants.values(), *steps.values())]
     read = {step for step, value in steps.items() if value != 0}.union(*found)
     places = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
     places |= {name: _probed(name) for name in PAIR}
-    used = tuple((name, notation.math(symbol)) for name, symbol in places.items()
-                 if symbol in read and name in _MEANINGS)  # fmt: skip
+    used = tuple(
+        (name, notation.math(symbol)) for name, symbol in places.items() if symbol in read and name in _MEANINGS
+    )
 
     def written(some: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
         return tuple(equation(left, right, notation) for left, right in some.items())
@@ -207,7 +223,7 @@ def _form(
 
 def _names(
     law: Law, numbers: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
-) -> Iterator[tuple[sp.Symbol, Name]]:  # fmt: skip
+) -> Iterator[tuple[sp.Symbol, Name]]:
     """What has a fixed letter comes first; the law's own abbreviations give way."""
     own = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:

@@ -53,18 +53,27 @@ def _c(found: Trace) -> str:
             continue
         left -= len(text)
         texts[name] = text
-    told = json.dumps({
-        "of": {name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
-               for name, text in texts.items()},
-        "values": {name: _by_line(text, _shorter(text, found.values.get(name, {}))) for name, text in texts.items()},
-        "texts": texts, "equations": _equations(found),
-    }, ensure_ascii=False, separators=(",", ":"))  # fmt: skip
+    told = json.dumps(
+        {
+            "of": {
+                name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
+                for name, text in texts.items()
+            },
+            "values": {
+                name: _by_line(text, _shorter(text, found.values.get(name, {}))) for name, text in texts.items()
+            },
+            "texts": texts,
+            "equations": _equations(found),
+        },
+        ensure_ascii=False,
+        separators=(",", ":"),
+    )
     packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
     others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in texts)
     rest = f" Not listed here: {', '.join(others)}." if others else ""
     return (
         f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{rest}</p>\n"
-        '<noscript><p>It is listed by the page\'s own script; <code>gudgeon emit</code> writes the same files.</p>'
+        "<noscript><p>It is listed by the page's own script; <code>gudgeon emit</code> writes the same files.</p>"
         f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
         f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
     )

@@ -90,10 +90,13 @@ def _friction(model: Model, friction: Friction, notation: Notation) -> list[Bloc
         for q, entry in friction.jacobian.items()
     ]
     force = [
-        equation(Name(rf"\Delta g_{{{place[q]}}}", f"Δg_{place[q]}"),
-                 notation.expand(-entry * slip.kinetic_at(v) * sp.sign(v)), own)
+        equation(
+            Name(rf"\Delta g_{{{place[q]}}}", f"Δg_{place[q]}"),
+            notation.expand(-entry * slip.kinetic_at(v) * sp.sign(v)),
+            own,
+        )
         for q, entry in friction.jacobian.items()
-    ]  # fmt: skip
+    ]
     limit = notation.math(notation.expand(slip.static))
     return [
         equation(own.names[v], notation.expand(slip.v), notation),
@@ -150,21 +153,32 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
     blocks: list[Block] = [
         KKT,
         paragraph(
-            "with ", PHI_DOT, ", ", *gains, "which draw a drifting ", Name(r"\Phi", "Φ"), " back to zero (Baumgarte). ",
-            Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"), " holds the forces of joints and drives. ",
-            f"M is {n} × {n}, ", PHI_Q, f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} "
-            "multipliers.",
+            "with ",
+            PHI_DOT,
+            ", ",
+            *gains,
+            "which draw a drifting ",
+            Name(r"\Phi", "Φ"),
+            " back to zero (Baumgarte). ",
+            Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"),
+            " holds the forces of joints and drives. ",
+            f"M is {n} × {n}, ",
+            PHI_Q,
+            f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} multipliers.",
         ),
         *assembled(model),
         *_freedoms(model),
-    ]  # fmt: skip
+    ]
     if n == m and not model.clearances:
         blocks.append(
             paragraph(
-                "The drives alone determine the motion: ", Name(r"\Phi = 0", "Φ = 0"), " gives the positions, ",
-                Name(r"\Phi_{q} \dot{q} = \nu", "Φ_q·q̇ = ν"), " the velocities, and nothing is integrated.",
+                "The drives alone determine the motion: ",
+                Name(r"\Phi = 0", "Φ = 0"),
+                " gives the positions, ",
+                Name(r"\Phi_{q} \dot{q} = \nu", "Φ_q·q̇ = ν"),
+                " the velocities, and nothing is integrated.",
             )
-        )  # fmt: skip
+        )
     return blocks
 
 

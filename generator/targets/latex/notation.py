@@ -19,15 +19,36 @@ LONG_DRIVE = 8  # operations beyond which a drive's value keeps a letter of its 
 LONG_CONSTANT = 4  # the same for what is computed once a run
 
 _ONE_LETTER = {
-    "mass": "m", "inertia": "I", "length": "l", "radius": "R", "clearance": "c", "stiffness": "k", "damping": "d",
-    "angle": "phi", "axis": "a", "direction": "u", "radii": "r", "gap": "c", "half_length": "a", "half_height": "b",
-    "corner_radius": "rho", "density": "rho", "thickness": "h", "bar": "b", "disc": "r",
-}  # fmt: skip
+    "mass": "m",
+    "inertia": "I",
+    "length": "l",
+    "radius": "R",
+    "clearance": "c",
+    "stiffness": "k",
+    "damping": "d",
+    "angle": "phi",
+    "axis": "a",
+    "direction": "u",
+    "radii": "r",
+    "gap": "c",
+    "half_length": "a",
+    "half_height": "b",
+    "corner_radius": "rho",
+    "density": "rho",
+    "thickness": "h",
+    "bar": "b",
+    "disc": "r",
+}
 _FREE = {"free_length": "l", "free_angle": "theta"}
 _TEMPORARY = {
-    "span": ("Delta", 0), "span_rate": ("Delta", 1), "length": ("l", 0), "length_rate": ("l", 1), "force": ("F", 0),
-    "moment": ("M", 0), "torque": ("M", 0),
-}  # fmt: skip
+    "span": ("Delta", 0),
+    "span_rate": ("Delta", 1),
+    "length": ("l", 0),
+    "length_rate": ("l", 1),
+    "force": ("F", 0),
+    "moment": ("M", 0),
+    "torque": ("M", 0),
+}
 _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 
 

@@ -76,9 +76,7 @@ def cell_side(columns: int, least: int) -> int:
 
 def _entries(model: Model) -> list[Dot]:
     place = {q: k for k, q in enumerate(model.q)}
-    return [
-        Dot(r, place[q], entry_token(r + 1, place[q] + 1)) for r, row in enumerate(model.rows) for q in row.phi_q
-    ]
+    return [Dot(r, place[q], entry_token(r + 1, place[q] + 1)) for r, row in enumerate(model.rows) for q in row.phi_q]
 
 
 def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str]:
@@ -133,9 +131,14 @@ def tree(story: Story, joints: Collection[str]) -> list[Block]:
 
 
 def _place(
-    carried: Mapping[str, Sequence[tuple[str, str]]], body: str, joint: str, depth: int, next_row: list[int],
-    places: dict[str, tuple[float, int]], lines: list[str],
-) -> float:  # fmt: skip
+    carried: Mapping[str, Sequence[tuple[str, str]]],
+    body: str,
+    joint: str,
+    depth: int,
+    next_row: list[int],
+    places: dict[str, tuple[float, int]],
+    lines: list[str],
+) -> float:
     """From left to right by depth, leaves one below the other; a body stands in the middle of its own."""
     lines.append(f"{'   ' * depth}{body}{f'  by {joint}' if joint else ''}")
     own = [_place(carried, name, by, depth + 1, next_row, places, lines) for name, by in carried.get(body, ())]
@@ -151,9 +154,7 @@ def _place(
 STEP_X, STEP_Y = 120, 34
 
 
-def _tree_svg(
-    story: Story, joints: Collection[str], places: Mapping[str, tuple[float, int]], caption: str
-) -> str:
+def _tree_svg(story: Story, joints: Collection[str], places: Mapping[str, tuple[float, int]], caption: str) -> str:
     at = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in places.items()}
     parts = []
     for placed in story.tree:

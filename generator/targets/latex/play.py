@@ -44,9 +44,12 @@ def contour(joint: JointWithPlay) -> Iterator[Block]:
     yield paragraph(
         f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
         f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
-        "derivatives. F acts along the gradient of ", Name(r"\delta", "δ"), ", whose length is ",
-        joint.notation.math(contact.steep), ": an elastic force keeps the energy."
-    )  # fmt: skip
+        "derivatives. F acts along the gradient of ",
+        Name(r"\delta", "δ"),
+        ", whose length is ",
+        joint.notation.math(contact.steep),
+        ": an elastic force keeps the energy.",
+    )
 
 
 def corner(name: str, guide: str, slider: str) -> Block:
@@ -71,21 +74,32 @@ def rigid(joint: JointWithPlay, stored: Name) -> Block:
         " and energy is not gained, and no parting changes by that"
     ) * rubs
     return paragraph(
-        "Its surfaces do not give. Where they meet at the rate ", stored, ", a blow along n parts them with ", e,
-        " times that, or leaves them together where that is less than ", v_0, "; all rows and contacts that are closed"
-        f" bear it{along}. A contact that is closed has the force ",
-        Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"), ".",
-    )  # fmt: skip
+        "Its surfaces do not give. Where they meet at the rate ",
+        stored,
+        ", a blow along n parts them with ",
+        e,
+        " times that, or leaves them together where that is less than ",
+        v_0,
+        f"; all rows and contacts that are closed bear it{along}. A contact that is closed has the force ",
+        Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"),
+        ".",
+    )
 
 
 def onset(joint: JointWithPlay, stored: Name) -> Block:
     """When a contact acts, and what is kept of its onset."""
     floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
     return paragraph(
-        "It acts while ", Name(r"\delta > 0", "δ > 0"), ". ", stored, " is the speed of approach at the onset, "
+        "It acts while ",
+        Name(r"\delta > 0", "δ > 0"),
+        ". ",
+        stored,
+        " is the speed of approach at the onset, "
         f"at least {in_unit(floor, 'm/s')}, kept until separation; before an onset is accepted ",
-        Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
-    )  # fmt: skip
+        Name(r"\dot{\delta} / ", "δ̇ / "),
+        stored,
+        " counts as 1.",
+    )
 
 
 def told_states(law: Law) -> Iterator[Block]:
@@ -125,9 +139,9 @@ class JointWithPlay:
             if (quantity := getattr(bearing, field)) is not None:
                 yield quantity, sign, meaning
         i, j = bearing.bearing_material, bearing.journal_material
-        section, *both = ("guides", "guide", "slider") if isinstance(bearing, Guide) else (
-            "bearings", "bearing", "journal"
-        )  # fmt: skip
+        section, *both = (
+            ("guides", "guide", "slider") if isinstance(bearing, Guide) else ("bearings", "bearing", "journal")
+        )
         pieces = [(i, "", "both")] if i == j else [(i, "_i", both[0]), (j, "_j", both[1])]
         for material, index, what in pieces if self.clearance.normal is not None else []:
             name = self.model.scene.materials.get(f"{section}.{bearing.name}.{what}_material", material.name)
@@ -171,9 +185,11 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
             done[clearance.name] = joint.play
             sections += _contact_sections(joint)
         else:
-            whose = f"Guide and contact are those of corner {twin}" if clearance.wall else (
-                f"Bearing and contact are those of joint {twin}"
-            )  # fmt: skip
+            whose = (
+                f"Guide and contact are those of corner {twin}"
+                if clearance.wall
+                else (f"Bearing and contact are those of joint {twin}")
+            )
             text = f"{whose}; so are letters, laws and numbers."
             sections.append(Section(f"{what} {clearance.name}: force", (paragraph(text),), 2))
         sections.append(Section(f"{what} {clearance.name}: share in g", tuple(_share_in_g(joint)), 2))
@@ -215,14 +231,19 @@ def _contact_sections(joint: JointWithPlay) -> list[Section]:
     if clearance.normal is not None:
         sections.append(Section(f"{what} {name}: dry contact", tuple(_dry(joint)), 2))
     if clearance.film is not None:
-        blocks = [*joint.shown(contact.before_film(clearance, clearance.film)), *_law(joint, "film"),
-                  *joint.shown(contact.after_film(clearance.film))]  # fmt: skip
+        blocks = [
+            *joint.shown(contact.before_film(clearance, clearance.film)),
+            *_law(joint, "film"),
+            *joint.shown(contact.after_film(clearance.film)),
+        ]
         sections.append(Section(f"{what} {name}: film", tuple(blocks), 2))
     if clearance.mixed is not None:
         sections.append(Section(f"{what} {name}: mixed lubrication", tuple(_mixed(joint)), 2))
-    lead = "Force on the slider, in ground axes, and the moment about the guide's point" if clearance.wall else (
-        "At the centre any direction serves as n. Force on the journal, in ground axes"
-    )  # fmt: skip
+    lead = (
+        "Force on the slider, in ground axes, and the moment about the guide's point"
+        if clearance.wall
+        else ("At the centre any direction serves as n. Force on the journal, in ground axes")
+    )
     if clearance.normal is not None and clearance.film is not None:
         over = "is the share above" if clearance.mixed else "goes from 0 to 1 over the transition"
         lead += f"; d marks the dry part, f the film, b {over}"
@@ -233,13 +254,22 @@ def _contact_sections(joint: JointWithPlay) -> list[Section]:
 def _dry(joint: JointWithPlay) -> list[Block]:
     clearance, stored = joint.clearance, joint.notation.math(contact.stored)
     impact = rigid(joint, stored) if clearance.rigid else onset(joint, stored)
-    friction = _law(joint, "friction") if clearance.friction else [
-        paragraph("There is no friction:"),
-        equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
-    ]  # fmt: skip
+    friction = (
+        _law(joint, "friction")
+        if clearance.friction
+        else [
+            paragraph("There is no friction:"),
+            equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
+        ]
+    )
     friction = [*joint.shown(contact.pressing(clearance)), *friction]
-    return [impact, *joint.shown(contact.before_dry(clearance)), *_law(joint, "normal"), *friction,
-            *joint.shown(contact.after_dry(clearance))]  # fmt: skip
+    return [
+        impact,
+        *joint.shown(contact.before_dry(clearance)),
+        *_law(joint, "normal"),
+        *friction,
+        *joint.shown(contact.after_dry(clearance)),
+    ]
 
 
 def _mixed(joint: JointWithPlay) -> list[Block]:
@@ -282,9 +312,7 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
         if point.body is None:
             continue
         x, y = point.arm
-        shares = (
-            sign * contact.F_x, sign * contact.F_y, sign * (x * contact.F_y - y * contact.F_x) + moment
-        )  # fmt: skip
+        shares = (sign * contact.F_x, sign * contact.F_y, sign * (x * contact.F_y - y * contact.F_x) + moment)
         for k, share in enumerate(shares, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
             blocks.append(equation(left, sp.expand(notation.expand(share)), notation, joint.of))

@@ -114,9 +114,11 @@ class TexPrinter(_InOrder, LatexPrinter):
     ) -> None:
         settings: dict[str, Any] = {
             "symbol_names": {symbol: name.latex for symbol, name in names.items()},
-            "fold_func_brackets": True, "inv_trig_style": "full",
-            "root_notation": not breakable, "mul_symbol": r" \, ",
-        }  # fmt: skip
+            "fold_func_brackets": True,
+            "inv_trig_style": "full",
+            "root_notation": not breakable,
+            "mul_symbol": r" \, ",
+        }
         super().__init__(settings)
         self._order, self._breakable, self._names = order, breakable, names
         self._text = TextPrinter({symbol: "x" * name.room for symbol, name in names.items()}, order)

@@ -17,24 +17,79 @@ from gudgeon.generator.targets.latex.document import Document, Equation, Paragra
 from gudgeon.generator.targets.latex.letters import GREEK, Name, greek
 
 _SPECIAL = {
-    "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%",
-    "_": r"\_", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}", "<": r"\textless{}", ">": r"\textgreater{}",
-    "|": r"\textbar{}", '"': "''", "`": r"\textquoteleft{}", "\n": " ", "\t": " ", "\u00a0": "~",
-    "–": "--", "—": "---", "’": "'", "‘": "`", "“": "``", "”": "''", "…": r"\ldots{}", "■": r"\rule{1ex}{1ex}",
-    "ß": r"\ss{}", "ø": r"\o{}", "Ø": r"\O{}",
-    "æ": r"\ae{}", "Æ": r"\AE{}", "œ": r"\oe{}", "ł": r"\l{}", "Ł": r"\L{}", "ı": r"\i{}",
-}  # fmt: skip
+    "\\": r"\textbackslash{}",
+    "{": r"\{",
+    "}": r"\}",
+    "$": r"\$",
+    "&": r"\&",
+    "#": r"\#",
+    "%": r"\%",
+    "_": r"\_",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    '"': "''",
+    "`": r"\textquoteleft{}",
+    "\n": " ",
+    "\t": " ",
+    "\u00a0": "~",
+    "–": "--",
+    "—": "---",
+    "’": "'",
+    "‘": "`",
+    "“": "``",
+    "”": "''",
+    "…": r"\ldots{}",
+    "■": r"\rule{1ex}{1ex}",
+    "ß": r"\ss{}",
+    "ø": r"\o{}",
+    "Ø": r"\O{}",
+    "æ": r"\ae{}",
+    "Æ": r"\AE{}",
+    "œ": r"\oe{}",
+    "ł": r"\l{}",
+    "Ł": r"\L{}",
+    "ı": r"\i{}",
+}
 _MATH = {
     **{sign: greek(name) for name, sign in GREEK.items()},
-    "−": "-", "±": r"\pm", "·": r"\cdot", "×": r"\times", "≤": r"\leq", "≥": r"\geq", "≠": r"\neq", "≈": r"\approx",
-    "‖": r"\Vert", "→": r"\to", "∂": r"\partial", "√": r"\surd", "°": r"{}^{\circ}", "½": r"\frac{1}{2}",
-    **{sign: f"{{}}^{{{k}}}" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}, "∞": r"\infty", "µ": r"\mu", "⁻": "{}^{-}",
+    "−": "-",
+    "±": r"\pm",
+    "·": r"\cdot",
+    "×": r"\times",
+    "≤": r"\leq",
+    "≥": r"\geq",
+    "≠": r"\neq",
+    "≈": r"\approx",
+    "‖": r"\Vert",
+    "→": r"\to",
+    "∂": r"\partial",
+    "√": r"\surd",
+    "°": r"{}^{\circ}",
+    "½": r"\frac{1}{2}",
+    **{sign: f"{{}}^{{{k}}}" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")},
+    "∞": r"\infty",
+    "µ": r"\mu",
+    "⁻": "{}^{-}",
     "ᵀ": r"{}^{\top}",
-}  # fmt: skip
+}
 _MARKS = {
-    "\u0300": "`", "\u0301": "'", "\u0302": "^", "\u0303": "~", "\u0304": "=", "\u0306": "u", "\u0307": ".",
-    "\u0308": '"', "\u030a": "r", "\u030b": "H", "\u030c": "v", "\u0327": "c", "\u0328": "k",
-}  # fmt: skip
+    "\u0300": "`",
+    "\u0301": "'",
+    "\u0302": "^",
+    "\u0303": "~",
+    "\u0304": "=",
+    "\u0306": "u",
+    "\u0307": ".",
+    "\u0308": '"',
+    "\u030a": "r",
+    "\u030b": "H",
+    "\u030c": "v",
+    "\u0327": "c",
+    "\u0328": "k",
+}
 _ACCENTS = {"\u0302": "hat", "\u0307": "dot", "\u0308": "ddot"}  # of a mathematical sign
 
 
@@ -100,20 +155,39 @@ def _environment() -> jinja2.Environment:
         return resources.files("gudgeon.templates").joinpath("latex", name).read_text(encoding="utf-8")
 
     environment = jinja2.Environment(
-        loader=jinja2.FunctionLoader(load), undefined=jinja2.StrictUndefined, autoescape=False,
-        trim_blocks=True, lstrip_blocks=True,
+        loader=jinja2.FunctionLoader(load),
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
+        trim_blocks=True,
+        lstrip_blocks=True,
         # LaTeX is full of braces
-        variable_start_string="<<", variable_end_string=">>", block_start_string="<%", block_end_string="%>",
-        comment_start_string="<#", comment_end_string="#>",
-    )  # fmt: skip
+        variable_start_string="<<",
+        variable_end_string=">>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+    )
     environment.filters.update(
-        tex=tex, tex_line=_tex_line, tex_terms=_tex_terms, tex_sketch=sketch_line, tex_columns=_tex_columns,
-        tex_row=_tex_row, tex_size=_tex_size,
-        html=html.escape, html_line=to_html.line, formula=to_html.formula, attributes=to_html.attributes,
-        output=to_html.output, listing=to_html.listing,
-        plain_line=_plain_line, plain_paragraph=_plain_paragraph, plain_equation=_plain_equation,
-        plain_table=_plain_table, underline=_underline,
-    )  # fmt: skip
+        tex=tex,
+        tex_line=_tex_line,
+        tex_terms=_tex_terms,
+        tex_sketch=sketch_line,
+        tex_columns=_tex_columns,
+        tex_row=_tex_row,
+        tex_size=_tex_size,
+        html=html.escape,
+        html_line=to_html.line,
+        formula=to_html.formula,
+        attributes=to_html.attributes,
+        output=to_html.output,
+        listing=to_html.listing,
+        plain_line=_plain_line,
+        plain_paragraph=_plain_paragraph,
+        plain_equation=_plain_equation,
+        plain_table=_plain_table,
+        underline=_underline,
+    )
     return environment
 
 
@@ -170,10 +244,12 @@ def _plain_table(table: Table) -> str:
     """Columns under each other; running text goes on below itself."""
     rows = [[[_plain_line(cell)] for cell in table.header]]
     rows += [
-        [textwrap.wrap(_plain_line(cell), WIDE) or [""] if k in table.wide else [_plain_line(cell)]
-         for k, cell in enumerate(row)]
+        [
+            textwrap.wrap(_plain_line(cell), WIDE) or [""] if k in table.wide else [_plain_line(cell)]
+            for k, cell in enumerate(row)
+        ]
         for row in table.rows
-    ]  # fmt: skip
+    ]
     widths = [max(_columns(line) for row in rows for line in row[k]) for k in range(len(table.header))]
     lines = []
     for row in rows:

@@ -78,8 +78,12 @@ def _letters(model: Model) -> Iterator[tuple[str, str]]:
 
 
 def _of_rows(model: Model) -> Iterator[tuple[str, str]]:
-    for name, what in ((PHI, "constraints"), (LAMBDA, "multipliers"), (NU, "right sides of velocities"),
-                       (GAMMA, "right sides of accelerations")):  # fmt: skip
+    for name, what in (
+        (PHI, "constraints"),
+        (LAMBDA, "multipliers"),
+        (NU, "right sides of velocities"),
+        (GAMMA, "right sides of accelerations"),
+    ):
         yield name.text, what
         yield from ((indexed(name, k).text, f"one of the {what}") for k in range(1, 1 + len(model.rows)))
     yield from ((f"Φ_{by}", "a derivative of the constraints") for by in ("q", "t", "qt", "tt"))
@@ -106,8 +110,9 @@ def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
     """Of its numbers, of its laws, and of those steps that it has."""
     shown = {contact.stored, *_symbols(_steps(clearance))}
     may_be = names(clearance)
-    yield from (name.text for symbol, name in joint_letters(model, clearance).items()
-                if symbol in shown or symbol not in may_be)  # fmt: skip
+    yield from (
+        name.text for symbol, name in joint_letters(model, clearance).items() if symbol in shown or symbol not in may_be
+    )
     for equations, use in laws_of(model, clearance):
         yield from (of_latex(sign_of(parameter)).text for parameter, _ in given(equations, use))
     yield from ("i", "j", "n")
@@ -118,8 +123,10 @@ def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
 
 
 def _steps(clearance: Clearance) -> Iterator[Step]:
-    yield from (Step(symbol, sp.Integer(0)) for symbol in (
-        contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j))  # fmt: skip
+    yield from (
+        Step(symbol, sp.Integer(0))
+        for symbol in (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
+    )
     if clearance.contour:
         yield Step(contact.theta_i, contact.steep)
     yield from contact.gap(clearance)

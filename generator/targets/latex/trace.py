@@ -225,8 +225,9 @@ class _Finder:
         kernel = self.program.prepare
         own = {s.name: self.model.slots.place(s) for s in self.model.slots.members()}
         slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
-        fields = {name: self.numbers[home] | ({f"number-{name}"} if name in slots else set())
-                  for name, home in own.items()}  # fmt: skip
+        fields = {
+            name: self.numbers[home] | ({f"number-{name}"} if name in slots else set()) for name, home in own.items()
+        }
         marked = slices(readable(kernel), lambda line: frozenset(fields.get(_field(line, own), ())))
         for target, marks in marked.stored.items():
             self.numbers[target] |= marks

@@ -125,9 +125,10 @@ class Values:
         """Numbers of bodies that are given by the lengths of their `sides`, or by their `shape`."""
         found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
         return [
-            cells(f"{at[1]}.{'.'.join(at[3:])}", self.slot(e)) for e, at in found
+            cells(f"{at[1]}.{'.'.join(at[3:])}", self.slot(e))
+            for e, at in found
             if at[2] == part and not (e.words or part == "sides" and len(at) > 4)
-        ]  # fmt: skip
+        ]
 
     def densities(self) -> list[tuple[Text, ...]]:
         """Of the materials of shapes."""

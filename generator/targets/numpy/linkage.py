@@ -20,9 +20,12 @@ class NumPyLinkage:
     """
 
     def __init__(
-        self, model: Model, source: KernelSource, given: Mapping[str, float | str] | None = None,
+        self,
+        model: Model,
+        source: KernelSource,
+        given: Mapping[str, float | str] | None = None,
         closed: ClosedLinkage | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.source, self.n, self.closed = source, len(model.q), closed or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given)
         self.names = [model.slots.field(symbol) for symbol in model.slots.members()]

@@ -60,8 +60,12 @@ class ClosedLinkage:
     """
 
     def __init__(self, model: Model) -> None:
-        kernels = [closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model),
-                   closed_linkage.start_kernel(model), closed_linkage.prepare_kernel(model)]  # fmt: skip
+        kernels = [
+            closed_linkage.mass_kernel(model),
+            *closed_linkage.row_kernels(model),
+            closed_linkage.start_kernel(model),
+            closed_linkage.prepare_kernel(model),
+        ]
         self.model, self.n, self.m = model, len(model.q), len(model.all_rows)
         text = "\n\n\n".join(map(function, kernels)) + "\n"
         self.source = f"{_head(model)}\n\n\n{with_curves(model.scene.mechanism.curves, text)}{text}"
@@ -172,9 +176,15 @@ class NumPyModel(ClosedLinkage):
         self.functions = _defined(self.source)
 
     def dynamics(
-        self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace, latches: ArrayLike = (), modes: ArrayLike = (),
+        self,
+        t: float,
+        q: ArrayLike,
+        v: ArrayLike,
+        p: SimpleNamespace,
+        latches: ArrayLike = (),
+        modes: ArrayLike = (),
         states: ArrayLike = 0.0,
-    ) -> SimpleNamespace:  # fmt: skip
+    ) -> SimpleNamespace:
         """Accelerations a (n,), multipliers `lambda_`, forces `clearance`, powers: [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …].
 
         `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
@@ -188,17 +198,24 @@ class NumPyModel(ClosedLinkage):
         rates = _one_each("latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances))
         bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
         memory = SimpleNamespace(
-            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
-                   for x, z in zip(rates, bent, strict=True)],
+            latch=[
+                SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
+                for x, z in zip(rates, bent, strict=True)
+            ],
             mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
-        )  # fmt: skip
+        )
         m = len(model.rows)
         aside = SimpleNamespace(
-            a=np.zeros(self.n), lambda_=np.zeros(m), phi=np.zeros(m), phi_dot=np.zeros(m), power=np.zeros(N_WORK),
+            a=np.zeros(self.n),
+            lambda_=np.zeros(m),
+            phi=np.zeros(m),
+            phi_dot=np.zeros(m),
+            power=np.zeros(N_WORK),
             event=np.zeros(len(model.events)),
             clearance=[SimpleNamespace(state_rate=[0.0] * model.law_states) for _ in model.clearances],
-            friction=[SimpleNamespace() for _ in model.frictions], status=0,
-        )  # fmt: skip
+            friction=[SimpleNamespace() for _ in model.frictions],
+            status=0,
+        )
         with np.errstate(all="ignore"):
             aside.status = self.functions["dynamics"](t, _list(q), _list(v), memory, p, aside.a, aside)
         return aside
@@ -281,18 +298,32 @@ def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str
 def _table(curve: Curve) -> str:
     if curve.is_long:
         x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
-        return "\n".join([
-            *remark(f"{curve.name}: {curve.told()}"), f"{c_name(curve.name)} = (",
-            f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
-            f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),', f"    {curve.repeats},", ")",
-        ])  # fmt: skip
+        return "\n".join(
+            [
+                *remark(f"{curve.name}: {curve.told()}"),
+                f"{c_name(curve.name)} = (",
+                f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
+                f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),',
+                f"    {curve.repeats},",
+                ")",
+            ]
+        )
     knots = [", ".join(map(repr, curve.x[k : k + 3])) for k in range(0, len(curve.x), 3)]
     pieces = [f"        [{', '.join(map(repr, piece))}]," for piece in curve.coefficients]
-    return "\n".join([
-        *remark(f"{curve.name}: {curve.told()}"), f"{c_name(curve.name)} = (",
-        "    np.array([", *(f"        {line}," for line in knots), "    ]),",
-        "    np.array([", *pieces, "    ]),", f"    {curve.repeats},", ")",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            *remark(f"{curve.name}: {curve.told()}"),
+            f"{c_name(curve.name)} = (",
+            "    np.array([",
+            *(f"        {line}," for line in knots),
+            "    ]),",
+            "    np.array([",
+            *pieces,
+            "    ]),",
+            f"    {curve.repeats},",
+            ")",
+        ]
+    )
 
 
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
@@ -327,12 +358,22 @@ def pin(own: Pin) -> str:
         body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", f"if {acts}:", *indented(_dry(own))]
     else:
         body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
-        body += indented([*_dry(own), *lines(own.share), "if share < 1:", f"    film = {', '.join(_FILM)}",
-                          "    F = tuple(b + share*(a - b) for a, b in zip(F, film))"])  # fmt: skip
+        body += indented(
+            [
+                *_dry(own),
+                *lines(own.share),
+                "if share < 1:",
+                f"    film = {', '.join(_FILM)}",
+                "    F = tuple(b + share*(a - b) for a, b in zip(F, film))",
+            ]
+        )
     place, first = ("e*n_x, e*n_y", "F[2] + along*F[0]") if clearance.wall else ("e_x, e_y", "F[2]")
-    body += ["out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x", "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
-             f"out.ex, out.ey, out.e, out.deltadot, out.delta = {place}, e, deltadot, delta",
-             f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0"]  # fmt: skip
+    body += [
+        "out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x",
+        "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
+        f"out.ex, out.ey, out.e, out.deltadot, out.delta = {place}, e, deltadot, delta",
+        f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0",
+    ]
     turned = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
     head = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
     return "\n".join([*code(head), *indented(body)])
@@ -345,12 +386,14 @@ def _dry(own: Pin) -> list[str]:
     pressed = "F_N" if own.pressing else "F_n"
     rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
     return [
-        f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
+        f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0",
+        *lines(own.before_dry),
         *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *map(name, own.given)), is_call=True),
         *lines(own.pressing),
         *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
-        *lines(own.after_dry), f"F = -{pressed}, {', '.join(_DRY[1:])}",
-    ]  # fmt: skip
+        *lines(own.after_dry),
+        f"F = -{pressed}, {', '.join(_DRY[1:])}",
+    ]
 
 
 def _film(own: Pin) -> list[str]:

@@ -67,10 +67,15 @@ def _reference(program: Program, source: KernelSource) -> dict[str, Any]:
         )
         if found and near and all(_is_steady(found[name], near[name]) for name in found if name != "phi"):
             flat = [*memory[0], *memory[1], *[memory[2]] * len(source.states)]
-            states.append({
-                "t": t, "q": q.tolist(), "v": v.tolist(), "memory": [None if x != x else x for x in flat],
-                "values": {name: _rounded(value) for name, value in found.items()},
-            })  # fmt: skip
+            states.append(
+                {
+                    "t": t,
+                    "q": q.tolist(),
+                    "v": v.tolist(),
+                    "memory": [None if x != x else x for x in flat],
+                    "values": {name: _rounded(value) for name, value in found.items()},
+                }
+            )
     return {"p": _rounded(linkage.p), "given": _given(numpy, linkage), "states": states}
 
 
@@ -163,9 +168,13 @@ def _near_closed(numpy: NumPyModel, t: float, p: Any, play: float, rng: np.rando
 
 
 def _values(
-    model: Model, numpy: NumPyModel, outputs: Any, p: Any, at: tuple[float, Array, Array],
+    model: Model,
+    numpy: NumPyModel,
+    outputs: Any,
+    p: Any,
+    at: tuple[float, Array, Array],
     memory: tuple[list[float], list[float], float],
-) -> dict[str, Array] | None:  # fmt: skip
+) -> dict[str, Array] | None:
     """All functions at a state, by their names in Evaluation; None where a pivot vanishes."""
     t, q, v = at
     try:
@@ -175,10 +184,15 @@ def _values(
     if found.status:
         return None
     values = {
-        "a": found.a, "multipliers": found.lambda_, "power": found.power, "phi": numpy.phi(t, q, p),
-        "nu": numpy.nu(t, q, p), "gamma": numpy.gamma(t, q, v, p), "mass": numpy.mass(p),
+        "a": found.a,
+        "multipliers": found.lambda_,
+        "power": found.power,
+        "phi": numpy.phi(t, q, p),
+        "nu": numpy.nu(t, q, p),
+        "gamma": numpy.gamma(t, q, v, p),
+        "mass": numpy.mass(p),
         "clearance": np.array([[one.Fx, one.Fy] for one in found.clearance]).ravel(),
-    }  # fmt: skip
+    }
     reactions, drives = N_REACTION_COLUMNS * len(kept_joints(model)), len(model.scene.mechanism.drives)
     out = [np.zeros(size) for size in (reactions, drives, len(element_series(model)), N_ENERGY)]
     try:

@@ -167,9 +167,11 @@ class Contacts:
             bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
             if bounds[0] < bounds[1] and view.F[i, k] > KEPT * known:
                 top = minimize_scalar(
-                    lambda x, k=k: -self._at(piece.at, x).F[0, k], bounds=bounds, method="bounded",
+                    lambda x, k=k: -self._at(piece.at, x).F[0, k],
+                    bounds=bounds,
+                    method="bounded",
                     options={"xatol": 1e-5 * (bounds[1] - bounds[0])},
-                )  # fmt: skip
+                )
                 self._peak(k, float(top.x), -float(top.fun))
 
     def _at(self, state: Callable[[float], Array], t: float) -> View:
@@ -178,8 +180,10 @@ class Contacts:
     def first_event(self, piece: Piece, t: Array, view: View) -> tuple[float, int] | None:
         """When and where the first contact begins or ends inside a step, from its nodes."""
         sign = np.where(self.closed, 1.0, -1.0)
-        found = [(self._crossing(piece, k, t, sign[k] * view.delta[:, k], sign[k] * view.deltadot[:, k]), k)
-                 for k in range(self.count)]  # fmt: skip
+        found = [
+            (self._crossing(piece, k, t, sign[k] * view.delta[:, k], sign[k] * view.deltadot[:, k]), k)
+            for k in range(self.count)
+        ]
         times = [(at, k) for at, k in found if at is not None]
         return min(times) if times else None
 

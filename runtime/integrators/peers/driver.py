@@ -245,17 +245,36 @@ class _Driver:
             self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
         count = len(self.samples)
-        going_on = [(k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
-                    for k in np.flatnonzero(contacts.closed)]  # fmt: skip
+        going_on = [
+            (k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
+            for k in np.flatnonzero(contacts.closed)
+        ]
         impacts = np.array([*contacts.impacts, *going_on], dtype=IMPACT_DTYPE)
         y, a, memory, state = (np.array([row[i] for row in self.samples]).reshape(count, -1) for i in range(4))
         ratio = contacts.ratio if contacts.ratio[0] <= contacts.ratio[1] else (math.nan, math.nan)
         counts = Counts(
-            self.steps, equations.calls, contacts.onsets, phi_max=self.worst[0], phi_dot_max=self.worst[1],
-            ratio_min=ratio[0], ratio_max=ratio[1], ratio_outside=contacts.ratio_outside, jacobians=equations.jacobians,
-        )  # fmt: skip
+            self.steps,
+            equations.calls,
+            contacts.onsets,
+            phi_max=self.worst[0],
+            phi_dot_max=self.worst[1],
+            ratio_min=ratio[0],
+            ratio_max=ratio[1],
+            ratio_outside=contacts.ratio_outside,
+            jacobians=equations.jacobians,
+        )
         return Trajectory(
-            np.array(self.times), y[:, :n].copy(), y[:, n : 2 * n].copy(), a, memory, state.astype(np.int8),
-            y[:, 2 * n :].copy(), impacts[np.argsort(impacts["t_on"], kind="stable")], contacts.peaks, counts,
-            interrupted, stopped, seconds=perf_counter() - self.began if self.began == self.began else 0.0,
-        )  # fmt: skip
+            np.array(self.times),
+            y[:, :n].copy(),
+            y[:, n : 2 * n].copy(),
+            a,
+            memory,
+            state.astype(np.int8),
+            y[:, 2 * n :].copy(),
+            impacts[np.argsort(impacts["t_on"], kind="stable")],
+            contacts.peaks,
+            counts,
+            interrupted,
+            stopped,
+            seconds=perf_counter() - self.began if self.began == self.began else 0.0,
+        )

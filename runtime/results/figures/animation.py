@@ -129,9 +129,15 @@ def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
         posture = posture_at(run, float(t))
         to_scale, arrows = arrows_of(run, posture, motion, plan, wanted.velocities, wanted.forces)
         drawn = make_sketch(
-            posture, to_scale, more=lines, arrows=arrows, touching=touching_at(run, posture),
-            touched=touching_between(run, before, t), box=box, still=False,
-        )  # fmt: skip
+            posture,
+            to_scale,
+            more=lines,
+            arrows=arrows,
+            touching=touching_at(run, posture),
+            touched=touching_between(run, before, t),
+            box=box,
+            still=False,
+        )
         yield replace(drawn, notes=(*drawn.notes, RED)) if drawn.notes else drawn
         before = t
 

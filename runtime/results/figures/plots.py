@@ -38,11 +38,24 @@ IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
 ACROSS, BESIDE = 4, 6  # circles in a row; words of a legend that fits beside the title
 TITLE = 66  # characters of a line, beside which the legend fits
 STYLE = {
-    "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#888888", "axes.grid": True,
-    "grid.color": "#e4e4e4", "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.frameon": False,
-    "xtick.color": "#444444", "ytick.color": "#444444", "agg.path.chunksize": 20000, "text.usetex": False,
-}  # fmt: skip
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.labelsize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#888888",
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "xtick.color": "#444444",
+    "ytick.color": "#444444",
+    "agg.path.chunksize": 20000,
+    "text.usetex": False,
+}
 
 
 def cycle(count: int) -> list[str]:
@@ -121,8 +134,11 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
         picture = Figure(figsize=(12, 9), dpi=100)
         picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
         first, known = next(iter(runs.values())), {name for run in played.values() for name in run.names}
-        journals = [name.removesuffix(".F") for name, *_ in panels.values()
-                    if name.count(".") == 1 and f"{name[:-1]}ex" in known]  # fmt: skip
+        journals = [
+            name.removesuffix(".F")
+            for name, *_ in panels.values()
+            if name.count(".") == 1 and f"{name[:-1]}ex" in known
+        ]
         left, drawn, right = _parts(picture, len(played) if journals else 0, bool(first.source.parts))
         rows = 3 + len(panels)
         grid = left.add_gridspec(rows, max(1, len(watch)))
@@ -163,9 +179,14 @@ def _draw_mechanism(part: Any, run: Result) -> None:
 
 
 def _draw_motion(
-    part: Any, grid: Any, column: int, runs: Mapping[str, Result], references: Mapping[str, Result], name: str,
+    part: Any,
+    grid: Any,
+    column: int,
+    runs: Mapping[str, Result],
+    references: Mapping[str, Result],
+    name: str,
     colours: Mapping[str, str],
-) -> None:  # fmt: skip
+) -> None:
     """Three rows: a name, its velocity and its acceleration, as errors where there is something to compare with."""
     names = [series for series in (name, *rates(name)) if series]
     for row, series in enumerate(names):
@@ -185,9 +206,12 @@ def _draw_motion(
 
 
 def _draw_forces(
-    axes: Sequence[Axes], panels: Mapping[str, Sequence[str]], runs: Mapping[str, Result],
-    references: Mapping[str, Result], colours: Mapping[str, str],
-) -> None:  # fmt: skip
+    axes: Sequence[Axes],
+    panels: Mapping[str, Sequence[str]],
+    runs: Mapping[str, Result],
+    references: Mapping[str, Result],
+    colours: Mapping[str, str],
+) -> None:
     """One row a panel: forces in every scene, with their peaks (▾), and the ideal reaction over them."""
     for ax, (what, names) in zip(axes, panels.items(), strict=True):
         known = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]

@@ -40,8 +40,10 @@ def posture_at(run: Result, t: float) -> Posture:
     """Where everything is at t (s); loads are those of the samples beside it, linear between."""
     k = int(np.clip(np.searchsorted(run.t, t), 1, max(len(run.t) - 1, 1)))
     near = slice(max(k - 1, 0), k + 1)
-    loads = {name: (float(np.interp(t, run.t[near], x[near])), float(np.interp(t, run.t[near], y[near])))
-             for name, x, y in _loads(run)}  # fmt: skip
+    loads = {
+        name: (float(np.interp(t, run.t[near], x[near])), float(np.interp(t, run.t[near], y[near])))
+        for name, x, y in _loads(run)
+    }
     if (at := np.flatnonzero(run.t == t)).size:
         q, v = run.q[at[0]], run.v[at[0]]
     else:

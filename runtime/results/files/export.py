@@ -37,10 +37,30 @@ SOME = 64  # of a run, by which it is told how long a file will be
 DATE = 116  # bytes at the head of a MATLAB file in which SciPy puts the day
 MATLAB = b"MATLAB 5.0 MAT-file, written by gudgeon"
 LONGEST = 63  # characters of a name in MATLAB
-KEYWORDS = frozenset({
-    "break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global", "if",
-    "otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while",
-})  # fmt: skip
+KEYWORDS = frozenset(
+    {
+        "break",
+        "case",
+        "catch",
+        "classdef",
+        "continue",
+        "else",
+        "elseif",
+        "end",
+        "for",
+        "function",
+        "global",
+        "if",
+        "otherwise",
+        "parfor",
+        "persistent",
+        "return",
+        "spmd",
+        "switch",
+        "try",
+        "while",
+    }
+)
 
 
 def wanted_series(run: Result, names: Iterable[str] | None) -> list[str]:
@@ -171,7 +191,7 @@ def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] |
 
 def _write_mat(
     path: str | os.PathLike[str], of: Result | Batch, told: Sequence[tuple[str, str, str]], columns: Columns
-) -> None:  # fmt: skip
+) -> None:
     """Columns under MATLAB's names, beside what they are: names, units and meanings."""
     from scipy.io import savemat
 

@@ -51,10 +51,14 @@ EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of th
 PROVENANCE_GROUP = "provenance"
 TRACE_TIME = ("s", "end of the last step that the row tells of")
 EXTREMES = {
-    "name": ("", "series"), "against": ("", "scene whose series was subtracted"), "unit": ("", "unit of the values"),
-    "max": ("", "largest value over all steps, SI"), "t_max": ("s", "its time"),
-    "min": ("", "smallest value over all steps, SI"), "t_min": ("s", "its time"),
-}  # fmt: skip
+    "name": ("", "series"),
+    "against": ("", "scene whose series was subtracted"),
+    "unit": ("", "unit of the values"),
+    "max": ("", "largest value over all steps, SI"),
+    "t_max": ("s", "its time"),
+    "min": ("", "smallest value over all steps, SI"),
+    "t_min": ("s", "its time"),
+}
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")  # of the root of an old file, over dimensions of their own
 NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 
@@ -239,10 +243,19 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     stored = {name: _read_series(file, name, len(t)) for name in names if _is_there(file, name)}
     p, given, is_given = _read_parameters(file, source)
     run = Result(
-        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **samples_of(source, stored, len(t)),
-        impacts=impacts_of(file, source), diagnostics=diagnostics, events=events_of(file, source), stored=stored,
+        compiled=None,
+        source=source,
+        p=p,
+        given=given,
+        is_given=is_given,
+        t=t,
+        **samples_of(source, stored, len(t)),
+        impacts=impacts_of(file, source),
+        diagnostics=diagnostics,
+        events=events_of(file, source),
+        stored=stored,
         trace=_read_trace(file, source),
-    )  # fmt: skip
+    )
     if file.has(START):
         run.start_row = start_row(file, run)
         check_times(np.append(run.start_row.t, t[0]))
@@ -361,11 +374,13 @@ def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -
     """What the integrator stores of rows, from their series; by the names of a Result."""
     q, v, a = (_motion(source, stored, length, order) for order in range(3))
     return {
-        "q": q, "v": v, "accelerations": a,
+        "q": q,
+        "v": v,
+        "accelerations": a,
         "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
         "memory": _columns(stored, _memory_names(source), length),
         "work": _works(source, stored, length),
-    }  # fmt: skip
+    }
 
 
 def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:

@@ -70,9 +70,12 @@ def tables(batch: Batch) -> Iterator[Table]:
     about = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
     about |= {"own_times": batch.t.ndim == 2} | ({} if batch.states else {"kept": [*batch.kept]})
     attributes = {
-        "gudgeon": FORMATS[0], "title": batch.source.title, "mechanism": batch.source.mechanism,
-        "scene": batch.source.scene, "batch": json.dumps(about),
-    }  # fmt: skip
+        "gudgeon": FORMATS[0],
+        "title": batch.source.title,
+        "mechanism": batch.source.mechanism,
+        "scene": batch.source.scene,
+        "batch": json.dumps(about),
+    }
     yield Table("", "run", (Variable("run", np.arange(len(batch)), "", "number of the run"),), attributes)
     yield times(batch)
     if not batch.states:
@@ -141,9 +144,10 @@ def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SE
         return xarray.Dataset(rows)
     reasons = dict((failure.run, str(failure.error)) for failure in batch.failures)
     columns: dict[str, Any] = {
-        "samples": ("run", batch.samples), "t_last": ("run", batch.t_last, {"units": "s"}),
+        "samples": ("run", batch.samples),
+        "t_last": ("run", batch.t_last, {"units": "s"}),
         "failure": ("run", np.array([reasons.get(i, "") for i in range(len(batch))])),
-    }  # fmt: skip
+    }
     columns |= {name: ("run", values) for name, values in batch.diagnostics.items()}
     for k, joint in enumerate(batch.source.clearances):
         columns |= {f"{joint.name}.peak.{name}": ("run", batch.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
@@ -321,15 +325,24 @@ def _batch(opened_file: Any, size: int) -> Batch:
     own, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
     padded = [_padded(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
-        source=source, t=t, states=States(*padded) if kept is None else None, samples=samples,
+        source=source,
+        t=t,
+        states=States(*padded) if kept is None else None,
+        samples=samples,
         kept={} if kept is None else read_kept(whole, kept, names, samples, t.shape[-1]),
-        t_last=file.numbers(f"{RUNS}/t_last", count), parameters=_given(file, source, count, runs),
-        impacts=tuple(impacts_of(run, source) for run in own), events=tuple(events_of(run, source) for run in own),
-        peaks=_peaks(file, source, count), diagnostics=numbers, failures=as_failures(failed),
-        seconds=float(about["seconds"]), threads=int(about["threads"]), interrupted=bool(about["interrupted"]),
+        t_last=file.numbers(f"{RUNS}/t_last", count),
+        parameters=_given(file, source, count, runs),
+        impacts=tuple(impacts_of(run, source) for run in own),
+        events=tuple(events_of(run, source) for run in own),
+        peaks=_peaks(file, source, count),
+        diagnostics=numbers,
+        failures=as_failures(failed),
+        seconds=float(about["seconds"]),
+        threads=int(about["threads"]),
+        interrupted=bool(about["interrupted"]),
         result=_Stored(runs, failed),
         extremes=_extremes(file, source, count, runs if kept is None else None),
-    )  # fmt: skip
+    )
 
 
 def read_times(whole: Whole, count: int, own: bool) -> Array:
@@ -396,10 +409,11 @@ def _given(file: File, source: KernelSource, count: int, runs: Mapping[int, Resu
     if strange := sorted({*file.names(GIVEN)} - {*found, NUMBER}):
         raise ValueError(f"{strange[0][:64]!r} was given, and is no number of its scene")
     given = {
-        address: np.array(file.texts(f"{GIVEN}/{address}", count), dtype=object) if slot.words
+        address: np.array(file.texts(f"{GIVEN}/{address}", count), dtype=object)
+        if slot.words
         else file.numbers(f"{GIVEN}/{address}", count)
         for address, slot in found.items()
-    }  # fmt: skip
+    }
     for address, values in given.items():
         for i, value in enumerate(values.tolist()):
             if found[address].words and value not in found[address].words:

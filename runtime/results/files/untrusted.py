@@ -25,8 +25,10 @@ from gudgeon.results.state import Array
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
-LOADERS = {"gudgeon-result": ("a single run", "gudgeon.Result.load"),
-           "gudgeon-batch": ("a batch of runs", "gudgeon.Batch.load")}  # fmt: skip
+LOADERS = {
+    "gudgeon-result": ("a single run", "gudgeon.Result.load"),
+    "gudgeon-batch": ("a batch of runs", "gudgeon.Batch.load"),
+}
 Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 

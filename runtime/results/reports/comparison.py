@@ -221,8 +221,10 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     played = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
     joints = played or dict.fromkeys(joint for report in reports for joint in report.forces)
     missing = (math.nan, math.nan)
-    return [(joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales)
-                     for r in reports]) for joint in joints]  # fmt: skip
+    return [
+        (joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales) for r in reports])
+        for joint in joints
+    ]
 
 
 def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
@@ -232,9 +234,7 @@ def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return _peak_rows(reports, own)
 
 
-def _peak_rows(
-    reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]
-) -> list[tuple[str, list[str]]]:  # fmt: skip
+def _peak_rows(reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]) -> list[tuple[str, list[str]]]:
     found = [{e.name: _at(e.peak, e.unit, e.t, r.scales) for e in own} for r, own in zip(reports, peaks, strict=True)]
     known = {x.name for report in reports for x in report.diagnostics.extremes}  # over all steps, which is more
     names = dict.fromkeys(e.name for own in peaks for e in own if e.name not in known)

@@ -77,8 +77,11 @@ def page(title: str, about: str, sections: Iterable[Section], chapters: Iterable
 def article(sections: Iterable[Section], head: str = "", linked: Sequence[str] = ()) -> str:
     """What a notebook shows: the same without the rest of a page."""
     places = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked)}
-    parts = [f"<section{places.pop(name, '')}><h2>{escape(visible(name))}</h2>{inside}</section>"
-             for name, inside in sections if inside]  # fmt: skip
+    parts = [
+        f"<section{places.pop(name, '')}><h2>{escape(visible(name))}</h2>{inside}</section>"
+        for name, inside in sections
+        if inside
+    ]
     return f"<article class='g-report'><style>{STYLE}</style>{head}{''.join(parts)}</article>"
 
 

@@ -39,11 +39,19 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
     yield "Energy", table(("", ""), energy_rows(found))
     trust = found["trust"]
     yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")
-    yield "Laws", "".join(
-        f"<h3>{escape(visible(law['title']))}</h3>"
-        + lines([*([f"Options: {law['options']}."] if law["options"] else []), f"Valid: {law['valid']}.",
-                 f"Source: {law['source']}."])
-        for law in found["laws"]
+    yield (
+        "Laws",
+        "".join(
+            f"<h3>{escape(visible(law['title']))}</h3>"
+            + lines(
+                [
+                    *([f"Options: {law['options']}."] if law["options"] else []),
+                    f"Valid: {law['valid']}.",
+                    f"Source: {law['source']}.",
+                ]
+            )
+            for law in found["laws"]
+        ),
     )
 
 
@@ -52,15 +60,19 @@ def as_text(found: Mapping[str, Any]) -> str:
     parts: list[tuple[str, Rows]] = [("", [("", _about(found))])]
     asked = found["trust"]["asked"]
     parts += [(f"guide {name}", guide_rows(one, asked)) for name, one in found["guides"].items()]
-    parts += [(f"{'corner' if one['corner'] else 'joint'} {name}", joint_rows(one, asked))
-              for name, one in found["joints"].items()]
+    parts += [
+        (f"{'corner' if one['corner'] else 'joint'} {name}", joint_rows(one, asked))
+        for name, one in found["joints"].items()
+    ]
     parts += [("energy", energy_rows(found)), ("how far to believe it", trust_rows(found["trust"]))]
     told = [_title(found)]
     for heading, rows in parts:
         told += [heading] if heading and rows else []
         told += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
-    told += [f"law: {law['title']}{'; ' * bool(law['options'])}{law['options']}; valid: {law['valid']}"
-             for law in found["laws"]]
+    told += [
+        f"law: {law['title']}{'; ' * bool(law['options'])}{law['options']}; valid: {law['valid']}"
+        for law in found["laws"]
+    ]
     return visible("\n".join([*told, *(f"note: {one}" for one in (*found["warnings"], *found["trust"]["notes"]))]))
 
 
@@ -126,8 +138,13 @@ def _ideal_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
 def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
     if work is None:
         return [("where its work went", NOT_ASKED if not asked else "not known")]
-    names = {"taken": "energy into contact", "returned": "given back", "damping": "taken by damping",
-             "friction": "taken by friction", "film": "taken by the film"}  # fmt: skip
+    names = {
+        "taken": "energy into contact",
+        "returned": "given back",
+        "damping": "taken by damping",
+        "friction": "taken by friction",
+        "film": "taken by the film",
+    }
     return [(told, quantity(work[name], "J")) for name, told in names.items() if math.isfinite(work[name])]
 
 
@@ -146,10 +163,14 @@ def energy_rows(found: Mapping[str, Any]) -> Rows:
     if energy is None:
         return [("energy", "not known: a body has no mass or no inertia")]
     names = {
-        "drives": "work of the drives", "forces": "work of the forces", "clearances": "work of the joints with play",
-        "not_told_apart": "taken by joints, not told apart", "change": "kinetic and potential energy, change",
-        "residual": "largest residual of the balance", "turned_over": "turned over",
-    }  # fmt: skip
+        "drives": "work of the drives",
+        "forces": "work of the forces",
+        "clearances": "work of the joints with play",
+        "not_told_apart": "taken by joints, not told apart",
+        "change": "kinetic and potential energy, change",
+        "residual": "largest residual of the balance",
+        "turned_over": "turned over",
+    }
     rows = [(told, quantity(energy[name], "J")) for name, told in names.items() if name in energy]
     return [row for row in rows if found["joints"] or row[0] != names["clearances"]]
 

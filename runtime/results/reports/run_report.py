@@ -46,12 +46,19 @@ class RunReport:
         run = with_start(self.run)
         joints = {joint.name: _joint(run, k, joint) for k, joint in enumerate(run.source.clearances)}
         return {
-            "title": run.source.title, "mechanism": run.source.mechanism, "scene": run.source.scene,
-            "t": [float(run.t[0]), float(run.t[-1])], "samples": len(self.run.t), "method": run.diagnostics.method,
-            "joints": joints, "guides": {name: _guide(run, name) for name in run.source.guides},
-            "energy": _energy(run), "trust": _trust(run), "laws": laws_of(run.source),
+            "title": run.source.title,
+            "mechanism": run.source.mechanism,
+            "scene": run.source.scene,
+            "t": [float(run.t[0]), float(run.t[-1])],
+            "samples": len(self.run.t),
+            "method": run.diagnostics.method,
+            "joints": joints,
+            "guides": {name: _guide(run, name) for name in run.source.guides},
+            "energy": _energy(run),
+            "trust": _trust(run),
+            "laws": laws_of(run.source),
             "warnings": [*run.diagnostics.notes, *_warnings(run, joints)],
-        }  # fmt: skip
+        }
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values in SI, None where there is nothing: JSON takes them."""
@@ -88,22 +95,37 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
         deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
     found = {
-        "c": c, "corner": joint.at_wall, "time": _shares(run, k, joint, own), "contacts": len(own),
-        "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"][own["deltadot"] > 0.0]),
-        "restitution": None, "stiffness": _stiffness(run, joint), "asked": _asked(run, joint),
-        "free_impact": _free_impact(run, joint), "peak": {"F": peak.F, "t": peak.t}, "rms": _rms(run, joint.name),
-        "rms_of": "samples", "largest_e": peak.e_max,
+        "c": c,
+        "corner": joint.at_wall,
+        "time": _shares(run, k, joint, own),
+        "contacts": len(own),
+        "still_closed": int(np.isnan(own["t_off"]).sum()),
+        "approach": _spread(own["deltadot"][own["deltadot"] > 0.0]),
+        "restitution": None,
+        "stiffness": _stiffness(run, joint),
+        "asked": _asked(run, joint),
+        "free_impact": _free_impact(run, joint),
+        "peak": {"F": peak.F, "t": peak.t},
+        "rms": _rms(run, joint.name),
+        "rms_of": "samples",
+        "largest_e": peak.e_max,
         "penetration": max(deepest, 0.0) if joint.dry else math.nan,
         "penetration_share": max(deepest, 0.0) / c if joint.dry else math.nan,
-        "film_least": max(between - peak.e_max, 0.0) if joint.film else math.nan, "work": None,
-    }  # fmt: skip
+        "film_least": max(between - peak.e_max, 0.0) if joint.film else math.nan,
+        "work": None,
+    }
     if examined is not None:
         names = ("min", "q1", "median", "q3", "max")
         found["restitution"] = {name: getattr(examined, f"restitution_{name}") for name in names}
         found |= {"rms": examined.F_rms, "rms_of": "all of the time"}
         damping = examined.taken - examined.returned
-        found["work"] = {"taken": examined.taken, "returned": examined.returned, "damping": damping,
-                         "friction": examined.friction, "film": examined.film}  # fmt: skip
+        found["work"] = {
+            "taken": examined.taken,
+            "returned": examined.returned,
+            "damping": damping,
+            "friction": examined.friction,
+            "film": examined.film,
+        }
     return found | {"ideal": _ideal(run, joint.name)}
 
 
@@ -180,8 +202,12 @@ def _shares(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, 
         states = run.state[:, k]
         impacting = closed * float((states == 1).sum()) / max(int((states > 0).sum()), 1)
     apart = 1.0 - closed
-    return {"free": 0.0 if joint.film else apart, "impacting": impacting, "contact": closed - impacting,
-            "film": apart if joint.film else 0.0}  # fmt: skip
+    return {
+        "free": 0.0 if joint.film else apart,
+        "impacting": impacting,
+        "contact": closed - impacting,
+        "film": apart if joint.film else 0.0,
+    }
 
 
 def _spread(values: Array) -> dict[str, float] | None:
@@ -216,11 +242,18 @@ def _trust(run: Result) -> dict[str, Any]:
     d, examined = run.diagnostics, run.diagnostics.examined or Examined()
     horizon: Any = "to the end" if d.horizon == math.inf else d.horizon
     return {
-        "phi_max": d.phi_max, "phi_dot_max": d.phi_dot_max, "horizon": horizon, "steps": d.steps, "rtol": d.rtol,
-        "step": d.step, "compared_with": examined.compared_with, "interrupted": d.interrupted,
-        "differences": [asdict(one) for one in examined.differences], "notes": list(examined.notes),
+        "phi_max": d.phi_max,
+        "phi_dot_max": d.phi_dot_max,
+        "horizon": horizon,
+        "steps": d.steps,
+        "rtol": d.rtol,
+        "step": d.step,
+        "compared_with": examined.compared_with,
+        "interrupted": d.interrupted,
+        "differences": [asdict(one) for one in examined.differences],
+        "notes": list(examined.notes),
         "asked": d.examined is not None,
-    }  # fmt: skip
+    }
 
 
 def laws_of(source: KernelSource) -> list[dict[str, str]]:

@@ -219,16 +219,25 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     source, step = simulation.source, None if table.step is None else table.step[runs]
     origin, lookers = of_steps(wanted.measures, source), rubs_of(wanted.measures, source)
     common: dict[str, Any] = {
-        "method": method_in(source, wanted.method), "rtol": wanted.rtol if source.degrees_of_freedom else None,
-        "step": step, "threads": job.threads, "stop": wanted.stop,
-    }  # fmt: skip
+        "method": method_in(source, wanted.method),
+        "rtol": wanted.rtol if source.degrees_of_freedom else None,
+        "step": step,
+        "threads": job.threads,
+        "stop": wanted.stop,
+    }
     parameters = parameters or [{}] * len(runs)
     contour, progress = worn(simulation, wanted.wear, wanted.rounds, parameters, ends, common, progress)
     batch = simulation.simulate_many(
-        parameters, t_end, output=output, **common, progress=progress,
-        contour=contour, keep=series_of(wanted.measures, wanted.keep, source),
-        peaks=(*steps_of(wanted.measures, source), *lookers), against=origin_of(job, origin) if origin else None,
-    )  # fmt: skip
+        parameters,
+        t_end,
+        output=output,
+        **common,
+        progress=progress,
+        contour=contour,
+        keep=series_of(wanted.measures, wanted.keep, source),
+        peaks=(*steps_of(wanted.measures, source), *lookers),
+        against=origin_of(job, origin) if origin else None,
+    )
     if batch.interrupted:
         raise KeyboardInterrupt
     return batch
@@ -311,9 +320,14 @@ def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
 
 
 def worn(
-    simulation: Simulation, wearing: Wearing | None, rounds: int, parameters: Any, ends: Array, common: dict[str, Any],
+    simulation: Simulation,
+    wearing: Wearing | None,
+    rounds: int,
+    parameters: Any,
+    ends: Array,
+    common: dict[str, Any],
     progress: Progress | None,
-) -> tuple[dict[str, Array], Progress | None]:  # fmt: skip
+) -> tuple[dict[str, Array], Progress | None]:
     """The contours that the rounds of wear leave of the runs, by joint; none where the scene has none that wears.
 
     And what is left of the progress for the runs themselves: each round has as much of it.

@@ -178,14 +178,25 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
         off = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
         plan = runs.plans.each[known.cell.part]
         yield {
-            "claim": str(claim.name), "figure": claim.figure, "says": claim.says, "part": known.cell.part,
+            "claim": str(claim.name),
+            "figure": claim.figure,
+            "says": claim.says,
+            "part": known.cell.part,
             "at": _at(plan, known, runs.written[known.cell.part]),
             "place": json.dumps(dict(zip(_dims(plan), known.cell.index, strict=True))),
-            "measure": str(claim.measure), "unit": known.unit,
-            "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
-            "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off),
-            "beside": str(claim.beside or ""), "note": claim.note, "heading": claim.heading,
-        }  # fmt: skip
+            "measure": str(claim.measure),
+            "unit": known.unit,
+            "printed": _plain(known.printed),
+            "ensemble": ensemble,
+            "n": len(own),
+            "q25": _plain(quartiles[0]),
+            "median": _plain(quartiles[1]),
+            "q75": _plain(quartiles[2]),
+            "deviation": _plain(off),
+            "beside": str(claim.beside or ""),
+            "note": claim.note,
+            "heading": claim.heading,
+        }
 
 
 def _at(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) -> str:
@@ -209,8 +220,14 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
     if claim.not_computed:
         told = " ".join(filter(None, (claim.not_computed, claim.note)))
-        yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "alone": NOT_COMPUTED,
-                        **dict.fromkeys(ODDS), "agreed": True, "note": told}  # fmt: skip
+        yield common | {
+            "ensemble": UNNAMED,
+            "verdict": NOT_COMPUTED,
+            "alone": NOT_COMPUTED,
+            **dict.fromkeys(ODDS),
+            "agreed": True,
+            "note": told,
+        }
         return
     cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in known.checks for name in check.measures))
@@ -218,14 +235,22 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     each, ensembles = {}, runs.ensembles(cells)
     again = [cell for cell in cells if not runs.own(cell, ensembles)]
     for ensemble in ensembles:
-        own = {cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
-               for cell in cells}  # fmt: skip
+        own = {
+            cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
+            for cell in cells
+        }
         each[ensemble] = judged(known.checks, own, certain, again)
     whole, agreed = together(list(each.values()))
     for ensemble, one in each.items():
         odds = {name: _plain(getattr(one, name)) for name in ODDS}
-        yield common | {"ensemble": ensemble, "verdict": whole.verdict, "alone": one.verdict, **odds,
-                        "agreed": agreed, "note": claim.note}  # fmt: skip
+        yield common | {
+            "ensemble": ensemble,
+            "verdict": whole.verdict,
+            "alone": one.verdict,
+            **odds,
+            "agreed": agreed,
+            "note": claim.note,
+        }
 
 
 def _has(runs: _Finished, cell: Cell, measure: str) -> bool:

@@ -275,8 +275,11 @@ def _of_one(chosen: Selected, trial: Trial) -> Iterator[Check]:
         for name in trial.measures:
             measure = str(name)
             if trial.others:
-                yield Check((cell,), (measure, str(trial.others[0])),
-                            _exceeds(measure, str(trial.others[0]), _share(trial, 1.0)))  # fmt: skip
+                yield Check(
+                    (cell,),
+                    (measure, str(trial.others[0])),
+                    _exceeds(measure, str(trial.others[0]), _share(trial, 1.0)),
+                )
                 continue
             number, within = _in(trial.text, _unit(chosen.plan, name)), _share(trial, 0.0)
             low = {"above": number, "near": number - within * abs(number)}.get(trial.kind, -np.inf)
@@ -308,7 +311,11 @@ def _count(chosen: Selected, trial: Trial) -> Check:
 
 def _counted(source: KernelSource) -> dict[str, int]:
     return {
-        "bodies": len(source.bodies), "joints": len(source.joints) + len(source.clearances),
-        "drives": len(source.drives), "freedoms": source.degrees_of_freedom, "rows": len(source.rows),
-        "coordinates": len(source.coordinates), "play": len(source.clearances),
-    }  # fmt: skip
+        "bodies": len(source.bodies),
+        "joints": len(source.joints) + len(source.clearances),
+        "drives": len(source.drives),
+        "freedoms": source.degrees_of_freedom,
+        "rows": len(source.rows),
+        "coordinates": len(source.coordinates),
+        "play": len(source.clearances),
+    }

@@ -133,13 +133,20 @@ class _Each:
         shortest = section if isinstance(section, float) else 0.0
         if last < table.t_end[i] and last - max(begin or 0.0, 0.0) <= shortest:
             return None
-        parameters = {name: value if isinstance(value, str) else float(value)
-                      for name, value in ((name, own[i]) for name, own in table.columns.items())}  # fmt: skip
+        parameters = {
+            name: value if isinstance(value, str) else float(value)
+            for name, value in ((name, own[i]) for name, own in table.columns.items())
+        }
         return self.simulation.lyapunov(
-            last if end is None else min(end, last), section=section, skip=max(begin or 0.0, 0.0),
-            method=method_in(source, wanted.method), rtol=self.rtol, parameters=parameters,
-            step=None if table.step is None else float(table.step[i]), progress=self._tell,
-        )  # fmt: skip
+            last if end is None else min(end, last),
+            section=section,
+            skip=max(begin or 0.0, 0.0),
+            method=method_in(source, wanted.method),
+            rtol=self.rtol,
+            parameters=parameters,
+            step=None if table.step is None else float(table.step[i]),
+            progress=self._tell,
+        )
 
     def _section(self, i: int, measure: Measure) -> str | float | None:
         if measure.of == WHOLE:
@@ -164,7 +171,9 @@ def _value(statistic: str, found: Lyapunov | None, error: float) -> float:
         motion = found.motion
         return float(motion.period) if motion.kind == PERIODIC else KINDS[motion.kind]
     values: dict[str, Any] = {
-        "lyapunov": lambda: found.exponent, "lyapunov_error": lambda: found.uncertainty,
-        "lyapunov_per_return": lambda: found.per_return, "motion_confidence": lambda: found.motion.confidence,
-    }  # fmt: skip
+        "lyapunov": lambda: found.exponent,
+        "lyapunov_error": lambda: found.uncertainty,
+        "lyapunov_per_return": lambda: found.per_return,
+        "motion_confidence": lambda: found.motion.confidence,
+    }
     return float(values[statistic]())

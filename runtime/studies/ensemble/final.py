@@ -129,10 +129,14 @@ def _about(file: Any, plan: Plan) -> None:
     source = plan.parts[0].simulation.source
     said = json.dumps(plan.study.said)  # where it is too long, the folder's own file has it
     attributes = {
-        "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
-        "sha256": source.whole_sha256, "study": said if len(said) < MOST_TEXT else "",
-        "plan": plan.identity, "runs": plan.runs,
-    }  # fmt: skip
+        "title": plan.study.title or source.title,
+        "mechanism": source.mechanism,
+        "gudgeon": gudgeon.__version__,
+        "sha256": source.whole_sha256,
+        "study": said if len(said) < MOST_TEXT else "",
+        "plan": plan.identity,
+        "runs": plan.runs,
+    }
     for name, value in attributes.items():
         file.attrs[name] = value
 

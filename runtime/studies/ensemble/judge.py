@@ -93,9 +93,7 @@ def _wilson(p: float, n: float, side: float, doubt: float) -> float:
     return min(max((middle + side * reach) / (1.0 + z * z / n), 0.0), 1.0)
 
 
-def judged(
-    checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), again: Container[Cell] = ()
-) -> Judged:  # fmt: skip
+def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), again: Container[Cell] = ()) -> Judged:
     """Holds where each check is likely, fails where one is unlikely, as far as that is known.
 
     A probability is that of independent runs, one of each cell, estimated by all combinations of the runs that there

@@ -101,9 +101,7 @@ def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int
             ended.set()
 
 
-def _there(
-    folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None, executor: Executor
-) -> None:
+def _there(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None, executor: Executor) -> None:
     """By whoever the executor gives them to."""
 
     def submit(block: BlockOf) -> Future[Block]:
@@ -118,9 +116,12 @@ def _there(
 
 
 def _all(
-    folder: StudyFolder, missing: list[BlockOf], done: _Done, submit: Callable[[BlockOf], Future[Block]],
+    folder: StudyFolder,
+    missing: list[BlockOf],
+    done: _Done,
+    submit: Callable[[BlockOf], Future[Block]],
     most: Callable[[], int],
-) -> None:  # fmt: skip
+) -> None:
     """Blocks are written as they come, and never more are out than there is room for: the next begin before that."""
     left = iter(missing)
     out: dict[Future[Block], BlockOf] = {}

@@ -24,14 +24,26 @@ Origins: TypeAlias = Mapping[str, Mapping[str, Array]]  # scene -> series of run
 Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
 
 STEPS: Mapping[str, str] = {
-    "max_of_steps": "max", "min_of_steps": "min", "peak_of_steps": "abs", "deviation_of_steps": "abs",
-}  # fmt: skip
+    "max_of_steps": "max",
+    "min_of_steps": "min",
+    "peak_of_steps": "abs",
+    "deviation_of_steps": "abs",
+}
 JOINT: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
 CONTACTS, CROSSINGS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
 WEAR = ("wear_depth", "wear_arc")
 OF_JOINTS = (*CONTACTS, *JOINT, *WEAR)
-UNITS = {"impacts": "", "first_impact": "s", "impact_speed": "m/s", "peak_force": "N", "eccentricity": "m",
-         "wear_depth": "N/m", "wear_arc": "rad", "crossings": "", "first_crossing": "s"}  # fmt: skip
+UNITS = {
+    "impacts": "",
+    "first_impact": "s",
+    "impact_speed": "m/s",
+    "peak_force": "N",
+    "eccentricity": "m",
+    "wear_depth": "N/m",
+    "wear_arc": "rad",
+    "crossings": "",
+    "first_crossing": "s",
+}
 
 
 def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
@@ -97,9 +109,7 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
 
 
 def _joints(source: KernelSource, rubs: bool = False) -> list[str]:
-    return [
-        joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint) and not joint.at_wall
-    ]
+    return [joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint) and not joint.at_wall]
 
 
 def _events(source: KernelSource) -> list[str]:
@@ -249,6 +259,12 @@ def _final(t: Array, x: Array, begin: Array, end: Array) -> Array:
 
 
 STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
-    "max": _largest, "min": _smallest, "peak": _peak, "range": _range, "mean": _mean, "rms": _rms, "final": _final,
+    "max": _largest,
+    "min": _smallest,
+    "peak": _peak,
+    "range": _range,
+    "mean": _mean,
+    "rms": _rms,
+    "final": _final,
     "deviation": _peak,
-}  # fmt: skip
+}

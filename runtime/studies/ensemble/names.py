@@ -76,8 +76,10 @@ def names_of(plans: Plans) -> Names:
     for part, plan in plans.each.items():
         every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
-            every |= {str(name): _in_a_row(own) if own.count else tuple(map(str, own.texts))
-                      for name, own in axis.columns.items()}  # fmt: skip
+            every |= {
+                str(name): _in_a_row(own) if own.count else tuple(map(str, own.texts))
+                for name, own in axis.columns.items()
+            }
         shown = {name: tuple(map(as_people_write, texts)) for name, texts in every.items()}
         values[part] = {name: texts for name, texts in shown.items() if texts and all(texts)}
     return Names(plans.file.titles, values, plans.file.about)
@@ -95,8 +97,10 @@ def read_names(folder: Path) -> Names:
         data = read_regular(folder / FILE)
         found = {} if data is None else json.loads(data)
         titles = {str(name): str(title) for name, title in found.get("titles", {}).items()}
-        values = {part: {name: tuple(map(str, texts)) for name, texts in own.items()}
-                  for part, own in found.get("values", {}).items()}  # fmt: skip
+        values = {
+            part: {name: tuple(map(str, texts)) for name, texts in own.items()}
+            for part, own in found.get("values", {}).items()
+        }
         about = tuple(map(str, found.get("about", ())))
     except (OSError, ValueError, AttributeError, TypeError, RecursionError):
         return NONE

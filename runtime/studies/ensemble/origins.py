@@ -128,8 +128,15 @@ def _series(
     out = {name: np.full(times.shape, np.nan) for name in wanted}
     good = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
     alike = _alike(simulation, table, runs, [row[np.isfinite(row)] for row in times])
-    common = (job.mechanism, job.overrides, job.sha256, simulation.source.scene, job.wanted.method, job.wanted.rtol,
-              tuple(wanted))  # fmt: skip
+    common = (
+        job.mechanism,
+        job.overrides,
+        job.sha256,
+        simulation.source.scene,
+        job.wanted.method,
+        job.wanted.rtol,
+        tuple(wanted),
+    )
     keys = [(common, alike.key(i)) for i in range(len(runs))]
     with _making:  # another block in another thread may be about to need the same ones
         held = {keys[i]: _recent.get(keys[i]) for i in good}
@@ -202,10 +209,15 @@ def _made(
     try:
         batch = simulation.simulate_many(
             {name: [_plain(values[i]) for i in runs] for name, values in alike.columns.items()} or [{}] * len(runs),
-            output=t[0] if same else t, method=method_in(source, job.wanted.method),
-            rtol=job.wanted.rtol if moves else None, step=None if alike.step is None else alike.step[runs],
-            threads=job.threads, stop=False, keep=wanted, peaks=[],
-        )  # fmt: skip
+            output=t[0] if same else t,
+            method=method_in(source, job.wanted.method),
+            rtol=job.wanted.rtol if moves else None,
+            step=None if alike.step is None else alike.step[runs],
+            threads=job.threads,
+            stop=False,
+            keep=wanted,
+            peaks=[],
+        )
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}

@@ -123,8 +123,11 @@ class Plan:
     def blocks(self) -> tuple[BlockOf, ...]:
         """All of them, part by part."""
         each = self.each
-        places = ((k, first, min(part.block, each - first)) for k, part in enumerate(self.parts)
-                  for first in range(0, each, part.block))  # fmt: skip
+        places = (
+            (k, first, min(part.block, each - first))
+            for k, part in enumerate(self.parts)
+            for first in range(0, each, part.block)
+        )
         return tuple(BlockOf(number, *place) for number, place in enumerate(places))
 
     def job(self, block: BlockOf, threads: int | None) -> Job:
@@ -142,9 +145,20 @@ class Plan:
         by_name = {one.name: at for one, at in zip(self.numbers, index, strict=True)}
         relative, absolute = self._off(by_name, len(runs))
         return Job(
-            part.mechanism, part.simulation.source.scene, part.overrides, part.sha256, number,
-            k * self.each + int(runs[0]), len(runs), columns, relative, absolute, self.wanted, threads, later,
-        )  # fmt: skip
+            part.mechanism,
+            part.simulation.source.scene,
+            part.overrides,
+            part.sha256,
+            number,
+            k * self.each + int(runs[0]),
+            len(runs),
+            columns,
+            relative,
+            absolute,
+            self.wanted,
+            threads,
+            later,
+        )
 
     def _off(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
         if self.deviations is None:
@@ -159,8 +173,10 @@ class Plan:
         """All that decides the results: two studies are the same where this is."""
         import gudgeon
 
-        parts = {", ".join([part.simulation.source.scene, *(f"{k}={v}" for k, v in part.overrides)]): part.sha256
-                 for part in self.parts}  # fmt: skip
+        parts = {
+            ", ".join([part.simulation.source.scene, *(f"{k}={v}" for k, v in part.overrides)]): part.sha256
+            for part in self.parts
+        }
         return {"format": FOLDER_FORMAT, "gudgeon": gudgeon.__version__, "study": self.study.said, "mechanism": parts}
 
     @cached_property
@@ -206,7 +222,7 @@ def check_size(study: StudyFile) -> None:
     for found, most, several, what in (
         (loaded, MOST_STRUCTURES, structures, "scenes with their choices, a library each"),
         (runs, MOST_RUNS, [*structures, *numbers], "runs"),
-    ):  # fmt: skip
+    ):
         if found > most:
             where = max(several, key=lambda one: one[0])[1]
             raise BadValueError(f"the study has {found} {what}", where, f"expected {most:.0e} at most")

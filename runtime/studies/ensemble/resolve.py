@@ -58,12 +58,22 @@ def resolve(study: StudyFile) -> Plan:
     coordinates += found + of_starts
     wanted = _wanted(study, parts)
     fixed = {str(name): in_si(text, known_slot(sources, name)) for name, text in study.fixed.items()}
-    coordinates += [Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
-                    for name, value in zip(study.fixed, fixed.values(), strict=True)]  # fmt: skip
+    coordinates += [
+        Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
+        for name, value in zip(study.fixed, fixed.values(), strict=True)
+    ]
     plan = Plan(
-        study, tuple(structure), (*numbers, *starts), fixed, off, tuple(coordinates), parts, wanted,
-        _units(study, sources), tuple(_notes(study, sources)),
-    )  # fmt: skip
+        study,
+        tuple(structure),
+        (*numbers, *starts),
+        fixed,
+        off,
+        tuple(coordinates),
+        parts,
+        wanted,
+        _units(study, sources),
+        tuple(_notes(study, sources)),
+    )
     return replace(plan, parts=tuple(_in_blocks(plan, k) for k in range(len(parts))))
 
 
@@ -151,8 +161,15 @@ def _starts(
     points, ensembles = deviations(starts, list(map(str, names))), list(starts.ensembles.values())
     over = ("ensemble",) if starts.named else ()
     off = Deviations({}, {})
-    coordinates = [Coordinate("start", ("start",), np.arange(starts.count), "",
-                              f"perturbed start, {starts.distribution}, seed {starts.seed}")]  # fmt: skip
+    coordinates = [
+        Coordinate(
+            "start",
+            ("start",),
+            np.arange(starts.count),
+            "",
+            f"perturbed start, {starts.distribution}, seed {starts.seed}",
+        )
+    ]
     if starts.named:
         named = np.array(list(starts.ensembles), object)
         coordinates.append(Coordinate("ensemble", over, named, "", "ensemble of starts"))
@@ -192,17 +209,21 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
     for part in parts:
         source = part.simulation.source
         for written, dimension, more in (
-            (study.t_end, TIME, {}), (study.output, DIMENSIONLESS, ends), (study.step, TIME, ends),
+            (study.t_end, TIME, {}),
+            (study.output, DIMENSIONLESS, ends),
+            (study.step, TIME, ends),
             *((end, TIME, ends) for window in study.windows.values() for end in (window.begin, window.end)),
-        ):  # fmt: skip
+        ):
             if written is not None:
                 check_expression(source, written, dimension, more)
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
             check_followed(study, source)
     check_constants(study)
-    windows = {name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
-               for name, window in study.windows.items()}  # fmt: skip
+    windows = {
+        name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
+        for name, window in study.windows.items()
+    }
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
     keep, method = tuple(map(str, study.keep)), str(study.method)
     wear = wearing_of(study.wear, [part.simulation.source for part in parts]) if study.wear else None
@@ -312,5 +333,6 @@ def deviations(starts: Starts, names: list[str]) -> Array:
     """
     each = [np.random.default_rng([starts.seed, k]) for k in range(len(starts.ensembles))]
     shape = (starts.count, len(names))
-    return np.stack([rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape)
-                     for rng in each])  # fmt: skip
+    return np.stack(
+        [rng.standard_normal(shape) if starts.distribution == NORMAL else rng.uniform(-1.0, 1.0, shape) for rng in each]
+    )

@@ -42,9 +42,11 @@ MOST_THREADS = 4096
 
 
 def plans_of(
-    study: str | os.PathLike[str] | Mapping[str, Any], settings: Mapping[str, float | str] | None = None,
-    starts: int | None = None, seed: int | None = None,
-) -> Plans:  # fmt: skip
+    study: str | os.PathLike[str] | Mapping[str, Any],
+    settings: Mapping[str, float | str] | None = None,
+    starts: int | None = None,
+    seed: int | None = None,
+) -> Plans:
     """The plans of a study, as `study` takes it, mechanisms loaded. Raises InputError."""
     from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
     from gudgeon.generator.study.read import read_studies
@@ -87,11 +89,17 @@ def _resolved(studies: StudySet) -> Plans:
 
 
 def study(
-    study: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None = None, *,
-    threads: int | None = None, executor: Executor | distributed.Client | None = None,
-    progress: Progress | None = None, restart: bool = False, settings: Mapping[str, float | str] | None = None,
-    starts: int | None = None, seed: int | None = None,
-) -> Study:  # fmt: skip
+    study: str | os.PathLike[str] | Mapping[str, Any],
+    folder: str | os.PathLike[str] | None = None,
+    *,
+    threads: int | None = None,
+    executor: Executor | distributed.Client | None = None,
+    progress: Progress | None = None,
+    restart: bool = False,
+    settings: Mapping[str, float | str] | None = None,
+    starts: int | None = None,
+    seed: int | None = None,
+) -> Study:
     """Make all runs of a study, and what it measures of them.
 
     study: a YAML file (docs/studies.md), the name of one that comes with gudgeon, or a mapping that says the same.
@@ -115,9 +123,14 @@ def study(
 
 
 def run_plans(
-    plans: Plans, folder: Path, threads: int | None = None, executor: Executor | None = None,
-    progress: Progress | None = None, restart: bool = False, keeps: tempfile.TemporaryDirectory[str] | None = None,
-) -> Study:  # fmt: skip
+    plans: Plans,
+    folder: Path,
+    threads: int | None = None,
+    executor: Executor | None = None,
+    progress: Progress | None = None,
+    restart: bool = False,
+    keeps: tempfile.TemporaryDirectory[str] | None = None,
+) -> Study:
     """The study of a file in a folder, each part in one of its own."""
     check_needs(plans, folder, threads, executor is None)
     if plans.named:

@@ -46,9 +46,14 @@ def _show(
     """What was found, and what was written of it."""
     if as_json:
         scenes = [
-            {"scene": scene.scene, "t_end_s": scene.t_end, "interrupted": scene.interrupted,
-             "notes": notes(scene, mark_step)} for scene in found
-        ]  # fmt: skip
+            {
+                "scene": scene.scene,
+                "t_end_s": scene.t_end,
+                "interrupted": scene.interrupted,
+                "notes": notes(scene, mark_step),
+            }
+            for scene in found
+        ]
         files = [str(path) for path in written]
         print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(found), "files": files})
         return
@@ -158,8 +163,10 @@ def _marked(scene: SceneBench, step: float) -> str:
     row: Row | None = scene.row(Setting("rk4", step))
     if row is None:
         return "not tested"
-    off = ((f"joint forces off by {share(row.error.force)} of their peak", row.error.force),
-           (f"journals' paths by {share(row.error.path)} of c", row.error.path))  # fmt: skip
+    off = (
+        (f"joint forces off by {share(row.error.force)} of their peak", row.error.force),
+        (f"journals' paths by {share(row.error.path)} of c", row.error.path),
+    )
     said = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
     if math.isfinite(scene.contact):
         said += f"; the shortest contact takes {scene.contact / step:.1f} steps"
@@ -170,8 +177,13 @@ def _rhs_table(found: Sequence[SceneBench]) -> Table:
     table = new_table(("scene", "state", "time", "operations", "ns an operation"))
     for scene in found:
         for rhs in scene.rhs:
-            table.add_row(scene.scene, rhs.state, f"{rhs.seconds * 1e6:.3f} µs", f"{rhs.operations:,}",
-                          f"{rhs.seconds / max(rhs.operations, 1) * 1e9:.2f}")  # fmt: skip
+            table.add_row(
+                scene.scene,
+                rhs.state,
+                f"{rhs.seconds * 1e6:.3f} µs",
+                f"{rhs.operations:,}",
+                f"{rhs.seconds / max(rhs.operations, 1) * 1e9:.2f}",
+            )
     return table
 
 
@@ -179,15 +191,25 @@ def bench_rows(found: Sequence[SceneBench]) -> list[dict[str, Any]]:
     """The table as it is written to a file: SI units in the names."""
     return [
         {
-            "scene": scene.scene, "method": row.setting.method, "t_end_s": scene.t_end,
+            "scene": scene.scene,
+            "method": row.setting.method,
+            "t_end_s": scene.t_end,
             "step_s": row.setting.value if row.setting.fixed else NAN,
-            "tolerance": NAN if row.setting.fixed else row.setting.value, "samples": row.samples,
-            "seconds": row.seconds * scene.t_end, "seconds_per_simulated_second": row.seconds,
-            "right_hand_sides": row.right_hand_sides, "jacobians": row.jacobians,
-            "error_coordinates": row.error.motion, "error_path": row.error.path, "error_force": row.error.force,
+            "tolerance": NAN if row.setting.fixed else row.setting.value,
+            "samples": row.samples,
+            "seconds": row.seconds * scene.t_end,
+            "seconds_per_simulated_second": row.seconds,
+            "right_hand_sides": row.right_hand_sides,
+            "jacobians": row.jacobians,
+            "error_coordinates": row.error.motion,
+            "error_path": row.error.path,
+            "error_force": row.error.force,
             "reference": f"{row.reference.method} {row.reference.value:g}" if row.reference else "",
-            "references_differ_coordinates": scene.agreement.motion, "references_differ_path": scene.agreement.path,
-            "references_differ_force": scene.agreement.force, "failure": row.failure,
+            "references_differ_coordinates": scene.agreement.motion,
+            "references_differ_path": scene.agreement.path,
+            "references_differ_force": scene.agreement.force,
+            "failure": row.failure,
         }
-        for scene in found for row in scene.rows
-    ]  # fmt: skip
+        for scene in found
+        for row in scene.rows
+    ]

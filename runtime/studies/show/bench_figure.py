@@ -87,10 +87,13 @@ def _draw_scene(left: Axes, right: Axes, scene: SceneBench) -> None:
 
 def _clear(scene: SceneBench, row: Row) -> bool:
     """Whether the largest of a row's errors is resolved."""
-    return any(
-        getattr(row.error, m) == row.error.largest and scene.resolved(m, row.error.largest)
-        for m in ("motion", "path", "force")
-    ) or not scene.references  # fmt: skip
+    return (
+        any(
+            getattr(row.error, m) == row.error.largest and scene.resolved(m, row.error.largest)
+            for m in ("motion", "path", "force")
+        )
+        or not scene.references
+    )
 
 
 def _mark(left: Axes, right: Axes, step: float, scene: SceneBench) -> None:

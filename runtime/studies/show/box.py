@@ -43,8 +43,14 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
     """What was found, and what was written of it."""
     if as_json:
         rows = [row for one in found for row in cell_rows(one)]
-        print_json({"mechanism": source.mechanism, "interrupted": any(box.interrupted for box in found),
-                    "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
+        print_json(
+            {
+                "mechanism": source.mechanism,
+                "interrupted": any(box.interrupted for box in found),
+                "cells": rows,
+                "files": [str(path) for path in written],
+            }
+        )
         return
     out = console()
     for box in found:

@@ -26,9 +26,12 @@ if TYPE_CHECKING:
 
 # darker than the fills of a map: markers are small
 LOOK = {
-    Status.STABLE: ("#009E73", "o"), Status.OUTSIDE: ("#8a8a8a", "D"), Status.INACCURATE: ("#E69F00", "^"),
-    Status.DIVERGED: ("#D55E00", "X"), Status.MISSING: ("#cccccc", "."),
-}  # fmt: skip
+    Status.STABLE: ("#009E73", "o"),
+    Status.OUTSIDE: ("#8a8a8a", "D"),
+    Status.INACCURATE: ("#E69F00", "^"),
+    Status.DIVERGED: ("#D55E00", "X"),
+    Status.MISSING: ("#cccccc", "."),
+}
 
 
 def box_figure(title: str, found: Sequence[VerdictBox]) -> Figure:
@@ -54,8 +57,10 @@ def box_figure(title: str, found: Sequence[VerdictBox]) -> Figure:
 def telling(box: VerdictBox) -> list[int]:
     """Ranges in the order in which their logarithms go with the verdict; where all agree, with the largest error."""
     verdicts = [-SEVERITY.index(cell.status) for cell in box.cells]
-    errors = [math.log10(max(cell.error.largest, 1e-16)) if cell.error.largest == cell.error.largest else math.nan
-              for cell in box.cells]  # fmt: skip
+    errors = [
+        math.log10(max(cell.error.largest, 1e-16)) if cell.error.largest == cell.error.largest else math.nan
+        for cell in box.cells
+    ]
     judged = np.array([cell.status is not Status.MISSING for cell in box.cells])
     worth = np.array(verdicts if len(set(np.array(verdicts)[judged])) > 1 else errors, dtype=np.float64)
     kept = judged & np.isfinite(worth)
@@ -78,8 +83,13 @@ def _ordered(box: VerdictBox) -> list[int]:
 def _marker(box: VerdictBox, k: int) -> dict[str, Any]:
     colour, marker = LOOK[box.cells[k].status]
     corner = k < 2 ** len(box.ranges)
-    return {"c": [colour], "marker": marker, "s": 52 if corner else 26, "edgecolors": IDEAL if corner else colour,
-            "linewidths": 0.9 if corner else 0.4}  # fmt: skip
+    return {
+        "c": [colour],
+        "marker": marker,
+        "s": 52 if corner else 26,
+        "edgecolors": IDEAL if corner else colour,
+        "linewidths": 0.9 if corner else 0.4,
+    }
 
 
 def _scatter(ax: Axes, box: VerdictBox) -> None:
@@ -88,26 +98,47 @@ def _scatter(ax: Axes, box: VerdictBox) -> None:
     up = box.ranges[order[1]] if len(order) > 1 else None
     for z, k in enumerate(_ordered(box)):
         error = max(box.cells[k].error.largest, 1e-16)  # NaN stays: nothing is drawn where there is no error
-        ax.scatter([box.points[k][across.name]], [box.points[k][up.name] if up else error], zorder=3 + z / 1e4,
-                   **_marker(box, k))  # fmt: skip
+        ax.scatter(
+            [box.points[k][across.name]],
+            [box.points[k][up.name] if up else error],
+            zorder=3 + z / 1e4,
+            **_marker(box, k),
+        )
     ax.set(xscale="log", yscale="log", xlabel=_named(across), ylabel=_named(up) if up else "largest error")
-    ax.set_title(f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point\n"
-                 f"{count(box.cells).partition(';')[0]}", loc="left")  # fmt: skip
+    ax.set_title(
+        f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point\n"
+        f"{count(box.cells).partition(';')[0]}",
+        loc="left",
+    )
     if len(box.ranges) > 2:
-        ax.annotate("the two ranges that tell most; the worst on top", (0.0, -0.2), xycoords="axes fraction",
-                    fontsize=8, color="#666666", annotation_clip=False)  # fmt: skip
+        ax.annotate(
+            "the two ranges that tell most; the worst on top",
+            (0.0, -0.2),
+            xycoords="axes fraction",
+            fontsize=8,
+            color="#666666",
+            annotation_clip=False,
+        )
 
 
 def _parallel(ax: Axes, box: VerdictBox) -> None:
     """Each range an axis from low to high, each point a line across them."""
     logs = [(math.log(edge.low), math.log(edge.high)) for edge in box.ranges]
     for z, k in enumerate(_ordered(box)):
-        shares = [(math.log(box.points[k][edge.name]) - low) / ((high - low) or 1.0)
-                  for edge, (low, high) in zip(box.ranges, logs, strict=True)]  # fmt: skip
+        shares = [
+            (math.log(box.points[k][edge.name]) - low) / ((high - low) or 1.0)
+            for edge, (low, high) in zip(box.ranges, logs, strict=True)
+        ]
         status = box.cells[k].status
         failed = status in (Status.DIVERGED, Status.INACCURATE)
-        ax.plot(range(len(shares)), shares, color=LOOK[status][0], lw=1.3 if failed else 0.7,
-                alpha=0.9 if failed else 0.35, zorder=2 + z / 1e4)  # fmt: skip
+        ax.plot(
+            range(len(shares)),
+            shares,
+            color=LOOK[status][0],
+            lw=1.3 if failed else 0.7,
+            alpha=0.9 if failed else 0.35,
+            zorder=2 + z / 1e4,
+        )
     ax.set(xlim=(-0.3, len(box.ranges) - 0.7), ylim=(-0.04, 1.04), yticks=[])
     names = [f"{quantity(edge.low, edge.unit, 3)}\n{_named(edge)}" for edge in box.ranges]
     ax.set_xticks(range(len(names)), names)

@@ -127,8 +127,10 @@ def _unit(claims: list[list[Row]]) -> tuple[float, str]:
 def _number(rows: list[Row], names: list[str], words: _Told, factor: float, unit: str) -> list[str]:
     first, own = rows[0], {str(row["ensemble"]): row for row in rows}
     printed = "–" if _none(first["printed"]) else _with(first["printed"] * factor, unit)
-    cells = [_median(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
-             for k, name in enumerate(names)]  # fmt: skip
+    cells = [
+        _median(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
+        for k, name in enumerate(names)
+    ]
     off = sorted(row["deviation"] for row in rows if not _none(row["deviation"]))
     ends = list(dict.fromkeys(f"{value:+.1f}".replace("-", "−") for value in (*off[:1], *off[-1:])))
     told = f"{' … '.join(ends)} %" if off else ""
@@ -177,9 +179,11 @@ def _filled(head: list[str], rows: Iterable[list[str]]) -> str:
 def _trends(claims: list[list[Row]], words: _Told) -> str:
     """A row a claim: the verdict of all ensembles together, or what each says where they contradict each other."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
-    told = ["probability: that the next run shows it, the least of all that the trend says, with the interval in which"
-            " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
-            " 0.8 or above, fails: at 1/3 or below, undecided: neither"]  # fmt: skip
+    told = [
+        "probability: that the next run shows it, the least of all that the trend says, with the interval in which"
+        " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
+        " 0.8 or above, fails: at 1/3 or below, undecided: neither"
+    ]
     return _filled(head, (_trend(rows, words) for rows in claims)) + lines(told * bool(claims), "g-quiet")
 
 
@@ -232,15 +236,28 @@ def _drawn(claims: list[list[Row]], words: _Told) -> Axes:
     with matplotlib.rc_context(STYLE):
         ax = new_axes(5.6, 3.2)
         for j, name in enumerate([*names, *[""] * (names != [""])]):  # and what is in no ensemble
-            own = [(k, row) for k, rows in enumerate(claims) for row in rows
-                   if row["ensemble"] == name and not _none(row["median"])]  # fmt: skip
+            own = [
+                (k, row)
+                for k, rows in enumerate(claims)
+                for row in rows
+                if row["ensemble"] == name and not _none(row["median"])
+            ]
             if not own:
                 continue
             at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) * bool(name) for k, _ in own]
             middle, low, high = (np.array([row[part] for _, row in own]) * factor for part in ("median", "q25", "q75"))
             reach = middle - low, high - middle
-            ax.errorbar(at, middle, reach, fmt="o", color=COLOURS[j % len(COLOURS)], ms=3.5, capsize=2.0, lw=1.0,
-                        label=words.shown(name) if name else "ours" if names == [""] else "ours, one run")  # fmt: skip
+            ax.errorbar(
+                at,
+                middle,
+                reach,
+                fmt="o",
+                color=COLOURS[j % len(COLOURS)],
+                ms=3.5,
+                capsize=2.0,
+                lw=1.0,
+                label=words.shown(name) if name else "ours" if names == [""] else "ours, one run",
+            )
         printed = [rows[0]["printed"] * factor for rows in claims if not _none(rows[0]["printed"])]
         places = [k for k, rows in enumerate(claims) if not _none(rows[0]["printed"])]
         ax.plot(places, printed, "k_", ms=16, mew=1.6, label="printed" if printed else None)

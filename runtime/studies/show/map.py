@@ -1,5 +1,4 @@
-"""What `gudgeon map` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure.
-"""
+"""What `gudgeon map` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure."""
 
 from __future__ import annotations
 
@@ -26,29 +25,39 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 COLOURS = {
-    Status.STABLE: "green", Status.OUTSIDE: "bright_black", Status.INACCURATE: "yellow", Status.DIVERGED: "red",
+    Status.STABLE: "green",
+    Status.OUTSIDE: "bright_black",
+    Status.INACCURATE: "yellow",
+    Status.DIVERGED: "red",
     Status.MISSING: "bright_black",
-}  # fmt: skip
+}
 FULL = "integrated in the full formulation (absolute coordinates): the gains act there alone"
-SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗",
-         Status.MISSING: "·"}  # fmt: skip
+SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗", Status.MISSING: "·"}
 PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
 # what a cell's label may begin with, and what that says; told where a cell has it
 LABELS = {
-    "at": "at: when the run failed", "energy": "energy: residual, or it comes from nowhere",
+    "at": "at: when the run failed",
+    "energy": "energy: residual, or it comes from nowhere",
     "motion": "motion: coordinates off by, of the size",
     "force": "force: a joint's force off by, of its peak",
     "path": "path: a journal's path off by, of the clearance",
     "through": "through: a journal left its bearing",
-    "lost": "lost: a contact was", "|Φ|": "|Φ|: constraints open", "?": "?: the finer run fails", "–": "–: not judged",
+    "lost": "lost: a contact was",
+    "|Φ|": "|Φ|: constraints open",
+    "?": "?: the finer run fails",
+    "–": "–: not judged",
     "δ": "δ: penetration beyond half the clearance or a hundredth of the bearing's radius",
-}  # fmt: skip
+}
 
 
 def show_map(
-    source: KernelSource, file: str, found: Sequence[VerdictMap], table: Path, mark_step: float | None,
+    source: KernelSource,
+    file: str,
+    found: Sequence[VerdictMap],
+    table: Path,
+    mark_step: float | None,
     as_json: bool = False,
-) -> None:  # fmt: skip
+) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for scene in found for row in cell_rows(scene)]
 
@@ -64,14 +73,24 @@ def show_map(
 
 
 def _show(
-    source: KernelSource, file: str, found: Sequence[VerdictMap], written: Sequence[Path], mark_step: float | None,
+    source: KernelSource,
+    file: str,
+    found: Sequence[VerdictMap],
+    written: Sequence[Path],
+    mark_step: float | None,
     as_json: bool,
-) -> None:  # fmt: skip
+) -> None:
     """What was found, and what was written of it."""
     if as_json:
         rows = [row for one in found for row in cell_rows(one)]
-        print_json({"mechanism": source.mechanism, "interrupted": any(scene.interrupted for scene in found),
-                    "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
+        print_json(
+            {
+                "mechanism": source.mechanism,
+                "interrupted": any(scene.interrupted for scene in found),
+                "cells": rows,
+                "files": [str(path) for path in written],
+            }
+        )
         return
     out = console()
     for scene in found:
@@ -144,9 +163,7 @@ def legend(found: Sequence[VerdictMap | VerdictBox]) -> Text:
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
-def command(
-    file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
-) -> str:  # fmt: skip
+def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()) -> str:
     """The line that runs a cell again, of the file as it was typed; as it stands it can be given to a shell."""
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
     words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
@@ -177,8 +194,7 @@ def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
         told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
         best = [x for x in map(scene.largest_stable, scene.columns.values) if x == x]
         shortest = seconds(min(best)) if len(best) == len(cells) else "below the grid"
-        lines.append(f"step {seconds(step)}, {scene.scene}: of {len(cells)} columns {told};"
-                     f" a step for all: {shortest}")  # fmt: skip
+        lines.append(f"step {seconds(step)}, {scene.scene}: of {len(cells)} columns {told}; a step for all: {shortest}")
     return lines
 
 
@@ -186,15 +202,22 @@ def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
     """A row a cell, with what it takes to see it again."""
     return [
         {
-            "scene": found.scene, "method": cell.setting.method, "step_or_tolerance": cell.setting.value,
+            "scene": found.scene,
+            "method": cell.setting.method,
+            "step_or_tolerance": cell.setting.value,
             "parameters": " ".join(f"{name}={x}" for name, x in cell.parameters.items()),
-            "status": cell.status.value, "reason": cell.reason, "energy_residual_share": cell.energy,
-            "penetration_m": cell.penetration, "error_coordinates": cell.error.motion,
-            "error_path": cell.error.path, "error_force": cell.error.force, "compared_s": cell.compared,
+            "status": cell.status.value,
+            "reason": cell.reason,
+            "energy_residual_share": cell.energy,
+            "penetration_m": cell.penetration,
+            "error_coordinates": cell.error.motion,
+            "error_path": cell.error.path,
+            "error_force": cell.error.force,
+            "compared_s": cell.compared,
             "seconds": cell.seconds,
         }
         for cell in found.cells
-    ]  # fmt: skip
+    ]
 
 
 def value(axis: Axis, x: float) -> str:

@@ -21,9 +21,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FILL = {
-    Status.STABLE: "#a8d8c0", Status.OUTSIDE: "#c9c9c9", Status.INACCURATE: "#f6d48f", Status.DIVERGED: "#e79a78",
+    Status.STABLE: "#a8d8c0",
+    Status.OUTSIDE: "#c9c9c9",
+    Status.INACCURATE: "#f6d48f",
+    Status.DIVERGED: "#e79a78",
     Status.MISSING: "#f4f4f4",
-}  # fmt: skip
+}
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 

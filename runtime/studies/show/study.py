@@ -47,10 +47,15 @@ def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> N
 
 def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
     return {
-        "dimensions": dict(zip(plan.dims, plan.shape, strict=True)), "runs": found.runs, "blocks": found.blocks,
-        "bytes": found.bytes, "seconds": found.seconds, "tried": found.tried, "tried_failed": found.failed,
+        "dimensions": dict(zip(plan.dims, plan.shape, strict=True)),
+        "runs": found.runs,
+        "blocks": found.blocks,
+        "bytes": found.bytes,
+        "seconds": found.seconds,
+        "tried": found.tried,
+        "tried_failed": found.failed,
         "notes": list(plan.notes),
-    }  # fmt: skip
+    }
 
 
 def _show_estimate(plan: Plan, found: Estimate) -> None:
@@ -82,11 +87,15 @@ def show_studies(plans: Plans, found: Study, json: bool) -> None:
 def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
     measures = {name: {"unit": unit, **row} for name, unit, row in _spread(plan, found)}
     return {
-        "folder": str(found.folder), "dataset": str(found.folder / DATASET), "runs": found.runs,
-        "failed": found.failed, "failures": found.failures,
+        "folder": str(found.folder),
+        "dataset": str(found.folder / DATASET),
+        "runs": found.runs,
+        "failed": found.failed,
+        "failures": found.failures,
         "first_failures": {kind: told for kind, _, told in StudyData(found).failures()},
-        "measures": measures, "notes": list(found.notes),
-    }  # fmt: skip
+        "measures": measures,
+        "notes": list(found.notes),
+    }
 
 
 def _show_study(plan: Plan, found: Study) -> None:
@@ -114,8 +123,10 @@ def _show_claims(found: Study) -> None:
     claims = found.claims
     trends = claims.trends
     if len(trends):
-        told = {name: own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
-                for name, own in trends.groupby("claim", sort=False)}  # fmt: skip
+        told = {
+            name: own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
+            for name, own in trends.groupby("claim", sort=False)
+        }
         if len(told) <= MOST_TRENDS:
             says = trends.drop_duplicates("claim").set_index("claim")["says"]
             print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in told.items()))

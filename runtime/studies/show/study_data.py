@@ -43,8 +43,11 @@ class StudyData:
     @property
     def kept(self) -> tuple[str, ...]:
         """Names of the series that were kept."""
-        return tuple(str(name) for name, one in self.dataset.data_vars.items()
-                     if one.dims and one.dims[-1] in SAMPLES and name != OWN_TIMES)  # fmt: skip
+        return tuple(
+            str(name)
+            for name, one in self.dataset.data_vars.items()
+            if one.dims and one.dims[-1] in SAMPLES and name != OWN_TIMES
+        )
 
     def unit(self, name: str) -> str:
         """SI, of a variable or a coordinate."""
@@ -76,8 +79,11 @@ class StudyData:
             picked[dimension] = self.nearest(key, value)
         each = [(json.loads(place), float(value)) for place, value in zip(own["place"], own["printed"], strict=True)]
         pooled = {one for one, n in found.sizes.items() if n > 1 and one not in (over, by, *picked)}
-        return [(float(places[place[over]]), value, -1 if by is None else place.get(by, -1)) for place, value in each
-                if over in place and not pooled & {*place} and all(place.get(one, k) == k for one, k in picked.items())]
+        return [
+            (float(places[place[over]]), value, -1 if by is None else place.get(by, -1))
+            for place, value in each
+            if over in place and not pooled & {*place} and all(place.get(one, k) == k for one, k in picked.items())
+        ]
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
         """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""

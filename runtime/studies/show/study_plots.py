@@ -44,9 +44,15 @@ class StudyPlot:
         self.data = StudyData(study)
 
     def measure(
-        self, name: str, over: str | None = None, by: str | None = None, *, at: Coords | None = None,
-        published: Mapping[Any, float] | bool = False, ax: Axes | None = None,
-    ) -> Axes:  # fmt: skip
+        self,
+        name: str,
+        over: str | None = None,
+        by: str | None = None,
+        *,
+        at: Coords | None = None,
+        published: Mapping[Any, float] | bool = False,
+        ax: Axes | None = None,
+    ) -> Axes:
         """A measure over what was varied (the first number), a line for each value of `by` (scenes).
 
         Lines are medians of all other runs, bands their quartiles and extremes; over words, zips and starts dots and
@@ -84,9 +90,14 @@ class StudyPlot:
         return ax
 
     def bands(
-        self, series: str, by: str | None = None, *, share: bool = False, at: Coords | None = None,
+        self,
+        series: str,
+        by: str | None = None,
+        *,
+        share: bool = False,
+        at: Coords | None = None,
         ax: Axes | None = None,
-    ) -> Axes:  # fmt: skip
+    ) -> Axes:
         """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
         share: over each run's own length, 0 to 1, at the shares of the run with the most samples; runs with others
@@ -116,9 +127,14 @@ class StudyPlot:
         return self._curves([(t, found)], "t [s]", series, by, at, ax)
 
     def spectrum(
-        self, series: str, by: str | None = None, *, window: str = "hann", at: Coords | None = None,
+        self,
+        series: str,
+        by: str | None = None,
+        *,
+        window: str = "hann",
+        at: Coords | None = None,
         ax: Axes | None = None,
-    ) -> Axes:  # fmt: skip
+    ) -> Axes:
         """Amplitudes of a kept series over frequency (Hz), as `run.plot.spectrum` has them, for each value of `by`.
 
         Median, quartiles and extremes of all its runs. BadValueError for samples that are not even, or for runs of one
@@ -138,9 +154,16 @@ class StudyPlot:
         return ax
 
     def low_pass(
-        self, series: str, cutoff: float, by: str | None = None, *, order: int = 2, causal: bool = True,
-        at: Coords | None = None, ax: Axes | None = None,
-    ) -> Axes:  # fmt: skip
+        self,
+        series: str,
+        cutoff: float,
+        by: str | None = None,
+        *,
+        order: int = 2,
+        causal: bool = True,
+        at: Coords | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:
         """A kept series as an accelerometer shows it, behind a low-pass of Butterworth with −3 dB at `cutoff` (Hz).
 
         Every run a curve, in the colour of its value of `by`; `order`, `causal`: as in `run.plot.low_pass`.
@@ -160,9 +183,14 @@ class StudyPlot:
         return self._curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
 
     def _curves(
-        self, pairs: list[tuple[Any, Any]], x_label: str, name: str, by: str | None, at: Coords | None,
+        self,
+        pairs: list[tuple[Any, Any]],
+        x_label: str,
+        name: str,
+        by: str | None,
+        at: Coords | None,
         ax: Axes | None,
-    ) -> Axes:  # fmt: skip
+    ) -> Axes:
         ((x, found),) = pairs
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
@@ -181,9 +209,17 @@ class StudyPlot:
         return ax
 
     def section(
-        self, section: str, x: str, y: str, *, level: float = 0.0, falling: bool = False, after: float = 0.0,
-        at: Coords | None = None, ax: Axes | None = None,
-    ) -> Axes:  # fmt: skip
+        self,
+        section: str,
+        x: str,
+        y: str,
+        *,
+        level: float = 0.0,
+        falling: bool = False,
+        after: float = 0.0,
+        at: Coords | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:
         """Poincaré's section: kept series x and y where a third one rises (falls) through a level (SI), after a time.
 
         Between samples all lie on monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
@@ -201,9 +237,17 @@ class StudyPlot:
         return ax
 
     def bifurcation(
-        self, series: str, over: str, section: str, *, level: float = 0.0, falling: bool = False, after: float = 0.0,
-        at: Coords | None = None, ax: Axes | None = None,
-    ) -> Axes:  # fmt: skip
+        self,
+        series: str,
+        over: str,
+        section: str,
+        *,
+        level: float = 0.0,
+        falling: bool = False,
+        after: float = 0.0,
+        at: Coords | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:
         """Values of a kept series in the section (see `section`), a dot each, over a parameter."""
         _, found = self.data.series(series, at)
         place = found.dims.index(self.data.dimension(found, over))

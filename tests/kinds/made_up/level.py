@@ -1,6 +1,6 @@
 r"""Points at one height in the second body's axes: a joint that declares nothing but its row.
 
-  first o - - - - o second       Φ = n · (r_P − r_Q),  n: the second body's y axis
+first o - - - - o second       Φ = n · (r_P − r_Q),  n: the second body's y axis
 """
 
 from __future__ import annotations

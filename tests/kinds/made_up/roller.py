@@ -1,8 +1,8 @@
 r"""Roller on a flat face: a point of the first body keeps a distance from a line of the second.
 
-        .-.
-       ( o )  first       Φ = n · (r_P − r_Q) − r,  n: the direction's unit vector turned +90°
-   =====---=====>  second
+     .-.
+    ( o )  first       Φ = n · (r_P − r_Q) − r,  n: the direction's unit vector turned +90°
+=====---=====>  second
 """
 
 from __future__ import annotations
