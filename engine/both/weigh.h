@@ -14,8 +14,8 @@ static void note_works(RunOf *run, Truth taken, const Real *y)
 
 /*
  * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
- * the energy that was turned over: nothing in the motion feels them, but a balance of energy does. Those of inner states
- * of laws stay (methods/begin.c).
+ * the energy that was turned over: nothing in the motion feels them, but a balance of energy does. Those of inner
+ * states of laws are set once (methods/begin.c).
  */
 static void weigh(RunOf *run)
 {
