@@ -75,7 +75,9 @@ def run(
     ] = False,
     out: opt.Out = Path("out"),
     regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Also show values that docs/error_control.md explains.")
+    ] = False,
     report: opt.Report = False,
     json: opt.Json = False,
     laws: opt.Laws = None,

@@ -149,7 +149,7 @@ def _variables(source: KernelSource) -> Iterator[str]:
     yield (
         f'    <Float64 name="relative_tolerance" valueReference="{VR_RTOL}" causality="parameter" variability="fixed"'
         f' min="1e-14" max="1.0" start="{RTOL!r}" description="of a step in co-simulation, in place of the tolerance'
-        ' that the importer asks for; docs/methods.md of gudgeon says of what"/>'
+        ' that the importer asks for; docs/error_control.md of gudgeon defines it"/>'
     )
     for k, address, unit, default in parameters(source):
         yield (

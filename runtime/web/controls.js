@@ -272,7 +272,7 @@ class Options {
         this.step.title = "estimated for the file’s numbers";
     }
 
-    /* Whether Baumgarte's terms hold at this step, or push Φ away themselves (docs/methods.md). */
+    /* Whether Baumgarte's terms hold at this step, or push Φ away themselves (docs/error_control.md). */
     hold({p}, usual) {
         const {gains} = this.about, own = typed(this.step?.value ?? "", {factor: 1}, this.seconds), h = own > 0 ? own : usual;
         this.held.hidden = !this.heldByGains || !gains.length;
