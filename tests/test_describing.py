@@ -17,8 +17,9 @@ from gudgeon.generator.format.sections import SECTIONS
 from tests.programs import needs_compiler
 from tests.scenes import patched
 
-PAGE = (Path(__file__).resolve().parents[1] / "docs/describing.md").read_text(encoding="utf-8")
-NAME = "valve_engine.yaml"
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+PAGE = (DOCS / "describing.md").read_text(encoding="utf-8")
+NAME, NAME_OF_FIGURE = "valve_engine.yaml", "valve_engine.svg"
 Gudgeon = Callable[[str], Result]
 
 
@@ -59,6 +60,18 @@ def test_every_block_of_a_file_has_its_piece() -> None:
 def test_commands(line: str, call: Gudgeon) -> None:
     done = call(line + (" --t-end 0.001 --output 20" if " run " in line else ""))
     assert done.exit_code == 0, done.output
+
+
+@needs_compiler
+def test_the_figure_is_what_its_command_draws(call: Gudgeon, tmp_path: Path) -> None:
+    """docs/valve_engine.svg has the same parts in the same order, on a page of the same size."""
+    (line,) = re.findall(r"!\[[^\]`]*`([^`]+)`[^\]]*\]\(valve_engine\.svg\)", PAGE)
+    assert call(f"{line} -o now.svg").exit_code == 0
+    now, shown = (
+        (folder / name).read_text("utf-8") for folder, name in ((tmp_path, "now.svg"), (DOCS, NAME_OF_FIGURE))
+    )
+    parts = r'viewBox="[^"]*"|id="(?:body|joint|drive|inset|force)-[^"]*"'
+    assert re.findall(parts, shown) == re.findall(parts, now) and 'id="body-valve"' in shown
 
 
 def test_check_prints_what_is_shown(call: Gudgeon) -> None:
