@@ -11,13 +11,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-import gudgeon
 from gudgeon.cli import app
 from tests.programs import needs_compiler
-from tests.scenes import patched
 
 ROOT = Path(__file__).resolve().parents[1]
-TOLD = ("README.md", *(f"docs/{name}.md" for name in ("describing", "python", "reading", "checks", "speed")))
+TOLD = ("README.md", *(f"docs/{name}.md" for name in ("python", "reading", "checks", "speed")))
 README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
 Gudgeon = Callable[[str], Result]
 
@@ -41,8 +39,8 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 
 
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
-    assert len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("python")) == 2 and len(blocks("yaml")) == 5
-    assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c", "diff"))
+    assert len(blocks("c")) == len(blocks("python")) == len(blocks("yaml")) == 1
+    assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c"))
     wanted = {"check", "draw", "run", "emit", "equations", "laws", "exercise", "bench", "map"}
     assert {shlex.split(line)[1] for line in COMMANDS} == wanted
 
@@ -68,78 +66,12 @@ def test_the_mechanism_is_drawn_as_it_is(call: Gudgeon, tmp_path: Path) -> None:
 
 
 @needs_compiler
-def test_points_are_measured_as_it_says(tmp_path: Path) -> None:
-    """The example of frames in a whole file, the bar held at a right angle."""
-    text = f"""format: gudgeon/1
-name: frames
-{blocks("yaml")[1]}joints:
-  pin: {{revolute: [ground.O, coupler.tail]}}
-  slide: {{translational: [ground.rail, block.origin], axis: [1, 0]}}
-drives:
-  turn: {{angle: coupler, value: 90 deg}}
-  push: {{coordinate: block.x, value: 0.3 m}}
-"""
-    (tmp_path / "frames.yaml").write_text(text, encoding="utf-8")
-    run = gudgeon.load(tmp_path / "frames.yaml").simulate(1e-3, output=1)
-    where = {"coupler.P": (-0.03, 0.04), "coupler": (0.0, 0.055), "coupler.head": (0.0, 0.12)}
-    where |= {"block.top": (0.3, 0.015), "block": (0.3, -0.01), "block.origin": (0.3, -0.01)}
-    for name, (x, y) in where.items():
-        assert (run[f"{name}.x"][0], run[f"{name}.y"][0]) == pytest.approx((x, y), abs=1e-12)
-
-
-@needs_compiler
-def test_materials_and_journals_as_it_shows_them(tmp_path: Path) -> None:
-    """Both examples in one file: the disc of the scene soft is of bronze, and its journal begins where it is said."""
-    text = f"""format: gudgeon/1
-name: told
-ground: {{O: [0, 0]}}
-joints: {{A: {{revolute: [ground.O, disc.origin]}}}}
-contacts: {{dry: {{normal: {{law: hertz}}}}}}
-{blocks("yaml")[3]}{blocks("yaml")[2]}  dry: {{play: {{A: {{bearing: pin, contact: dry}}}}}}
-"""
-    (tmp_path / "told.yaml").write_text(text, encoding="utf-8")
-    run = gudgeon.load(tmp_path / "told.yaml", "soft").simulate(1e-6, output=1)
-    assert (run["A.ex"][0], run["A.ey"][0]) == pytest.approx((1e-4, -2e-4), abs=1e-15)
-    assert run.parameters["bodies.disc.shape.material"] == "bronze"
-    assert run.parameters["bodies.disc.mass"] == pytest.approx(8800 * 3.141592653589793 * 0.04**2 * 0.01, rel=1e-12)
-
-
-@needs_compiler
-def test_a_slider_has_play_as_it_says(tmp_path: Path) -> None:
-    """The engine with the example's guide: pressed sideways by the rod, its piston comes to the wall and is carried."""
-    (tmp_path / "engine.yaml").write_text(ENGINE.split("bearings:")[0] + blocks("yaml")[4], encoding="utf-8")
-    run = gudgeon.load(tmp_path / "engine.yaml", "worn").simulate(10e-3, output=10)
-    assert len(run.impacts) and run["piston.y"].max() < 0.11e-3 and "cylinder.front_upper.Fn" in run
-    assert run["cylinder.Fy"] == pytest.approx(
-        sum(run[f"cylinder.{end}_{wall}.Fy"] for end in ("front", "rear") for wall in ("upper", "lower")), abs=1e-12
-    )
-
-
-@needs_compiler
 @pytest.mark.usefixtures("no_pictures")
 @pytest.mark.parametrize("setting", dict.fromkeys(re.findall(r"--set ([\w.]+=[\w.]+|[\w.]+='[^']+')", README)))
 def test_settings_that_it_shows_are_taken(setting: str, call: Gudgeon) -> None:
     done = call(f"gudgeon run engine.yaml --scene ideal --t-end 0.001 --output 2 --set {setting}")
     known = setting.startswith(("c=", "bodies", "gains")) and done.exit_code == 0
     assert known, done.output
-
-
-@needs_compiler
-def test_the_phase_of_the_motor_as_a_parameter(tmp_path: Path) -> None:
-    text = ENGINE.replace("{omega:", "{phase: 30 deg, omega:").replace("30 deg + omega * t", "phase + omega * t")
-    assert text.count("phase") == 2
-    assert "`value: phase + omega * t`" in README and "`parameters: {phase: 30 deg}`" in README
-    (tmp_path / "engine.yaml").write_text(text, encoding="utf-8")
-    run = gudgeon.load(tmp_path / "engine.yaml").simulate(1e-3, output=1, parameters={"phase": "1 rad"})
-    assert run["crank.theta"][0] == pytest.approx(1.0, abs=1e-12)
-
-
-def test_a_mistake_looks_as_shown(call: Gudgeon, tmp_path: Path) -> None:
-    text = patched(ENGINE, *re.findall(r"^-(.*)\n\+(.*)$", blocks("diff")[0], re.MULTILINE))
-    (tmp_path / "engine.yaml").write_text(text, encoding="utf-8")
-    done = call("gudgeon check engine.yaml")
-    assert done.exit_code == 2
-    assert done.stderr in blocks("text")
 
 
 @needs_compiler

@@ -1,6 +1,6 @@
 """What happens in a joint with play around its force laws, as equations in the order of their use.
 
-physics.md, sections 3 and 4. The emitted C and the written equations both come from these steps; what is
+physics.md, sections 2 to 4. The emitted C and the written equations both come from these steps; what is
 no equation (the normal at e = 0, free or closed, the latching of δ̇⁻ at onset) is in engine/ and templates/c/play.
 """
 

@@ -103,7 +103,7 @@ def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
 def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
     """Rows of Φ that the start holds apart: where they are, and the eccentricity e and its rate there.
 
-    Φ of such a joint is r_i − r_j = −e (physics.md, section 3), so that Φ + e = 0 and Φ_q v = ν − ė. That of a slider
+    Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. That of a slider
     is its offset and its tilt, which are −e there (`start_kernel`).
     """
     given, found = model.scene.mechanism.start.play, []

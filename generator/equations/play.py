@@ -1,4 +1,4 @@
-"""A joint with play: eccentricity, its rate, and the force laws that act in it (physics.md, 3 and 4)."""
+"""A joint with play: eccentricity, its rate, and the force laws that act in it (physics.md, sections 2 to 4)."""
 
 from __future__ import annotations
 

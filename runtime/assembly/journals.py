@@ -165,7 +165,7 @@ def eccentricity(
 ) -> tuple[list[int], Array]:
     """The rows of a joint with play in the closed linkage, and e (2,) in ground axes, m."""
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
-    return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 3: Φ of the joint is −e
+    return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 
 def _reads_onset(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int) -> bool:

@@ -70,7 +70,7 @@ def stiff_of(source: KernelSource, rtol: float) -> str:
 
 
 def begins_with(source: KernelSource, rtol: float = RTOL) -> str:
-    """The first method of `auto`: a film is stiff from rest on (physics.md, section 6)."""
+    """The first method of `auto`: a film is stiff from rest on (physics.md, section 4)."""
     if KINEMATIC in source.methods:
         return KINEMATIC
     return stiff_of(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT

@@ -13,7 +13,7 @@ P = π + 2 arctan(ε sin θ₁/s), the three integrals of (cos², sin cos, sin²
 by derivatives of ∫ dθ/(1 + ε cos θ) = P/s with respect to ε: nothing is divided by ε or ε̇.
 That is Guembel's condition: no pressure below that of the ends. With `cavitation: full`, Sommerfeld's, all of the gap
 carries, the oil pulls where the surfaces part, and with P = 2π: F_r = −S π (1 + 2 ε²) w_n/s⁵, F_t = −S π w_t/s³.
-F. W. Ocvirk, NACA TN 2808 (1952), half film; squeeze and the film's place as physics.md, section 7.
+F. W. Ocvirk, NACA TN 2808 (1952), half film; squeeze and the film's place as physics.md, section 4.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ from gudgeon.generator.targets.latex.render import render
 from gudgeon.generator.targets.latex.trace import Functions, functions_of, trace
 from gudgeon.language.shown import one_line
 
-# docs/physics.md, section 2
+# docs/physics.md
 PAPER = (
     "Laws of joints with play are numbered as in the paper that they are from: X. Chen, S. Gao, T. Wang, Experimental "
     "verification of dynamic behavior for multi-link press mechanism with 2D revolute joint considering dry friction "
