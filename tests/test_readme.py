@@ -15,7 +15,7 @@ from gudgeon.cli import app
 from tests.programs import needs_compiler
 
 ROOT = Path(__file__).resolve().parents[1]
-TOLD = ("README.md", *(f"docs/{name}.md" for name in ("python", "reading", "checks", "speed")))
+TOLD = ("README.md", *(f"docs/{name}.md" for name in ("reading", "checks", "speed")))
 README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
 Gudgeon = Callable[[str], Result]
 

@@ -1,4 +1,4 @@
-"""The tutorials keep their word: every block is run, in order, in a folder of its own, and prints what they show."""
+"""Run every code block of the tutorials and of the guides to Python in order and compare the printed output."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ from tests.kinds.own import forgotten
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
-PAGES = sorted((Path(__file__).parents[1] / "docs/tutorials").glob("*.md"))
+DOCS = Path(__file__).parents[1] / "docs"
+PAGES = sorted((DOCS / "tutorials").glob("*.md"))
+GUIDES = [DOCS / f"{name}.md" for name in ("runs_and_results", "plots_and_animation", "ensembles", "exchange")]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-NAMED = re.compile(r"# (\w+\.\w+)\n")
+NAMED = re.compile(r"(?:#|//) (\w+\.\w+)\n")
 
 
 def run(kind: str, text: str, names: dict[str, Any]) -> str:
@@ -28,7 +30,7 @@ def run(kind: str, text: str, names: dict[str, Any]) -> str:
 
     Returns what it prints.
     """
-    if (named := NAMED.match(text)) and kind in ("yaml", "python"):
+    if (named := NAMED.match(text)) and kind in ("yaml", "python", "javascript"):
         Path(named[1]).write_text(text, encoding="utf-8")
         return ""
     printed = io.StringIO()
@@ -73,7 +75,7 @@ def missing(shown: str, printed: str) -> list[str]:
     return lost + [line for line in lines if line.strip() and not skipped]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", [*PAGES, *GUIDES], ids=lambda page: page.stem)
 def test_every_block_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     text, names, printed = page.read_text(encoding="utf-8"), dict[str, Any](), ""

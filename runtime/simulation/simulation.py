@@ -230,7 +230,8 @@ class Simulation(Shown):
         `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
         `contour`: {joint: depths (m)} by which bearings whose play has a `contour` in the file are deeper than their
         circles, at as many equal angles as there, from the x axis of the bearing's body on.
-        `audit`: whether the run checks its own result (docs/python.md); "full": every step. AuditError where it fails.
+        `audit`: whether the run checks its result; "full": every step. AuditError where it fails. See
+        docs/runs_and_results.md.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.

@@ -1,4 +1,4 @@
-"""How far FMPy is from gudgeon's own run, a table for docs/python.md: `python -m tests.exchange.accuracy`.
+"""How far FMPy is from gudgeon's own run, a table for docs/exchange.md: `python -m tests.exchange.accuracy`.
 
 Errors are the largest of a series at fifty times, over the largest value of the series, against the native run at a
 tolerance of 1e-12.

@@ -1,4 +1,4 @@
-"""docs/studies.md keeps its word: its file is a study, its Python runs, what it quotes is read, its table is whole."""
+"""Run the study and the Python of docs/studies.md, read its fragments and check that its tables are complete."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from ruamel.yaml import YAML
 
 import gudgeon
 from gudgeon.errors import InputError
-from gudgeon.generator.study.read import KEYS, read_study
+from gudgeon.generator.study.read import KEYS, read_studies, read_study
 from gudgeon.generator.study.schema import schema
-from gudgeon.generator.study.spec import DRAWN, STATISTICS
+from gudgeon.generator.study.spec import COUNTED, DRAWN, KINDS, STATISTICS
 from gudgeon.studies.ensemble.names import as_people_write, names_of
 from gudgeon.studies.ensemble.resolve import BLOCK
 from gudgeon.studies.ensemble.study import plans_of
@@ -25,9 +25,14 @@ jsonschema = pytest.importorskip("jsonschema")
 PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")
 
 
+def blocks(language: str) -> list[str]:
+    """Return all fenced blocks of the page in that language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+
+
 def block(language: str) -> str:
-    (found,) = re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
-    return str(found)
+    """Return the page's example in that language: the first block."""
+    return blocks(language)[0]
 
 
 @needs_compiler
@@ -44,7 +49,7 @@ def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_every_key_statistic_and_method_is_on_the_page() -> None:
     words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
-    assert {*KEYS, *STATISTICS, *DRAWN} <= words
+    assert {*KEYS, *STATISTICS, *DRAWN, *KINDS, *COUNTED} <= words
     assert f"{BLOCK} at most" in PAGE
 
 
@@ -73,6 +78,16 @@ def test_the_schema_takes_its_file_and_refuses_others() -> None:
         "choices": {"a.b": ["x"], "law": {"one": {"a.b": 1}}},
     }
     assert not list(check.iter_errors(study | quoted))
+
+
+def test_its_fragments_are_read() -> None:
+    """Parts and claims, each with the rest of a file."""
+    parts, claims = blocks("yaml")[1:]
+    head = "format: gudgeon-study/1\nmechanism: slider_crank\nscenes: [ideal, dry]\n"
+    assert set(read_studies(f"{head}{parts}".encode(), "parts.yaml").parts) == {"clearance", "speed"}
+    found = read_studies(f"{head}measures: {{peak: {{peak: slider.ax}}}}\n{claims}".encode(), "claims.yaml").claims
+    assert [len(found.numbers), len(found.trends)] == [1, 3] and found.source
+    assert len(blocks("python")) == 1
 
 
 def test_what_it_quotes_is_read() -> None:
