@@ -81,7 +81,7 @@ class Design:
         return text
 
     def accepted_methods(self) -> tuple[str, ...]:
-        """Return those of `methods` that integrate the scene: of rigid contacts the explicit ones (docs/choosing_a_method.md)."""
+        """Return those of `methods` that integrate the scene (docs/choosing_a_method.md)."""
         contacts = self.file.get("contacts", {}).values()
         rigid = any(one.get("normal", {}).get("law") == "newton_restitution" for one in contacts)
         return tuple(name for name in self.methods if not rigid or name in ("auto", "rk4", "dop853"))
