@@ -16,7 +16,7 @@ enum Status {
     OUTSIDE = -8,       /* a contact is deeper than its law holds */
     NOT_CLOSED = -9,    /* a run of a batch whose start is left to Python */
     STOPPED = -10,      /* the caller asked to stop */
-    STALLED = -11, UNBOUNDED = -12, JAMMED = -13, NOT_FOUND = -14, AUDITED = -15,
+    STALLED = -11, UNBOUNDED = -12, FRICTION_INCONSISTENT = -13, NOT_FOUND = -14, AUDITED = -15,
     EVENT_STOPS = 1     /* of gudgeon_kinematic_events: an event ends the run */
 };
 

@@ -4,7 +4,7 @@
  */
 #include "model.h"
 #include "scene/kernels.h"
-#include "run/asked.c"
+#include "run/cancellation.c"
 #include "scene/start.c"
 #if N_TERMS
 #include "watch/time_terms.c"
@@ -20,11 +20,11 @@
 #include "methods/defect.c"
 #include "watch/gaps.c"
 #include "watch/forces.c"
-#include "watch/pulses.c"
+#include "watch/transients.c"
 #if N_WATCHED && KNOWN_BOUNDS
 #include "watch/watched.c"
 #else
-#include "watch/looks.c"
+#include "watch/dense_samples.c"
 #endif
 #include "watch/events.c"
 #include "run/peaks.c"

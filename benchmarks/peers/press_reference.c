@@ -96,7 +96,7 @@ static real passed(const Motion *m, const real *y, int k, int kind)
 static int locate(const Motion *m, real t, real h, int k, int kind, real *root)
 {
     real a = 0, b = h, y[N], ga = passed(m, m->y, k, kind), gb;
-    int bad = extrapolate(m, t, h, y), side = 0;
+    int bad = extrapolate(m, t, h, y), branch = 0;
     gb = passed(m, y, k, kind);
     if (ga >= 0) { *root = 0; return bad; }
     for (int pass = 0; pass < 60 && b - a > 1e-19L && !bad; pass++) {
@@ -104,14 +104,14 @@ static int locate(const Motion *m, real t, real h, int k, int kind, real *root)
         if ((bad = extrapolate(m, t, s, y))) break;
         const real g = passed(m, y, k, kind);
         if (g == 0) { a = b = s; break; }
-        if (g > 0) { if (b - s < 1e-20L) pass = 60; b = s; gb = g; if (side == 1) ga /= 2; side = 1; }
-        else       { if (s - a < 1e-20L) pass = 60; a = s; ga = g; if (side == -1) gb /= 2; side = -1; }
+        if (g > 0) { if (b - s < 1e-20L) pass = 60; b = s; gb = g; if (branch == 1) ga /= 2; branch = 1; }
+        else       { if (s - a < 1e-20L) pass = 60; a = s; ga = g; if (branch == -1) gb /= 2; branch = -1; }
     }
     *root = b;
     return bad;
 }
 
-static void change(Motion *m, real t, int k, int kind, real *onsets, int *count, int most)
+static void apply_event(Motion *m, real t, int k, int kind, real *onsets, int *count, int most)
 {
     real g[3];
     gap(m, m->y, k, g);
@@ -159,7 +159,7 @@ static int advance(Motion *m, real t, real h, real *onsets, int *count, int most
         if (bad) return bad;
         memcpy(m->y, y, sizeof y);
         t += first;
-        if (joint >= 0) change(m, t, joint, what, onsets, count, most);
+        if (joint >= 0) apply_event(m, t, joint, what, onsets, count, most);
     }
     return 0;
 }

@@ -8,7 +8,7 @@ enum {
     MISSED = 3                            /* they tried it, and did not find its stages */
 };
 
-#define GLANCE 0.02 /* s between two looks at whether the batch is ending */
+#define POLL_INTERVAL_S 0.02 /* s between two looks at whether the batch is ending */
 
 /* Times of run i, the last of them, and the first row of its samples. */
 static inline const double *times_of(const Batch *b, long i) { return b->t + i * b->apart; }

@@ -16,7 +16,7 @@ enum { ABREAST = 4 * LANES };
 typedef struct {
     const Batch *b;
     const Single *one;
-    Run *run[ABREAST];
+    Integrator *run[ABREAST];
     long number[ABREAST]; /* -1: free */
     int kind[ABREAST];    /* which method each wants its next step by; -1: none */
     int seated[LANES];    /* which one a lane has, of those that share it; -1: none yet */
@@ -25,21 +25,21 @@ typedef struct {
 #if QUIET
     Quiet quiet;
 #endif
-    LaneRun x;
+    LaneIntegrator x;
     LaneStep step;
 } Flow;
 /* What is empty at first. */
 #if TAYLOR
-#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneRun, series.terms))
+#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneIntegrator, series.terms))
 #else
 #define FLOW_BEGINS sizeof(Flow)
 #endif
 
 static int is_taken(const Flow *flow, int i) { return flow->number[i] >= 0; }
 
-/* Run i, whose numbers lane k has from now on: what nobody shares computes what another one does, so that it meets
- * nothing odd. */
-static void seat(Flow *flow, int k, int i)
+/* Run i, whose numbers lane k has from now on: what nobody shares computes what another one does, so that it
+ * meets nothing odd. */
+static void project_contacts(Flow *flow, int k, int i)
 {
     for (int other = 0; other < ABREAST && !is_taken(flow, i); other++)
         i = is_taken(flow, other) ? other : i;
@@ -52,13 +52,13 @@ static void seat(Flow *flow, int k, int i)
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
-static void gather_past(LaneRun *x, int k, Run *run)
+static void gather_past(LaneIntegrator *x, int k, Integrator *run)
 {
-    look_back(run);
+    update_iteration_history(run);
     x->newton.last_h[k] = run->newton.last_h;
     x->newton.falls[k] = run->newton.falls;
     x->newton.force_found[k] = run->newton.force_found;
-    x->newton.goes_on[k] = -run->newton.goes_on;
+    x->newton.continues[k] = -run->newton.continues;
     for (int j = 0; j < N_Y; j++) {
         x->newton.before_y[j][k] = run->newton.before_y[j];
         x->newton.before_dy[j][k] = run->newton.before_dy[j];
@@ -69,13 +69,13 @@ static void gather_past(LaneRun *x, int k, Run *run)
 /* What a step of run k begins with; its length. */
 static void gather(Flow *flow, int k)
 {
-    Run *run = flow->run[flow->seated[k]];
-    LaneRun *x = &flow->x;
+    Integrator *run = flow->run[flow->seated[k]];
+    LaneIntegrator *x = &flow->x;
 #if QUIET
     if (is_taken(flow, k) && flow->quiet.here[k])
         return;
     if (is_taken(flow, k))
-        keep(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
+        load_quiet_lane(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
 #endif
     flow->h[k] = run->control.attempt.h;
     x->t[k] = run->t;
@@ -91,47 +91,47 @@ static void gather(Flow *flow, int k)
     for (int j = 0; j < N_Y; j++)
         x->dy[j][k] = run->dy[j];
     for (int i = 0; i < N_LOOPS; i++)
-        x->aside.lambda[i][k] = run->aside.lambda[i];
+        x->rhs.lambda[i][k] = run->rhs.lambda[i];
 #if IMPLICIT_STAGES
     if (run->control.attempt.lane >= BY_RADAU5)
         gather_past(x, k, run);
 #endif
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) {
-        x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
-        x->memory.latch[i].deltadot_minus[k] = run->memory.latch[i].deltadot_minus;
-        x->aside.clearance[i].Fx[k] = run->aside.clearance[i].Fx;
-        x->aside.clearance[i].Fy[k] = run->aside.clearance[i].Fy;
-        x->aside.clearance[i].moment_first[k] = run->aside.clearance[i].moment_first;
-        x->aside.clearance[i].moment_second[k] = run->aside.clearance[i].moment_second;
+        x->discrete.contact[i].closed[k] = run->discrete.contact[i].closed;
+        x->discrete.contact[i].deltadot_minus[k] = run->discrete.contact[i].deltadot_minus;
+        x->rhs.clearance[i].Fx[k] = run->rhs.clearance[i].Fx;
+        x->rhs.clearance[i].Fy[k] = run->rhs.clearance[i].Fy;
+        x->rhs.clearance[i].moment_first[k] = run->rhs.clearance[i].moment_first;
+        x->rhs.clearance[i].moment_second[k] = run->rhs.clearance[i].moment_second;
     }
     for (int i = 0; i < N_SWITCHES; i++)
-        x->memory.side[i][k] = run->memory.side[i];
+        x->discrete.branch[i][k] = run->discrete.branch[i];
     for (int i = 0; i < N_USER_EVENTS; i++)
-        x->memory.event_side[i][k] = run->memory.event_side[i];
+        x->discrete.event_sign[i][k] = run->discrete.event_sign[i];
 }
 
-static void scatter_aside(const LaneAside *x, int k, Aside *aside)
+static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
 {
     for (int i = 0; i < N_LOOPS; i++)
-        aside->lambda[i] = x->lambda[i][k];
+        rhs->lambda[i] = x->lambda[i][k];
     for (int i = 0; i < N_WORK; i++)
-        aside->power[i] = x->power[i][k];
+        rhs->power[i] = x->power[i][k];
     for (int i = 0; i < N_CLEARANCES; i++) {
         const LaneClearance *from = &x->clearance[i];
-        aside->clearance[i] = (Clearance){.Fx = from->Fx[k], .Fy = from->Fy[k], .F_n = from->F_n[k],
+        rhs->clearance[i] = (Clearance){.Fx = from->Fx[k], .Fy = from->Fy[k], .F_n = from->F_n[k],
             .F_t = from->F_t[k], .ex = from->ex[k], .ey = from->ey[k], .e = from->e[k],
             .deltadot = from->deltadot[k], .v_t = from->v_t[k], .moment_first = from->moment_first[k],
             .moment_second = from->moment_second[k], .delta = from->delta[k], .power = from->power[k]};
 #if LAW_STATES
         for (int j = 0; j < LAW_STATES; j++)
-            aside->clearance[i].state_rate[j] = from->state_rate[j][k];
+            rhs->clearance[i].state_rate[j] = from->state_rate[j][k];
 #endif
     }
     for (int i = 0; i < N_SWITCHES; i++)
-        aside->g[i] = x->g[i][k];
+        rhs->g[i] = x->g[i][k];
     for (int i = 0; i < N_USER_EVENTS; i++)
-        aside->event[i] = x->event[i][k];
+        rhs->event[i] = x->event[i][k];
 }
 
 /* A step that lane k accepts, as its own run would have made it. */
@@ -150,7 +150,7 @@ static void scatter_step(const Flow *flow, int k, Step *step)
     step->n_seen = x->n_seen;
     for (int s = 0; s < x->n_seen; s++)
         step->node[s] = x->node[s];
-    for (int j = 0; j < N_MARGINS; j++)
+    for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
         step->lowest[j] = x->lowest[j][k];
     for (int j = 0; j < N_SWITCHES; j++)
         step->passed[j] = 0;
@@ -162,12 +162,12 @@ static void scatter_step(const Flow *flow, int k, Step *step)
         step->least[j] = x->least[j][k];
         step->most[j] = x->most[j][k];
     }
-    scatter_aside(&x->aside, k, &step->aside);
+    scatter_rhs(&x->rhs, k, &step->rhs);
 }
 
 /* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. */
 #if TAYLOR
-static void scatter_trial(const Flow *flow, int k, int method, Run *run)
+static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     (void)method;
     run->counts.evaluations += !run->series.ready;
@@ -178,7 +178,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Run *run)
     run->control.attempt.h = flow->step.h[k];
 }
 #else
-static void scatter_trial(const Flow *flow, int k, int method, Run *run)
+static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     static const int of[KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
         [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
@@ -187,7 +187,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Run *run)
     run->counts.evaluations += stages - 1;
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5) {
-        run->counts.evaluations += (long)flow->x.newton.asked[k] - stages + 1;
+        run->counts.evaluations += (long)flow->x.newton.cancellation[k] - stages + 1;
         run->newton.falls = flow->x.newton.falls[k];
     }
 #endif
@@ -201,7 +201,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Run *run)
 /* What lane k has found goes to its run. */
 static void scatter(const Flow *flow, int k, int method)
 {
-    Run *run = flow->run[flow->seated[k]];
+    Integrator *run = flow->run[flow->seated[k]];
     Step *step = &run->step;
     step->t = flow->step.t[k];
     step->h = flow->step.h[k];

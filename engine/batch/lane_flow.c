@@ -18,18 +18,18 @@ static int leaves(Flow *flow, int i, int happened)
 }
 
 /* Run i is where its lane is. */
-static void put_down(Flow *flow, int i)
+static void unload_lane(Flow *flow, int i)
 {
 #if QUIET
     if (is_taken(flow, i) && flow->quiet.here[i])
-        tell(&flow->quiet, &flow->x, i, flow->h[i], flow->run[i]);
+        unload_quiet_lane(&flow->quiet, &flow->x, i, flow->h[i], flow->run[i]);
 #else
     (void)flow, (void)i;
 #endif
 }
 
 /* Run i goes on to its next step. Returns whether Python is to be told of it. */
-static int go_on(Flow *flow, int i, int tried, int *lists)
+static int resume_run(Flow *flow, int i, int tried, int *lists)
 {
     const int happened = flow->one->goes_on(flow->b, flow->number[i], tried, flow->run[i]);
     *lists |= happened == LISTS;
@@ -37,28 +37,28 @@ static int go_on(Flow *flow, int i, int tried, int *lists)
 }
 
 /* Whether run i wants a step by this method. */
-static int wants(const Flow *flow, int i, int method) { return flow->kind[i] == method; }
+static int needs_method(const Flow *flow, int i, int method) { return flow->kind[i] == method; }
 
 /* In how many lanes one does. */
-static int lanes_that_want(const Flow *flow, int method)
+static int lanes_of_method(const Flow *flow, int method)
 {
     int some[LANES] = {0}, count = 0;
     for (int i = 0; i < ABREAST; i++)
-        some[i % LANES] |= wants(flow, i, method);
+        some[i % LANES] |= needs_method(flow, i, method);
     for (int k = 0; k < LANES; k++)
         count += some[k];
     return count;
 }
 
 /* Seats a run in lane k that wants this method, that which sat there if it does; whether there is one. */
-static int seat_one(Flow *flow, int k, int method)
+static int load_lane(Flow *flow, int k, int method)
 {
     const int last = flow->seated[k], own = last >= 0 && last % LANES == k && is_taken(flow, last);
     int best = own ? last : k;
-    for (int i = k; i < ABREAST && !wants(flow, best, method); i += LANES)
-        best = wants(flow, i, method) || !is_taken(flow, best) ? i : best;
-    seat(flow, k, best);
-    return flow->seated[k] % LANES == k && wants(flow, flow->seated[k], method);
+    for (int i = k; i < ABREAST && !needs_method(flow, best, method); i += LANES)
+        best = needs_method(flow, i, method) || !is_taken(flow, best) ? i : best;
+    project_contacts(flow, k, best);
+    return flow->seated[k] % LANES == k && needs_method(flow, flow->seated[k], method);
 }
 
 /* Whether lane k leads a fixed step over an event: its own run does not hold branches there (open_attempt). */
@@ -66,12 +66,12 @@ static int leads_over(const Flow *flow, int k)
 {
     int some = 0;
 #if !TAYLOR
-    Lanes margins[AT_LEAST_ONE(N_MARGINS)];
+    Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     if (!(flow->run[flow->seated[k]]->control.fixed > 0.0))
         return 0;
-    note_margins(&flow->x, &flow->step.aside, margins);
-    for (int j = 0; j < N_MARGINS; j++)
-        some |= margins[j][k] < 0.0 || flow->step.lowest[j][k] < 0.0;
+    record_event_functions(&flow->x, &flow->step.rhs, event_functions);
+    for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
+        some |= event_functions[j][k] < 0.0 || flow->step.lowest[j][k] < 0.0;
 #else
     (void)flow, (void)k;
 #endif
@@ -84,21 +84,21 @@ static int try_together(Flow *flow, int method, int *lists)
     int some = 0, wanted[LANES];
     LaneBits quiet = {0};
     for (int k = 0; k < LANES; k++) {
-        wanted[k] = seat_one(flow, k, method);
+        wanted[k] = load_lane(flow, k, method);
         gather(flow, k);
     }
     try_lanes(&flow->x, method, flow->h, &flow->p, &flow->step);
 #if QUIET
-    quiet = take_quietly(&flow->quiet, &flow->x, &flow->step, &flow->h);
+    quiet = accept_quiet_steps(&flow->quiet, &flow->x, &flow->step, &flow->h);
 #endif
     for (int k = 0; k < LANES; k++) {
         if (!wanted[k] || quiet[k])
             continue;
         const int lost = flow->step.lost[k] || leads_over(flow, k);
-        put_down(flow, k);
+        unload_lane(flow, k);
         if (!lost)
             scatter(flow, k, method);
-        some += go_on(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
+        some += resume_run(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
 }
@@ -111,7 +111,7 @@ static int advance(Flow *flow, int *lists)
 {
     int some = 0, most = 0, count[KINDS];
     for (int method = 0; method < KINDS; method++) {
-        count[method] = lanes_that_want(flow, method);
+        count[method] = lanes_of_method(flow, method);
         most = count[method] > count[most] ? method : most;
     }
     if (count[most] > 1)
@@ -119,8 +119,8 @@ static int advance(Flow *flow, int *lists)
     for (int i = 0; i < ABREAST; i++) {
         if (!is_taken(flow, i))
             continue;
-        put_down(flow, i);
-        some += go_on(flow, i, UNTRIED, lists);
+        unload_lane(flow, i);
+        some += resume_run(flow, i, UNTRIED, lists);
     }
     return some;
 }
@@ -150,7 +150,7 @@ int gudgeon_lane_count(void) { return ABREAST; }
 /*
  * Runs number[i] (ABREAST of them, -1: none), each in a memory of its own. Returns GOES_ON, to be called again, as soon
  * as some runs are over (number[i] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
- * ALL_OVER where not two are left, or the batch is ending: what is not over then goes on alone (gudgeon_many).
+ * ALL_OVER where not two are left, or the batch is ending: what is not over then goes on alone (gudgeon_ensemble).
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -175,11 +175,11 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             break;
         some += advance(&flow, &lists);
     }
-    const double share = (lane_seconds() - before) / (entered > 0 ? entered : 1);
+    const double fraction = (lane_seconds() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < ABREAST; i++) {
-        put_down(&flow, i);
+        unload_lane(&flow, i);
         if (number[i] >= 0)
-            flow.b->seconds[number[i]] += share;
+            flow.b->seconds[number[i]] += fraction;
         if (is_taken(&flow, i))
             flow.b->t_last[flow.number[i]] = flow.run[i]->t;
         number[i] = flow.number[i];

@@ -21,23 +21,23 @@ static inline Lanes lanes_min_of(Lanes x, Lanes y) { return EXTREME_OF(min, >); 
 static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 
-/* As mod_of, mod_on, period_side. */
+/* As mod_of, mod_on, period_branch. */
 static inline Lanes lanes_mod_of(Lanes a, Lanes b)
 {
     for (int k = 0; k < LANES; k++)
         a[k] = mod_of(a[k], b[k]);
     return a;
 }
-static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes side)
+static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes branch)
 {
     for (int k = 0; k < LANES; k++)
-        a[k] = mod_on(a[k], b[k], side[k]);
+        a[k] = mod_on(a[k], b[k], branch[k]);
     return a;
 }
-static inline Lanes lanes_period_side(Lanes a, Lanes b)
+static inline Lanes lanes_period_branch(Lanes a, Lanes b)
 {
     for (int k = 0; k < LANES; k++)
-        a[k] = period_side(a[k], b[k]);
+        a[k] = period_branch(a[k], b[k]);
     return a;
 }
 

@@ -2,25 +2,25 @@
  * The right-hand side of several runs, and the way back onto the constraints.
  */
 /* Beside a singular position the single runs go on alone. */
-static inline void ask_of_pivots(LaneMemory *memory)
+static inline void singular_thresholds(LaneDiscreteState *discrete)
 {
-    memory->least = all_of(CONTINUES ? NEARBY : NEARLY_SINGULAR);
-    memory->least_size = all_of(CONTINUES ? NEARBY : VANISHING);
+    discrete->least = all_of(CONTINUES ? NEARBY : NEARLY_SINGULAR);
+    discrete->least_size = all_of(CONTINUES ? NEARBY : VANISHING);
 }
 
-static inline int lane_dynamics(Lanes t, const Lanes *q, const Lanes *v, LaneMemory *memory, const LaneParameters *p,
-    Lanes *a, LaneAside *aside)
+static inline int lane_dynamics(Lanes t, const Lanes *q, const Lanes *v, LaneDiscreteState *discrete,
+    const LaneParameters *p, Lanes *a, LaneRhsOutputs *rhs)
 {
-    ask_of_pivots(memory);
-    reduced_dynamics(t, q, v, memory, p, a, aside, &memory->rare);
+    singular_thresholds(discrete);
+    reduced_dynamics(t, q, v, discrete, p, a, rhs, &discrete->rare);
     return 0;
 }
 
 #define IN_BOTH static inline
 #define MOTION motion
 #define REDUCED_DYNAMICS lane_dynamics
-#define CLOSURES(t, q, memory, p, phi) closures(t, q, p, phi, &(memory)->rare)
-#define CLOSURE_RATES(t, q, v, memory, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(memory)->rare)
+#define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->rare)
+#define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->rare)
 #include "../both/motion.h"
 
 static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
@@ -33,20 +33,20 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 
 #include "../both/states.h"
 
-static int rates(LaneRun *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneAside *aside)
+static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
-    show_states(&run->memory, y);
-    motion(t, y, &run->memory, p, dy, aside);
-    rates_of_states(aside, dy);
+    show_states(&run->discrete, y);
+    motion(t, y, &run->discrete, p, dy, rhs);
+    rates_of_states(rhs, dy);
     return 0;
 }
 
-static LaneBits can_close(LaneRun *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dq,
-    Lanes *dv, Lanes *worst)
+static LaneBits can_close(LaneIntegrator *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p,
+    Lanes *dq, Lanes *dv, Lanes *worst)
 {
-    ask_of_pivots(&run->memory);
-    closing_step(t, y, y + N_X, &run->memory, p, dq, dv, worst, &run->memory.rare);
-    run->memory.rare |= open & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
+    singular_thresholds(&run->discrete);
+    closing_step(t, y, y + N_X, &run->discrete, p, dq, dv, worst, &run->discrete.rare);
+    run->discrete.rare |= open & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
     return open;
 }
 

@@ -1,12 +1,12 @@
 /*
  * Steps of which nothing but their ends is wanted: no sample lies in them, nobody watches, no row has to be closed.
- * They are taken in the lanes, as take_step of methods/adaptive.c does it; its run is told of them together, before it
- * is asked again.
+ * They are taken in the lanes, as accept_step of methods/adaptive.c does it; its run is told of them together, before
+ * it is asked again.
  */
 #define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
 #if QUIET
-#include "../both/weigh.h"
+#include "../both/error_weights.h"
 
 /* Of each lane: the time of its run's next sample, its end; how far the last step taken here could have gone. */
 typedef struct {
@@ -17,7 +17,8 @@ typedef struct {
 } Quiet;
 
 /* What is kept in lane k from its run, whose next step is in the lane. */
-static void keep(Quiet *quiet, LaneRun *x, int k, const Batch *b, long i, const Single *one, const Run *run)
+static void load_quiet_lane(
+    Quiet *quiet, LaneIntegrator *x, int k, const Batch *b, long i, const Single *one, const Integrator *run)
 {
     const double *t = times_of(b, i);
     quiet->sample[k] = t[b->done[i]];
@@ -26,7 +27,7 @@ static void keep(Quiet *quiet, LaneRun *x, int k, const Batch *b, long i, const 
     quiet->unseen[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0 : one->unseen(run);
     quiet->open[k] = -(quiet->unseen[k] > 0);
     quiet->here[k] = 1;
-    x->norm.turned_over[k] = run->norm.turned_over;
+    x->norm.energy_scale[k] = run->norm.energy_scale;
     x->norm.work_scale[k] = run->norm.work_scale;
     for (int kind = 0; kind < 2; kind++) {
         x->norm.speed[kind][k] = run->norm.speed[kind];
@@ -38,17 +39,17 @@ static void keep(Quiet *quiet, LaneRun *x, int k, const Batch *b, long i, const 
 }
 
 /* As far as the times of a run's steps are from zero, as open_attempt has it. */
-static Lanes far_of(const Quiet *quiet, const LaneRun *x)
+static Lanes far_of(const Quiet *quiet, const LaneIntegrator *x)
 {
     return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(LONG_RUN)), lanes_fabs(x->t));
 }
 
 /* Takes the steps that were tried where nothing else is to be done, with the next ones' lengths; which these are. */
-static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lanes *h)
+static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneStep *step, Lanes *h)
 {
     const Lanes t = x->t + step->h;
     const LaneBits now = quiet->open & step->taken & (step->error <= x->control.accept) & (t < quiet->sample)
-        & (step->h < quiet->t_end - x->t) & (step->h >= CRAWL_LENGTH * far_of(quiet, x))
+        & (step->h < quiet->t_end - x->t) & (step->h >= SHORT_STEP * far_of(quiet, x))
         & ~not_finite(step->y, step->dy, N_Y);
     note_works(x, now, step->y);
     for (int j = 0; j < N_Y; j++) {
@@ -56,10 +57,10 @@ static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lan
         x->dy[j] = pick(now, step->dy[j], x->dy[j]);
     }
     for (int j = 0; j < N_WORK; j++)
-        x->aside.power[j] = pick(now, step->aside.power[j], x->aside.power[j]);
+        x->rhs.power[j] = pick(now, step->rhs.power[j], x->rhs.power[j]);
     x->t = pick(now, t, x->t);
     note_speed(x);
-    weigh(x);
+    update_error_weights(x);
     quiet->reach = pick(now, x->series.reach, quiet->reach);
     const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
     *h = pick(now, pick(next > left * SAME_LENGTH, left, next), *h);
@@ -71,7 +72,7 @@ static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lan
 }
 
 /* Tells run k of the steps that were taken in its lane: it is where it wants the next one, of length h. */
-static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
+static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, double h, Integrator *run)
 {
     const long steps = quiet->steps[k];
     quiet->here[k] = 0;
@@ -83,18 +84,19 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
         run->norm.weight[j] = x->norm.weight[j][k];
     }
     for (int j = 0; j < N_WORK; j++)
-        run->aside.power[j] = x->aside.power[j][k];
+        run->rhs.power[j] = x->rhs.power[j][k];
     run->t = x->t[k];
-    run->norm.turned_over = x->norm.turned_over[k];
+    run->norm.energy_scale = x->norm.energy_scale[k];
     run->norm.speed[0] = x->norm.speed[0][k];
     run->norm.speed[1] = x->norm.speed[1][k];
     run->counts.steps += steps;
     run->counts.evaluations += 2 * steps - !!run->series.ready;
-    run->progress.ended[N_MARGINS] += steps;
-    run->progress.pace.steps += steps;
+    run->progress.ended[N_EVENT_FUNCTIONS] += steps;
+    run->progress.monitor.steps += steps;
     run->choice.since += (int)steps;
-    run->choice.votes = run->progress.stuck = run->progress.crawl = run->newton.ready = run->series.ready = 0;
-    run->memory.held = 1;
+    run->choice.n_against = run->progress.no_advance = run->progress.short_steps = run->newton.ready =
+        run->series.ready = 0;
+    run->discrete.held = 1;
     run->choice.stability = 0.0;
     run->series.reach = quiet->reach[k];
     run->control.h = TAYLOR_AHEAD * run->series.reach;

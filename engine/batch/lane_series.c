@@ -7,14 +7,17 @@
 #include "../both/series.h"
 
 /* A step whose error is known only at its end is taken back where that is too large. */
-static void refuse_late(const LaneRun *run, LaneStep *step) { step->taken &= ~(step->error > run->control.accept); }
+static void refuse_late(const LaneIntegrator *run, LaneStep *step)
+{
+    step->taken &= ~(step->error > run->control.accept);
+}
 
-static void forget_end(const LaneRun *run) { (void)run; }
+static void forget_end(const LaneIntegrator *run) { (void)run; }
 
 #include "../both/taylor.h"
 
 /* As taylor_try: links in one line are left to the single runs. */
-static int method_try(LaneRun *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
+static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
     TaylorValues at;
@@ -22,9 +25,9 @@ static int method_try(LaneRun *run, int method, Lanes h, const LaneParameters *p
     (void)method;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = run->y[i];
-    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->memory.rare);
+    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->discrete.rare);
     series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
-    run->memory.rare |= not_finite(c[run->series.order], NULL, N_Y);
+    run->discrete.rare |= not_finite(c[run->series.order], NULL, N_Y);
     run->series.reach = taylor_reach(run);
     return taylor_step(run, h, p, step);
 }

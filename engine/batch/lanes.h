@@ -48,12 +48,12 @@ static inline int any_of(LaneBits mask)
  * Corners: runs hold contacts and sides of corners over a step, and are told where the switching functions are. side:
  * NULL where a function holds none.
  */
-#define held_sides(memory) (memory)->side
-#define told_sides(aside) (aside)->g
-static inline Lanes lanes_side_of(const Lanes *side, Lanes *g, int k, Lanes value)
+#define held_branches(discrete) (discrete)->branch
+#define reported_branches(rhs) (rhs)->g
+static inline Lanes lanes_branch_of(const Lanes *branch, Lanes *g, int k, Lanes value)
 {
     g[k] = value;
-    return side ? side[k] : lanes_sign_of(value);
+    return branch ? branch[k] : lanes_sign_of(value);
 }
 
 /* Corners first to last - 1 of a joint do not switch; the same, those of its film put aside. */
@@ -78,10 +78,10 @@ static inline void put_together(Lanes *g, const Lanes *film, int first, int last
 
 /* What the text in both/ is made of here. */
 #define Real Lanes
-#define Truth LaneBits
-#define RunOf LaneRun
-#define MemoryOf LaneMemory
-#define AsideOf LaneAside
+#define Mask LaneBits
+#define IntegratorOf LaneIntegrator
+#define DiscreteStateOf LaneDiscreteState
+#define RhsOutputsOf LaneRhsOutputs
 #define ClearanceOf LaneClearance
 #define ParametersOf LaneParameters
 #define StepOf LaneStep
@@ -95,21 +95,21 @@ static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
 static inline Lanes real_exp2(Lanes x) { return lanes_rough_exp2(x); }
 static inline Lanes real_log2(Lanes x) { return lanes_rough_log2(x); }
 
-/* As Latch, Memory, PinForce, Clearance, Aside, Linear of a single run. */
+/* As ContactState, DiscreteState, PinForce, Clearance, RhsOutputs, Linear of a single run. */
 typedef struct {
     Lanes closed, deltadot_minus;
 #if LAW_STATES
     Lanes state[LAW_STATES];
 #endif
-} LaneLatch;
+} LaneContactState;
 
 typedef struct {
-    LaneLatch latch[AT_LEAST_ONE(N_CLEARANCES)];
-    Lanes event_side[AT_LEAST_ONE(N_USER_EVENTS)];
-    Lanes side[AT_LEAST_ONE(N_SWITCHES)];
+    LaneContactState contact[AT_LEAST_ONE(N_CLEARANCES)];
+    Lanes event_sign[AT_LEAST_ONE(N_USER_EVENTS)];
+    Lanes branch[AT_LEAST_ONE(N_SWITCHES)];
     LaneBits rare; /* lanes whose step the single runs are to make */
     Lanes least, least_size;
-} LaneMemory;
+} LaneDiscreteState;
 
 typedef struct {
     Lanes n, t, M_i, M_j, v_t;
@@ -130,15 +130,15 @@ typedef struct {
     Lanes lambda[N_LOOPS + 1], power[N_WORK], event[AT_LEAST_ONE(N_USER_EVENTS)];
     LaneClearance clearance[AT_LEAST_ONE(N_CLEARANCES)];
     Lanes g[AT_LEAST_ONE(N_SWITCHES)];
-} LaneAside;
+} LaneRhsOutputs;
 
-static inline LaneBits is_closed(const LaneLatch *latch) { return latch->closed > 0.0; }
+static inline LaneBits is_closed(const LaneContactState *contact) { return contact->closed > 0.0; }
 
 /* Whether a joint has its dry contact. */
-static inline LaneBits is_touching(const LaneLatch *latch, Lanes delta)
+static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
 {
     (void)delta;
-    return is_closed(latch);
+    return is_closed(contact);
 }
 
 static double lane_seconds(void)
@@ -164,7 +164,7 @@ typedef struct {
 typedef struct {
     Lanes weight[N_Y];
 #if TAYLOR
-    Lanes turned_over, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
+    Lanes energy_scale, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
 #endif
 } LaneNorm;
 
@@ -179,8 +179,8 @@ typedef struct {
         Lanes accept;
         double fixed; /* whether steps are: s, 0 */
     } control;
-    LaneMemory memory;
-    LaneAside aside;
+    LaneDiscreteState discrete;
+    LaneRhsOutputs rhs;
 #if TAYLOR
     struct {
         int order; /* the same in all lanes: a batch has one tolerance */
@@ -192,12 +192,12 @@ typedef struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
         Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
-        Lanes asked; /* rates, of the step that is tried */
-        LaneBits goes_on, missed;
+        Lanes cancellation; /* rates, of the step that is tried */
+        LaneBits continues, missed;
 #endif
     } newton;
 #endif
-} LaneRun;
+} LaneIntegrator;
 
 /*
  * As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found, that
@@ -205,11 +205,12 @@ typedef struct {
  */
 typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];
-    LaneAside aside;
+    LaneRhsOutputs rhs;
     Lanes dense[N_DENSE][N_Y];
     int dense_ready, n_seen;
     double node[N_STAGES];
-    Lanes seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_MARGINS)], rate[AT_LEAST_ONE(N_CLEARANCES)][2];
+    Lanes seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
+        rate[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
     LaneBits taken, lost, missed, no_dense;
 } LaneStep;

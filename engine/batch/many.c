@@ -1,7 +1,7 @@
 /*
  * The time loop of one run and of many, one after the other: start, steps and report of each without Python. Several
- * threads may work on one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were
- * alone.
+ * threads may work on one Batch, each on runs of its own and with an Integrator of its own; a run is the same as if it
+ * were alone.
  */
 #include "batch.h"
 #include "../scene/start.h"
@@ -9,12 +9,12 @@
 static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 
 /* Whom the long computations of a run ask whether to go on. */
-static void set_cancellation(const Batch *b, Asked *asked)
+static void request_cancellation_by(const Batch *b, Cancellation *cancellation)
 {
     if (b->ask)
-        set_asked(asked, b->ask, b->whom, b->every);
+        start_cancellation(cancellation, b->ask, b->caller, b->every);
     else
-        set_asked(asked, is_ending, (void *)b, GLANCE);
+        start_cancellation(cancellation, is_ending, (void *)b, POLL_INTERVAL_S);
 }
 
 /* Whether run j, which has begun, was closed here from what run i begins with too. */
@@ -28,7 +28,7 @@ static int begins_alike(const Batch *b, long i, long j)
 }
 
 /* (q, v) of run i, closed: those of one of `n` others in this thread (-1: none), if it begins alike. */
-static int close_run(const Batch *b, long i, const long *others, int n, Asked *asked)
+static int close_run(const Batch *b, long i, const long *others, int n, Cancellation *cancellation)
 {
     double *start = b->start + i * 2 * N_Q, residual;
     for (int k = 0; k < n; k++)
@@ -37,41 +37,41 @@ static int close_run(const Batch *b, long i, const long *others, int n, Asked *a
             return 0;
         }
     const double *p = b->p + i * b->numbers;
-    return close_start(times_of(b, i)[0], p, b->size[i], start, start + N_Q, &residual, asked)
+    return close_start(times_of(b, i)[0], p, b->size[i], start, start + N_Q, &residual, cancellation)
         || !all_finite(start + N_Q, N_Q);
 }
 
-static int start_run(const Batch *b, long i, const long *others, int n, Run *run)
+static int start_run(const Batch *b, long i, const long *others, int n, Integrator *run)
 {
     double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0};
-    Asked asked;
-    set_cancellation(b, &asked);
+    Cancellation cancellation;
+    request_cancellation_by(b, &cancellation);
     const double t0 = times_of(b, i)[0];
-    if (!b->started[i] && close_run(b, i, others, n, &asked))
-        return asked.stop ? STOPPED : NOT_CLOSED;
+    if (!b->started[i] && close_run(b, i, others, n, &cancellation))
+        return cancellation.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
-    const Tape tape = run->tape; /* of the thread, not of one run */
-    gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
+    const StepRecord step_record = run->step_record; /* of the thread, not of one run */
+    gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_DISCRETE));
     run->began = i + 1;
-    gudgeon_run_tape(run, tape.rows, tape.capacity);
+    gudgeon_run_record(run, step_record.rows, step_record.capacity);
     set_contact_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
     start_audit(run, b->audit, b->size[i]);
     if (b->trace)
-        start_trace(run, (TraceRow *)b->trace + i * b->trace_rows, b->trace_rows);
-    set_cancellation(b, &run->cancellation);
+        start_envelope(run, (EnvelopeRow *)b->trace + i * b->trace_rows, b->trace_rows);
+    request_cancellation_by(b, &run->cancellation);
     gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
         b->fixed ? b->step[i] : 0.0);
     return 0;
 }
 
 /* Row k of run i's samples is the present state. */
-static void take_sample(const Batch *b, long i, long k, Run *run)
+static void take_sample(const Batch *b, long i, long k, Integrator *run)
 {
     const long row = rows_of(b, i) + k;
     store_sample(run, run->t, run->y, (const Parameters *)(b->p_motion + i * b->numbers), 0, b->y + row * N_S,
-        b->latched + row * AT_LEAST_ONE(N_MEMORY), b->state + row * AT_LEAST_ONE(N_CLEARANCES));
+        b->latched + row * AT_LEAST_ONE(N_DISCRETE), b->state + row * AT_LEAST_ONE(N_CLEARANCES));
 }
 
 /*
@@ -89,11 +89,11 @@ static long first_odd(const Batch *b, long i)
 }
 
 /* Steps of run i, at most `limit`, with their samples. */
-static int advance(const Batch *b, long i, long limit, Run *run)
+static int advance(const Batch *b, long i, long limit, Integrator *run)
 {
     const double *p = b->p_motion + i * b->numbers, *t = times_of(b, i);
     const long row = rows_of(b, i), n = b->wanted[i];
-    double *y = b->y + row * N_S, *latched = b->latched + row * AT_LEAST_ONE(N_MEMORY);
+    double *y = b->y + row * N_S, *latched = b->latched + row * AT_LEAST_ONE(N_DISCRETE);
     signed char *state = b->state + row * AT_LEAST_ONE(N_CLEARANCES);
     const int status = gudgeon_adaptive_run(run, p, n, t, limit, y, latched, state, b->done + i);
     b->t_last[i] = run->t;
@@ -109,7 +109,7 @@ static void take_back(const Batch *b, long i, long k)
 }
 
 /* The present state as the last sample of run i, in place of those that are as late. */
-static void close_samples(const Batch *b, long i, int status, Run *run)
+static void close_samples(const Batch *b, long i, int status, Integrator *run)
 {
     const double *times = times_of(b, i), t_end = t_end_of(b, i);
     const double apart = status != ENDED ? 0.0
@@ -121,18 +121,18 @@ static void close_samples(const Batch *b, long i, int status, Run *run)
 }
 
 /* Run i is over: its report, and where it ended before its last sample but did not fail, the state there. */
-static void end_run(const Batch *b, long i, int status, Run *run)
+static void end_run(const Batch *b, long i, int status, Integrator *run)
 {
-    double *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_MEMORY)];
+    double *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_DISCRETE)];
     signed char state[AT_LEAST_ONE(N_CLEARANCES)];
     const long odd = first_odd(b, i);
     gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
     report_audit(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
     gudgeon_run_report(run, b->t_last + i, b->counts + N_COUNTS * i, b->residuals + N_RESIDUALS * i,
         b->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
-    report_pace(run, b->gained + i, b->paced + 2 * i, b->ended + N_STEP_ENDS * i);
+    report_monitor(run, b->gained + i, b->paced + 2 * i, b->ended + N_STEP_ENDS * i);
     if (b->trace)
-        b->traced[i] = count_trace_rows(run);
+        b->traced[i] = count_envelope_rows(run);
     if (odd)
         take_back(b, i, odd);
     else if (status == ENDED || status == STALLED || (status == STOPPED && b->done[i] > 0))
@@ -141,11 +141,11 @@ static void end_run(const Batch *b, long i, int status, Run *run)
     b->phase[i] = OVER;
 }
 
-static int has_lists(const Run *run)
+static int has_lists(const Integrator *run)
 {
-    int some = run->contacts.n_impacts > 0 || run->events.n > 0 || run->tape.n > 0;
+    int some = run->contacts.n_impacts > 0 || run->events.n > 0 || run->step_record.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
-        some = some || run->memory.latch[k].closed;
+        some = some || run->discrete.contact[k].closed;
     return some;
 }
 
@@ -154,10 +154,10 @@ static int has_lists(const Run *run)
  * fetched, and it goes on or is over; GOES_ON: `limit` steps were made. To be called again, after RUN_OVER with
  * the next run. Once the batch is ending, runs that have begun are over where they are, and none begins.
  */
-int gudgeon_many(const void *batch, void *memory, long *current, long end)
+int gudgeon_ensemble(const void *batch, void *integrator, long *current, long end)
 {
     const Batch *b = batch;
-    Run *run = memory;
+    Integrator *run = integrator;
     for (; *current < end; ++*current) {
         const long i = *current;
         if (b->phase[i] == NEW && !*b->ending) {
@@ -191,32 +191,32 @@ static Samples samples_of(const Batch *b, long i)
     const long row = rows_of(b, i);
     return (Samples){
         .n = b->wanted[i], .done = b->done + i, .t = times_of(b, i), .y = b->y + row * N_S,
-        .latched = b->latched + row * AT_LEAST_ONE(N_MEMORY), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
+        .latched = b->latched + row * AT_LEAST_ONE(N_DISCRETE), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
 }
 
 /*
- * Run i to where its next step is to be tried, which is in run->control.attempt; of one that has been, in run->step,
- * what follows comes first. One that others left untried is tried here.
+ * Run i to where its next step is to be tried, which is in run->control.attempt; of one that has been, in
+ * run->step, what follows comes first. One that others left untried is tried here.
  */
-static int next_single(const Batch *b, long i, int tried, void *memory)
+static int next_single(const Batch *b, long i, int tried, void *integrator)
 {
-    Run *run = memory;
+    Integrator *run = integrator;
     const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
     const Samples out = samples_of(b, i);
     int status = 0;
     if (tried != NOT_YET) {
         run->step.method = run->choice.method;
         if (tried != UNTRIED)
-            way_as_usual(run);
+            reset_singular_policy(run);
         const int found = tried == TRIED ? 0 : tried == MISSED ? NOT_FOUND : try_step(run, p, &run->step);
-        if (!is_settled(run, found, p, &run->step, &status))
+        if (!is_step_accepted(run, found, p, &run->step, &status))
             return GOES_ON;
         close_attempt(run);
         if (!status)
-            status = take_step(run, p, &out);
+            status = accept_step(run, p, &out);
     }
-    if (!status && wants_step(run, 0, p, &out, &status))
+    if (!status && needs_step(run, 0, p, &out, &status))
         return GOES_ON;
     b->t_last[i] = run->t;
     if (status == EVENTS_FULL)
@@ -225,10 +225,10 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
     return RUN_OVER;
 }
 
-static long unseen_single(const void *memory)
+static long unseen_single(const void *integrator)
 {
-    const Run *run = memory;
-    const long steps = run->tape.rows || run->envelope.rows ? 0 : unseen_steps(&run->progress.pace);
+    const Integrator *run = integrator;
+    const long steps = run->step_record.rows || run->envelope.rows ? 0 : steps_before_check(&run->progress.monitor);
     /* steps before a check */
     const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
     return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;

@@ -6,7 +6,7 @@
 #define DIGITS_OF_ROWS 1e-10 /* of a coordinate or velocity: that may be rounding, of what flies off many tolerances */
 
 /* How far the end of a step lay from the rows, in tolerances, by what it was and what it is now that it is closed. */
-static Real distance_from_rows(const RunOf *run, const Real *before, const Real *y)
+static Real distance_from_rows(const IntegratorOf *run, const Real *before, const Real *y)
 {
     Real most = real_of(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
@@ -18,4 +18,4 @@ static Real distance_from_rows(const RunOf *run, const Real *before, const Real 
 static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
 /* h rho: the length of a step times the largest rate at which its stages saw rates change. */
-static inline void note_stability(RunOf *run, Real stability) { run->choice.stability = stability; }
+static inline void note_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }

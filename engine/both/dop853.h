@@ -97,7 +97,7 @@ static void dop853_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
 }
 
 /* Hairer's estimate from those of orders 5 and 3, the largest of all components. */
-static Real dop853_error(const RunOf *run, const StepOf *step)
+static Real dop853_error(const IntegratorOf *run, const StepOf *step)
 {
     const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
     Real five = real_of(0.0), three = real_of(0.0);
@@ -116,10 +116,10 @@ static Real dop853_error(const RunOf *run, const StepOf *step)
     return pick(both > 0.0, real_abs(step->h) * five * five / real_sqrt(both), five);
 }
 
-static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y];
-    AsideOf aside;
+    RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0;
     forget_stages(step);
     for (int i = 0; i < N_Y; i++)
@@ -129,15 +129,15 @@ static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         if (s + 1 == DOP853_STAGES)
             for (int i = 0; i < N_Y; i++)
                 y[i] = step->y[i];
-        const int status = rates(run, run->t + dop853_node[s] * h, y, p, step->k[s], &aside);
+        const int status = rates(run, run->t + dop853_node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
-        note_stage(run, step, &aside, dop853_node[s]);
-        note_state(step, y);
+        record_stage(run, step, &rhs, dop853_node[s]);
+        record_stage_state(step, y);
     }
     dop853_stage(DOP853_STAGES, h, run->y, step->k, step->y);
     step->error = dop853_error(run, step);
-    if (is_odd(run, step->error))
+    if (is_not_a_number(run, step->error))
         return NOT_FINITE;
     if (is_refused(run, step))
         return 0;
@@ -157,7 +157,7 @@ static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
 }
 
 /* Three more stages, then the coefficients of the interpolant. */
-static int dop853_dense(RunOf *run, const ParametersOf *p, StepOf *step)
+static int dop853_dense(IntegratorOf *run, const ParametersOf *p, StepOf *step)
 {
     Real (*k)[N_Y] = step->k;
     const Real h = step->h;
@@ -165,9 +165,9 @@ static int dop853_dense(RunOf *run, const ParametersOf *p, StepOf *step)
         k[DOP853_STAGES][i] = step->dy[i];
     for (int s = DOP853_STAGES + 1; s <= DOP853_STAGES + DOP853_MORE; s++) {
         Real y[N_Y];
-        AsideOf aside;
+        RhsOutputsOf rhs;
         dop853_stage(s, h, run->y, k, y);
-        const int status = rates(run, step->t + dop853_node[s] * h, y, p, k[s], &aside);
+        const int status = rates(run, step->t + dop853_node[s] * h, y, p, k[s], &rhs);
         if (status)
             return status;
     }

@@ -1,26 +1,26 @@
 /* What is integrated: coordinates of the tree, their rates, works. */
-IN_BOTH int MOTION(Real t, const Real *y, MemoryOf *memory, const ParametersOf *p, Real *dy, AsideOf *aside)
+IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy, RhsOutputsOf *rhs)
 {
-    const int status = REDUCED_DYNAMICS(t, y, y + N_X, memory, p, dy + N_X, aside);
+    const int status = REDUCED_DYNAMICS(t, y, y + N_X, discrete, p, dy + N_X, rhs);
 #ifdef N_IDLE
     for (int i = 0; i < N_IDLE; i++)
-        aside->g[idle[i]] = real_of(NAN); /* they do not act */
+        rhs->g[idle[i]] = real_of(NAN); /* they do not act */
 #endif
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];
     for (int k = 0; k < N_WORK; k++)
-        dy[2 * N_X + k] = aside->power[k];
+        dy[2 * N_X + k] = rhs->power[k];
     return status;
 }
 
 /* The largest |Phi| and |Phi_dot| so far, with those of an accepted state. */
-IN_BOTH int accept_state(Real t, const Real *y, MemoryOf *memory, const ParametersOf *p, const AsideOf *aside,
-    Real *phi_max, Real *phi_dot_max)
+IN_BOTH int accept_state(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p,
+    const RhsOutputsOf *rhs, Real *phi_max, Real *phi_dot_max)
 {
     Real phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
-    (void)memory, (void)aside;
-    CLOSURES(t, y, memory, p, phi);
-    CLOSURE_RATES(t, y, y + N_X, memory, p, phi_dot);
+    (void)discrete, (void)rhs;
+    CLOSURES(t, y, discrete, p, phi);
+    CLOSURE_RATES(t, y, y + N_X, discrete, p, phi_dot);
     for (int r = 0; r < N_LOOPS; r++) {
         *phi_max = real_max(real_abs(phi[r]), *phi_max);
         *phi_dot_max = real_max(real_abs(phi_dot[r]), *phi_dot_max);

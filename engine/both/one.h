@@ -17,10 +17,10 @@ enum { /* bytes that the processor holds side by side: longer vectors go through
 };
 
 #define Real double
-#define Truth int
-#define RunOf Run
-#define MemoryOf Memory
-#define AsideOf Aside
+#define Mask int
+#define IntegratorOf Integrator
+#define DiscreteStateOf DiscreteState
+#define RhsOutputsOf RhsOutputs
 #define ClearanceOf Clearance
 #define ParametersOf Parameters
 #define StepOf Step
@@ -28,10 +28,10 @@ enum { /* bytes that the processor holds side by side: longer vectors go through
 #define ComplexLinearOf ComplexLinear
 
 /* a where it is true, else b. */
-static inline double pick(int truth, double a, double b) { return truth ? a : b; }
-static inline int is_not(int truth) { return !truth; }
-static inline int any_of(int truth) { return truth != 0; }
-static inline int is_closed(const Latch *latch) { return latch->closed; }
+static inline double pick(int mask, double a, double b) { return mask ? a : b; }
+static inline int is_not(int mask) { return !mask; }
+static inline int any_of(int mask) { return mask != 0; }
+static inline int is_closed(const ContactState *contact) { return contact->closed; }
 static inline double real_of(double x) { return x; }
 static inline double real_max(double x, double y) { return max_of(x, y); }
 static inline double real_min(double x, double y) { return min_of(x, y); }

@@ -2,9 +2,9 @@
  * Back onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v, measured by M. The second time for the
  * velocities at the mended positions. A pivot that vanishes (links in line) leaves the state as it is.
  */
-static void project_rows(RunOf *run, Real t, Real *y, const ParametersOf *p)
+static void project_rows(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
 {
-    Truth open = is_not((Truth){0});
+    Mask open = is_not((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
         Real dq[N_X], dv[N_X], worst;
         open = can_close(run, open, t, y, p, dq, dv, &worst);

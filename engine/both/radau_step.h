@@ -3,7 +3,7 @@
  */
 
 /* Guesses of the stages, less the beginning: as the last step's motion goes on, or as rates at the beginning lead. */
-static void RADAU(guess)(const RunOf *run, Real h, Real (*z)[N_Y])
+static void RADAU(guess)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
 {
     const Real H = run->newton.last_h;
     for (int i = 0; i < N_Y; i++) {
@@ -13,13 +13,13 @@ static void RADAU(guess)(const RunOf *run, Real h, Real (*z)[N_Y])
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
             const Real led = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
-            z[s][i] = pick(run->newton.goes_on, x * (d1 + x * (two + x * three)), led);
+            z[s][i] = pick(run->newton.continues, x * (d1 + x * (two + x * three)), led);
         }
     }
 }
 
 /* One real system and the complex ones, factorized for a step. */
-static int RADAU(factor)(RunOf *run, Real h, ComplexLinearOf *pairs, const ParametersOf *p)
+static int RADAU(factor)(IntegratorOf *run, Real h, ComplexLinearOf *pairs, const ParametersOf *p)
 {
     int status = make_linear(run, h * (1.0 / RADAU_TABLE.gamma), p);
     for (int k = 0; 2 * k + 1 < RADAU_STAGES && !status; k++) {
@@ -30,7 +30,7 @@ static int RADAU(factor)(RunOf *run, Real h, ComplexLinearOf *pairs, const Param
 }
 
 /* What an iteration adds to the stages z, from their rates f. */
-static void RADAU(change)(const RunOf *run, Real h, const ComplexLinearOf *pairs, Real (*f)[N_Y], Real (*z)[N_Y],
+static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf *pairs, Real (*f)[N_Y], Real (*z)[N_Y],
     Real (*change)[N_Y])
 {
     Real w[RADAU_STAGES][N_Y], r[RADAU_STAGES][N_Y], both[2 * N_Y], u[2 * N_Y];
@@ -81,25 +81,25 @@ static void RADAU(change)(const RunOf *run, Real h, const ComplexLinearOf *pairs
  * Rates f of the stages at z; where they are still looked for, what is seen there. Returned in `apart`: the largest
  * change of a film's force at a stage since the iteration before, as a share of the largest force in this step.
  */
-static int RADAU(rates)(RunOf *run, Real h, Truth active, Real (*z)[N_Y], const ParametersOf *p, StepOf *step,
+static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], const ParametersOf *p, StepOf *step,
     Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *apart)
 {
     Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
-    AsideOf aside;
+    RhsOutputsOf rhs;
     begin_pass(run, step, active, RADAU_STAGES);
     for (int i = 0; i < N_CLEARANCES; i++) {
-        most[i] = real_abs(run->aside.clearance[i].Fx) + real_abs(run->aside.clearance[i].Fy);
+        most[i] = real_abs(run->rhs.clearance[i].Fx) + real_abs(run->rhs.clearance[i].Fy);
         change[i] = real_of(0.0);
     }
     for (int s = 0; s < RADAU_STAGES; s++) {
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + z[s][i];
-        const int status = rates(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &aside);
+        const int status = rates(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
         if (status)
             return status;
-        note_pass(run, step, active, y, &aside, RADAU_TABLE.node[s]);
+        note_pass(run, step, active, y, &rhs, RADAU_TABLE.node[s]);
         for (int i = 0; i < N_CLEARANCES; i++) {
-            const Real Fx = aside.clearance[i].Fx, Fy = aside.clearance[i].Fy;
+            const Real Fx = rhs.clearance[i].Fx, Fy = rhs.clearance[i].Fy;
             if (!has_film(i))
                 continue;
             change[i] = real_max(real_abs(Fx - force[i][s][0]) + real_abs(Fy - force[i][s][1]), change[i]);
@@ -116,8 +116,8 @@ static int RADAU(rates)(RunOf *run, Real h, Truth active, Real (*z)[N_Y], const 
 }
 
 /* The stages of a step, in step->k; `lost`: where they were not found. */
-static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const ParametersOf *p, StepOf *step,
-    Truth *lost)
+static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs, const ParametersOf *p, StepOf *step,
+    Mask *lost)
 {
     Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), apart;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
@@ -131,8 +131,8 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         rounded = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounded);
     rounded *= RADAU_ROUNDED;
     const Real enough = real_max(pick(run->control.accept <= DBL_MAX, real_of(RADAU_ENOUGH), rounded), rounded);
-    Truth active = is_not((Truth){0});
-    *lost = (Truth){0};
+    Mask active = is_not((Mask){0});
+    *lost = (Mask){0};
     const int controlled = any_of(run->control.accept <= DBL_MAX);
     const int patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
     const double hope = controlled ? 0.9 : 2.0; /* a step that has to be made gets over a bad guess */
@@ -148,9 +148,9 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
                 way = real_max(real_abs(change[s][i]) * run->norm.weight[i], way);
             }
         way = pick(active, way, real_of(0.0));
-        if (is_odd(run, way))
+        if (is_not_a_number(run, way))
             return NOT_FINITE;
-        Truth found = active & (way <= rounded);
+        Mask found = active & (way <= rounded);
         if (pass > 0)
             falls = pick(active & is_not(found), way / before, falls);
         /* a film's force is linear in velocities by sectors of their direction: the first change may miss the sector */
@@ -171,7 +171,7 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
 }
 
 /* The error of a step from rates at its beginning and from what its stages add: a size for each component. */
-static Real RADAU(error)(const RunOf *run, Real h, const Real *dy, const Real *bend, Real *r, Real *u)
+static Real RADAU(error)(const IntegratorOf *run, Real h, const Real *dy, const Real *bend, Real *r, Real *u)
 {
     Real most = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
@@ -182,12 +182,12 @@ static Real RADAU(error)(const RunOf *run, Real h, const Real *dy, const Real *b
     return most;
 }
 
-static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real by = RADAU_TABLE.gamma / h;
     Real r[N_Y], u[N_Y], bend[N_Y], change = real_of(0.0), way = real_of(0.0);
     ComplexLinearOf pairs[RADAU_STAGES / 2];
-    Truth lost;
+    Mask lost;
     step->t = run->t, step->h = h, step->dense_ready = 0;
     int status = RADAU(factor)(run, h, pairs, p);
     if (status)
@@ -213,19 +213,19 @@ static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         way = real_max(real_abs(u[i]) * run->norm.weight[i], way);
     }
     note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
-    const Truth large = step->error > run->control.accept;
+    const Mask large = step->error > run->control.accept;
     if (any_of(large)) { /* once more, at a state that errs as much: less is left of what is stiff and not wrong */
         Real y[N_Y], dy[N_Y];
-        AsideOf aside;
+        RhsOutputsOf rhs;
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + u[i];
-        status = rates(run, run->t, y, p, dy, &aside);
+        status = rates(run, run->t, y, p, dy, &rhs);
         if (status)
             return status;
         count_rates(run, large, 1);
         step->error = pick(large, RADAU(error)(run, h, dy, bend, r, u), step->error);
     }
-    if (is_odd(run, step->error))
+    if (is_not_a_number(run, step->error))
         return NOT_FINITE;
     return is_refused(run, step) ? 0 : finish_step(run, step, p);
 }

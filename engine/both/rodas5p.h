@@ -95,11 +95,11 @@ static void rodas5p_right(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
     }
 }
 
-static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real hg = h * RODAS5P_GAMMA;
     Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = real_of(0.0), way = real_of(0.0);
-    AsideOf aside;
+    RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0;
     forget_stages(step);
     int status = make_linear(run, hg, p);
@@ -112,10 +112,10 @@ static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
             for (int i = 0; i < N_Y; i++)
                 before[i] = f[i];
             rodas5p_stage(s, run->y, step->k, y);
-            status = rates(run, run->t + rodas5p_node[s] * h, y, p, f, &aside);
+            status = rates(run, run->t + rodas5p_node[s] * h, y, p, f, &rhs);
             if (status)
                 return status;
-            note_stage(run, step, &aside, rodas5p_node[s]);
+            record_stage(run, step, &rhs, rodas5p_node[s]);
         }
         rodas5p_right(s, h, f, step->k, r);
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
@@ -131,7 +131,7 @@ static int rodas5p_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         step->y[i] = y[i] + step->k[7][i];
     for (int i = 0; i < N_Y; i++)
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
-    if (is_odd(run, step->error))
+    if (is_not_a_number(run, step->error))
         return NOT_FINITE;
     note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     return is_refused(run, step) ? 0 : finish_step(run, step, p);

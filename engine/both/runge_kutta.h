@@ -31,10 +31,10 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
         701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0}};
 
 /* A step that is tried; k[0] is left over from the step before. Rates at its end are those of the next step's begin. */
-static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
+static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y], change = real_of(0.0), way = real_of(0.0), worst = real_of(0.0);
-    AsideOf aside;
+    RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0, step->error = worst;
     forget_stages(step);
     for (int i = 0; i < N_Y; i++)
@@ -50,11 +50,11 @@ static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const Paramete
         }
         if (s == of->stages)
             break;
-        const int status = rates(run, run->t + of->node[s] * h, y, p, step->k[s], &aside);
+        const int status = rates(run, run->t + of->node[s] * h, y, p, step->k[s], &rhs);
         if (status)
             return status;
-        note_stage(run, step, &aside, of->node[s]);
-        note_state(step, y);
+        record_stage(run, step, &rhs, of->node[s]);
+        record_stage_state(step, y);
     }
     const int status = finish_step(run, step, p);
     if (status)
@@ -66,7 +66,7 @@ static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const Paramete
         worst = real_max(real_abs(h * slope) * run->norm.weight[i], worst);
     }
     step->error = real_max(step->error, worst);
-    if (is_odd(run, step->error))
+    if (is_not_a_number(run, step->error))
         return NOT_FINITE;
     if (is_refused(run, step))
         return 0;
@@ -81,7 +81,7 @@ static int runge_kutta_try(RunOf *run, const Tableau *of, Real h, const Paramete
 }
 
 /* The coefficients of the interpolant, from the stages that there are. */
-static inline void runge_kutta_dense(const RunOf *run, const Tableau *of, StepOf *step)
+static inline void runge_kutta_dense(const IntegratorOf *run, const Tableau *of, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {
         const Real change = step->y[i] - run->y[i];

@@ -1,5 +1,5 @@
 /* The largest speed so far, of lengths and of angles. */
-static void note_speed(RunOf *run)
+static void note_speed(IntegratorOf *run)
 {
     for (int k = 0; k < N_X; k++)
         run->norm.speed[is_angle[k]] = real_max(run->norm.speed[is_angle[k]], real_abs(run->y[N_X + k]));

@@ -2,22 +2,22 @@
  * Inner states of laws, which lie behind the works in what is integrated: laws read them where they read the latch, and
  * say their rates beside their forces.
  */
-static inline void show_states(MemoryOf *memory, const Real *y)
+static inline void show_states(DiscreteStateOf *discrete, const Real *y)
 {
 #if LAW_STATES
     for (int k = 0; k < N_STATES; k++)
-        memory->latch[k / LAW_STATES].state[k % LAW_STATES] = y[FIRST_STATE + k];
+        discrete->contact[k / LAW_STATES].state[k % LAW_STATES] = y[FIRST_STATE + k];
 #else
-    (void)memory, (void)y;
+    (void)discrete, (void)y;
 #endif
 }
 
-static inline void rates_of_states(const AsideOf *aside, Real *dy)
+static inline void rates_of_states(const RhsOutputsOf *rhs, Real *dy)
 {
 #if LAW_STATES
     for (int k = 0; k < N_STATES; k++)
-        dy[FIRST_STATE + k] = aside->clearance[k / LAW_STATES].state_rate[k % LAW_STATES];
+        dy[FIRST_STATE + k] = rhs->clearance[k / LAW_STATES].state_rate[k % LAW_STATES];
 #else
-    (void)aside, (void)dy;
+    (void)rhs, (void)dy;
 #endif
 }

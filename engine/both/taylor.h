@@ -12,7 +12,7 @@ enum { TAYLOR_DEFECT = 5 /* log2 of the defect, in tolerances, that the end of a
  * The longest step whose last two terms are no larger than the tolerance. Symmetry may make them small, or zero: the
  * defect at the end of the step shows that.
  */
-static Real taylor_reach(const RunOf *run)
+static Real taylor_reach(const IntegratorOf *run)
 {
     const int n = run->series.order;
     const Real *last = run->series.terms[n], *before = run->series.terms[n - 1];
@@ -25,7 +25,7 @@ static Real taylor_reach(const RunOf *run)
 }
 
 /* The same by all terms: each may exceed the tolerance by a fixed factor for each order more. */
-static Real taylor_reach_of_all(const RunOf *run)
+static Real taylor_reach_of_all(const IntegratorOf *run)
 {
     Real steepest = real_of(-INFINITY);
     for (int k = 1; k <= run->series.order; k++) {
@@ -38,7 +38,7 @@ static Real taylor_reach_of_all(const RunOf *run)
 }
 
 /* The state so long after that of the run, and its rate of change: even powers and odd ones, each with its slope. */
-static inline void taylor_both(const RunOf *run, Real h, Real *y, Real *rate)
+static inline void taylor_both(const IntegratorOf *run, Real h, Real *y, Real *rate)
 {
     const int top = run->series.order - run->series.order % 2;
     const Real square = h * h;
@@ -64,7 +64,7 @@ static inline void taylor_both(const RunOf *run, Real h, Real *y, Real *rate)
 }
 
 /* The state alone. */
-static inline void taylor_at(const RunOf *run, Real h, Real *y)
+static inline void taylor_at(const IntegratorOf *run, Real h, Real *y)
 {
     Real rate[N_Y];
     taylor_both(run, h, y, rate);
@@ -73,7 +73,7 @@ static inline void taylor_at(const RunOf *run, Real h, Real *y)
 /*
  * The defect h |y' - f| of a step at its end, in the error norm of velocities: as a share of what it may be.
  */
-static Real taylor_defect(const RunOf *run, const StepOf *step, const Real *rate)
+static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
 {
     const int few = run->series.order - 4;
     Real most = real_of(0.0);
@@ -86,7 +86,7 @@ static Real taylor_defect(const RunOf *run, const StepOf *step, const Real *rate
  * A step of length h, or of the longest that the series is good for: with a fixed one nobody asks. Where its defect is
  * too large, it is made once more with a length from all terms.
  */
-static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
+static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const int free = !(run->control.fixed > 0.0);
     Real rate[N_Y], defect;
@@ -106,7 +106,7 @@ static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
         if (!free)
             return status;
         defect = status ? real_of(INFINITY) : taylor_defect(run, step, rate);
-        const Truth large = defect > 1.0;
+        const Mask large = defect > 1.0;
         if (again || !any_of(large))
             break;
         run->series.reach = pick(large, real_min(run->series.reach, taylor_reach_of_all(run)), run->series.reach);

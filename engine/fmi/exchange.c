@@ -7,12 +7,12 @@
 #define DRIFTS 1e-11 /* of the mechanism's size or 1 rad: how far rows may open before they are closed */
 
 /* Corners that lie on their other side go there: those whose branches meet, or all. Whether there were any. */
-static int turn_crossed(Model *m, const Aside *aside, int all)
+static int turn_crossed(Model *m, const RhsOutputs *rhs, int all)
 {
     int some = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        if ((all || meets[k]) && m->memory.side[k] * aside->g[k] < 0.0) {
-            m->memory.side[k] = -m->memory.side[k];
+        if ((all || meets[k]) && m->discrete.branch[k] * rhs->g[k] < 0.0) {
+            m->discrete.branch[k] = -m->discrete.branch[k];
             some = 1;
         }
     return some;
@@ -23,13 +23,13 @@ static int turn_crossed(Model *m, const Aside *aside, int all)
  * expressions, whose branches may lie apart: an importer's step sees one smooth function. Branches of contact laws
  * meet, and are those of the state: a slip that stays by a corner would be an event again and again.
  */
-static int exchange_rates(Model *m, double *dx, Aside *aside)
+static int exchange_rates(Model *m, double *dx, RhsOutputs *rhs)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        Memory now = m->memory;
-        status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
-        changed = now.held && turn_crossed(m, aside, 0);
+        DiscreteState now = m->discrete;
+        status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, rhs);
+        changed = now.held && turn_crossed(m, rhs, 0);
     }
     return status;
 }
@@ -40,7 +40,7 @@ static int note_nominals(Model *m)
     double mass[N_Q], all[N_S], energy = 0.0;
     int more = 0;
     mass_matrix((const Parameters *)m->p, mass);
-    to_absolute(m->t, m->x, &m->memory, (const Parameters *)m->p, all);
+    to_absolute(m->t, m->x, &m->discrete, (const Parameters *)m->p, all);
     for (int k = 0; k < N_Q; k++)
         energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
@@ -62,8 +62,8 @@ static int note_nominals(Model *m)
 static int nominals_at_start(Model *m, const double *least)
 {
     double dx[N_Y], mass[N_Q], rate = 0.0, energy = 0.0;
-    Aside aside;
-    const int status = exchange_rates(m, dx, &aside);
+    RhsOutputs rhs;
+    const int status = exchange_rates(m, dx, &rhs);
     for (int k = 0; k < N_X && !status; k++) {
         const double way = least[fmu_is_angle[k]];
         rate = fmax(rate, fmax(fabs(dx[k]) / way, sqrt(fabs(dx[N_X + k]) / way)));
@@ -80,16 +80,16 @@ static int nominals_at_start(Model *m, const double *least)
     return status;
 }
 
-static void remember(Model *m) { read_memory(m->latched, &m->memory); }
+static void remember(Model *m) { read_discrete_state(m->latched, &m->discrete); }
 
 /* Absolute coordinates from what is integrated, or the other way in co-simulation. */
 static void exchange_places(Model *m)
 {
     if (m->exchange) {
-        to_absolute(m->t, m->x, &m->memory, (const Parameters *)m->p, m->y);
+        to_absolute(m->t, m->x, &m->discrete, (const Parameters *)m->p, m->y);
     } else {
         remember(m);
-        from_absolute(m->t, m->y, &m->memory, (const Parameters *)m->p, m->x);
+        from_absolute(m->t, m->y, &m->discrete, (const Parameters *)m->p, m->x);
     }
 }
 
@@ -99,7 +99,7 @@ static double closes(Model *m, int moves)
     double most = 0.0;
     for (int pass = 0; pass < (moves ? 3 : 1) && N_LOOPS > 0; pass++) {
         double dq[N_X], dv[N_X], worst;
-        Memory now = m->memory;
+        DiscreteState now = m->discrete;
         if (closing_of_state(m->t, m->x, &now, (const Parameters *)m->p, dq, dv, &worst))
             return -1.0;
         for (int k = 0; k < N_X; k++) {
@@ -113,24 +113,24 @@ static double closes(Model *m, int moves)
     return most;
 }
 
-/* Indicator k of the state that `aside` is of; a corner that does not act is as far from its zero as it may be. */
-static double indicator_of(const Model *m, const Aside *aside, int k)
+/* Indicator k of the state that `rhs` is of; a corner that does not act is as far from its zero as it may be. */
+static double indicator_of(const Model *m, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
-        return aside->clearance[k].delta;
+        return rhs->clearance[k].delta;
     const int corner = fmu_jumps[k - N_CLEARANCES];
-    return isnan(aside->g[corner]) ? m->memory.side[corner] : aside->g[corner];
+    return isnan(rhs->g[corner]) ? m->discrete.branch[corner] : rhs->g[corner];
 }
 
 /* Functions of corners that are zero to the bit become what they are a moment later. */
-static int look_ahead(Model *m, const double *dx, Aside *aside)
+static int look_ahead(Model *m, const double *dx, RhsOutputs *rhs)
 {
     int status = 0, some = 0;
     double x[N_Y], scrap[N_Y];
     const double t = m->t, moment = 1e-9 * fmax(1e-3, fabs(t));
-    Aside later;
+    RhsOutputs later;
     for (int k = 0; k < N_SWITCHES; k++)
-        some |= aside->g[k] == 0.0;
+        some |= rhs->g[k] == 0.0;
     if (!some)
         return 0;
     memcpy(x, m->x, sizeof x);
@@ -141,8 +141,8 @@ static int look_ahead(Model *m, const double *dx, Aside *aside)
     memcpy(m->x, x, sizeof x);
     m->t = t;
     for (int k = 0; k < N_SWITCHES && !status; k++)
-        if (aside->g[k] == 0.0)
-            aside->g[k] = later.g[k];
+        if (rhs->g[k] == 0.0)
+            rhs->g[k] = later.g[k];
     return status;
 }
 
@@ -150,10 +150,10 @@ static int look_ahead(Model *m, const double *dx, Aside *aside)
 static int switches(Model *m)
 {
     double dx[N_Y];
-    Aside aside;
-    int status = exchange_rates(m, dx, &aside), changed = 1;
+    RhsOutputs rhs;
+    int status = exchange_rates(m, dx, &rhs), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
-        const Clearance *joint = &aside.clearance[i];
+        const Clearance *joint = &rhs.clearance[i];
         const int touches = !isnan(m->latched[i]);
         /* importers come to zero itself: it is what it becomes */
         const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
@@ -164,14 +164,14 @@ static int switches(Model *m)
         m->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
-        status = look_ahead(m, dx, &aside);
+        status = look_ahead(m, dx, &rhs);
     for (int k = 0; k < N_SWITCHES && !status; k++)
-        m->memory.side[k] = aside.g[k] < 0.0 ? -1.0 : 1.0;
+        m->discrete.branch[k] = rhs.g[k] < 0.0 ? -1.0 : 1.0;
     remember(m);
-    m->memory.held = 1;
+    m->discrete.held = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        status = exchange_rates(m, dx, &aside);
-        changed = !status && turn_crossed(m, &aside, 1);
+        status = exchange_rates(m, dx, &rhs);
+        changed = !status && turn_crossed(m, &rhs, 1);
     }
     return status;
 }
@@ -198,11 +198,11 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
 {
     Model *m = instance;
     double dx[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     (void)no_return;
-    if (N_CLEARANCES && !exchange_rates(m, dx, &aside))
+    if (N_CLEARANCES && !exchange_rates(m, dx, &rhs))
         for (int i = 0; i < N_CLEARANCES; i++)
-            if (m->state[i] == CODE_IMPACT && aside.clearance[i].deltadot <= 0.0)
+            if (m->state[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
                 m->state[i] = CODE_CONTACT;
     *event = closes(m, 0) > DRIFTS;
     *terminate = false;
@@ -250,10 +250,10 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float6
 FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 dx[], size_t n)
 {
     Model *m = instance;
-    Aside aside;
+    RhsOutputs rhs;
     if (counted(m, n, N_Y))
         return fmi3Error;
-    if (exchange_rates(m, dx, &aside))
+    if (exchange_rates(m, dx, &rhs))
         return fmi3Discard;
     for (int k = 0; k < N_Y; k++)
         if (!isfinite(dx[k]))
@@ -265,13 +265,13 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
 {
     Model *m = instance;
     double dx[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     if (counted(m, n, N_INDICATORS))
         return fmi3Error;
-    if (N_INDICATORS && exchange_rates(m, dx, &aside))
+    if (N_INDICATORS && exchange_rates(m, dx, &rhs))
         return fmi3Discard;
     for (int k = 0; k < N_INDICATORS; k++)
-        z[k] = indicator_of(m, &aside, k);
+        z[k] = indicator_of(m, &rhs, k);
     return fmi3OK;
 }
 

@@ -27,7 +27,7 @@ static Model *made(fmi3String name, fmi3String token, fmi3InstanceEnvironment en
 {
     if (!token || strcmp(token, FMU_TOKEN)) {
         if (tell)
-            tell(environment, fmi3Error, "logStatusError", "the token is that of another model");
+            unload_quiet_lane(environment, fmi3Error, "logStatusError", "the token is that of another model");
         return NULL;
     }
     Model *m = calloc(1, sizeof(Model));

@@ -24,14 +24,14 @@ typedef struct {
     unsigned char is_given[FMU_SLOTS];
     double t, t_end, rtol;
     int phase, rtol_given; /* one of the enum's; whether the tolerance was set: an importer's own does not change it */
-    double y[N_S], latched[FMU_AT_LEAST(N_MEMORY)], a[FMU_AT_LEAST(N_Q)];
+    double y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)], a[FMU_AT_LEAST(N_Q)];
     signed char state[FMU_AT_LEAST(N_CLEARANCES)];
     int moved, begun, ended; /* whether outputs are of another state; the run has begun; an event has ended it */
     Followed out;
 #if FMU_EXCHANGE
     int exchange; /* whether others integrate */
     double x[N_Y], nominal[N_Y], extent;
-    Memory memory;
+    DiscreteState discrete;
 #endif
     size_t size;
     void *run;
@@ -55,7 +55,7 @@ static fmi3Status fails(const Model *m, const char *what, int status)
         : status == CHATTERING ? ": contacts, frictions or corners change without end"
         : status == STALLED || status == TOO_SMALL ? ": no step is small enough"
         : status == NOT_FINITE || status == UNBOUNDED ? ": it is no longer finite"
-        : status == JAMMED ? ": friction jams a contact" : "";
+        : status == FRICTION_INCONSISTENT ? ": friction jams a contact" : "";
     if (status)
         snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);
     else
@@ -98,10 +98,10 @@ static fmi3Status begin(Model *m)
         memcpy(m->y, fmu_start, sizeof fmu_start);
         for (int k = 0; k < FMU_SLOTS; k++)
             some |= m->is_given[k];
-        if (some && gudgeon_follow(m->t, m->p, size, q, v))
+        if (some && gudgeon_continuation(m->t, m->p, size, q, v))
             return fails(m, "the linkage does not close with these parameters", 0);
     }
-    for (int k = 0; k < N_MEMORY; k++)
+    for (int k = 0; k < N_DISCRETE; k++)
         m->latched[k] = NAN;
     free(m->run);
 #if INTEGRATES
@@ -120,7 +120,7 @@ static fmi3Status begin(Model *m)
         scale[N_X + k] = FMU_FILM ? fmin(m->rtol, FMU_FELT * least[1]) : m->rtol;
     }
     const int fine = m->rtol < FMU_FINE;
-    double y[N_S], latched[FMU_AT_LEAST(N_MEMORY)];
+    double y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
     memcpy(y, m->y, sizeof y);
     memcpy(latched, m->latched, sizeof latched);
     /* contacts and modes of friction that it begins with; then the run itself, whose lengths its end decides */
@@ -136,19 +136,19 @@ static fmi3Status begin(Model *m)
     m->ended = 0;
 #if FMU_EXCHANGE
     m->extent = size;
-    memset(&m->memory, 0, sizeof m->memory);
-    read_memory(m->latched, &m->memory);
-    from_absolute(m->t, m->y, &m->memory, (const Parameters *)m->p, m->x);
+    memset(&m->discrete, 0, sizeof m->discrete);
+    read_discrete_state(m->latched, &m->discrete);
+    from_absolute(m->t, m->y, &m->discrete, (const Parameters *)m->p, m->x);
     const int odd = nominals_at_start(m, least);
     if (odd)
         return fails(m, "the motion cannot begin", odd);
 #endif
 #else
-    m->size = gudgeon_course_size();
+    m->size = gudgeon_kinematic_size();
     m->run = calloc(1, m->size);
     if (!m->run)
         return fails(m, "there is no memory", 0);
-    gudgeon_course_begin(m->run, FMU_REACH, size, m->t_end, NULL, NULL, INFINITY);
+    gudgeon_kinematic_begin(m->run, FMU_REACH, size, m->t_end, NULL, NULL, INFINITY);
 #endif
     m->begun = 1;
     m->moved = 1;
@@ -159,7 +159,7 @@ static fmi3Status begin(Model *m)
 /* Empty the lists of contacts and events of a run: an FMU reports neither. */
 static void discard_lists(void *run)
 {
-    double numbers[N_IMPACT_COLUMNS], t, y[N_S], latched[FMU_AT_LEAST(N_MEMORY)];
+    double numbers[N_IMPACT_COLUMNS], t, y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
     signed char state[FMU_AT_LEAST(N_CLEARANCES)];
     int number;
     while (gudgeon_run_impacts(run, 0, 1, numbers, &number)

@@ -40,8 +40,8 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
         if (most == 0.0)
             continue;
         memcpy(kept, m->x, sizeof kept);
-        for (int side = 0; side < 2; side++) {
-            const double h = (side ? 1e-5 : -1e-5) / most;
+        for (int branch = 0; branch < 2; branch++) {
+            const double h = (branch ? 1e-5 : -1e-5) / most;
             for (int j = 0; j < N_Y; j++)
                 m->x[j] = kept[j] + h * along[j];
             m->moved = 1;
@@ -50,7 +50,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
             m->moved = 1;
             if (status)
                 return fails(m, "a constraint row depends on others", status);
-            ends[side] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+            ends[branch] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
         }
         sensitivity[k] = (ends[1] - ends[0]) * most / 2e-5;
     }

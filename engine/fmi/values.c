@@ -33,15 +33,15 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
         } else if ((r >= VR_RATES && r < VR_RATES + N_Y)
             || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
             double dx[N_Y];
-            Aside aside;
+            RhsOutputs rhs;
             if (!m->begun && begin(m))
                 return fmi3Error;
             if (!m->exchange)
                 exchange_places(m);
-            const int status = exchange_rates(m, dx, &aside);
+            const int status = exchange_rates(m, dx, &rhs);
             if (status)
                 return fails(m, "a constraint row depends on others", status);
-            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES] : indicator_of(m, &aside, (int)(r - VR_INDICATORS));
+            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES] : indicator_of(m, &rhs, (int)(r - VR_INDICATORS));
 #endif
         } else {
             return fails(m, "a variable that there is not", (int)r);

@@ -27,7 +27,7 @@ static int walk_to(Course *course, double t, const Position *from, Position *to)
     for (int halvings = 0; to->t != t;) {
         Position next;
         double moved;
-        const int status = place_at(course, fabs(h) < fabs(t - to->t) ? to->t + h : t, to, &next, &moved);
+        const int status = bracket_point_at(course, fabs(h) < fabs(t - to->t) ? to->t + h : t, to, &next, &moved);
         if (status == STOPPED)
             return status;
         if (!status && moved <= course->reach && bend_between(to, &next, course->extent) <= 0.002 * course->reach) {
@@ -38,7 +38,7 @@ static int walk_to(Course *course, double t, const Position *from, Position *to)
             return status ? status : NEWTON_FAILED;
         h *= 0.5;
     }
-    return settle(course, to);
+    return update_modes(course, to);
 }
 
 /* node[2 j] and node[2 j + 1] lie j + 1 distances d before and after t. */
@@ -117,7 +117,7 @@ static int pass_change_point(Course *course, double t, const Position *here, Pos
 /* From one place to another near by, also where rows depend on each other there. */
 static int place_near(Course *course, double t, const Position *from, Position *to, double *moved)
 {
-    const int status = place_at(course, t, from, to, moved);
+    const int status = bracket_point_at(course, t, from, to, moved);
     if (!status || status == STOPPED || pass_change_point(course, t, from, to))
         return status;
     *moved = 0.0;

@@ -17,10 +17,10 @@ typedef struct {
 
 static void look(Course *course, View *view)
 {
-    Aside aside = {0};
+    RhsOutputs rhs = {0};
     double a[N_Q];
-    (void)solve_motion(course, &view->at, a, &aside); /* told before, where it cannot be solved */
-    memcpy(view->event, aside.event, sizeof view->event);
+    (void)solve_motion(course, &view->at, a, &rhs); /* told before, where it cannot be solved */
+    memcpy(view->event, rhs.event, sizeof view->event);
     view->has_error = 0;
 }
 
@@ -103,16 +103,16 @@ static double uncertainty(const Course *course, View *here, int i)
     speeds_of(at, course->extent, speed);
     for (int k = 0; k < N_Q; k++)
         of_v[k] += ROUNDINGS * DBL_EPSILON * speed[k % 3 == 2];
-    error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(Memory){0}, course->p, here->error);
+    error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, course->p, here->error);
     here->has_error = 1;
     return here->error[N_WATCHED - N_USER_EVENTS + i];
 }
 
-/* The value of event function i, last on `side`; 0 where it is below its uncertainty. */
-static double resolved(const Course *course, View *here, int i, int side)
+/* The value of event function i, last on `branch`; 0 where it is below its uncertainty. */
+static double resolved(const Course *course, View *here, int i, int branch)
 {
     const double f = here->event[i];
-    return side * f > 0.0 || !(fabs(f) <= uncertainty(course, here, i)) ? f : 0.0;
+    return branch * f > 0.0 || !(fabs(f) <= uncertainty(course, here, i)) ? f : 0.0;
 }
 
 /*
@@ -122,7 +122,7 @@ static double resolved(const Course *course, View *here, int i, int side)
  */
 typedef struct {
     Course *course;
-    signed char *side;
+    signed char *branch;
     double *t;
     int *event;
     long found, capacity;
@@ -216,7 +216,7 @@ static int compare(Search *of, View *b)
             status = isnan(a->event[i]) ? 0 : locate(of, i, b, &t, &pole);
             if (!status)
                 status = note(of, first, t, i + N_USER_EVENTS);
-        } else if (event_crosses(i, &of->side[i], resolved(of->course, b, i, of->side[i]))) {
+        } else if (event_crosses(i, &of->branch[i], resolved(of->course, b, i, of->branch[i]))) {
             status = locate(of, i, b, &t, &pole);
             if (!status && !pole && t - of->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
                 status = note(of, first, t, i);
@@ -269,13 +269,13 @@ static int is_open(Search *of, View *b)
     const double h = b->at.t - a->at.t;
     Range q[N_Q], v[N_Q], out[N_WATCHED];
     bound_motion(&a->at, &b->at, q, v);
-    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(Memory){0}, of->course->p, out);
+    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(DiscreteState){0}, of->course->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Range f = out[N_WATCHED - N_USER_EVENTS + i];
-        const double side = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
+        const double branch = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == of->h)
             of->most[i] = max_of(-f.lo, f.hi);
-        if (zero_verdict(side < 0.0 ? range_negative(f) : f, side * a->event[i], side * b->event[i], 1.0, 0) < 0
+        if (zero_verdict(branch < 0.0 ? range_negative(f) : f, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
             && !is_held(of, b, i, f))
             return 1;
     }
@@ -324,13 +324,13 @@ static int search(Search *of, double t1)
  * EVENTS_FULL where there was no room for those of an interval (`done` intervals are complete), or why the motion
  * could not be followed.
  */
-int gudgeon_kinematic_events(void *memory, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *side, long capacity, double *at, int *event, long *found,
+int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
+    const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
     long *done)
 {
-    Course *course = memory;
+    Course *course = integrator;
     View end[DEEPEST + 2];
-    Search of = {.course = course, .side = side, .t = at, .event = event, .capacity = capacity, .start = start,
+    Search of = {.course = course, .branch = branch, .t = at, .event = event, .capacity = capacity, .start = start,
         .stop = stop, .end = end};
     course->p = (const Parameters *)parameters;
     for (*done = 0; *done < n; ++*done) {
@@ -340,15 +340,15 @@ int gudgeon_kinematic_events(void *memory, long n, const double *t, const double
             return status;
         look(course, &of.here);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)event_crosses(i, &side[i], side[i] ? 0.0 : resolved(course, &of.here, i, 0));
-            sides[i] = side[i]; /* the first one, where there was none */
+            (void)event_crosses(i, &branch[i], branch[i] ? 0.0 : resolved(course, &of.here, i, 0));
+            sides[i] = branch[i]; /* the first one, where there was none */
         }
         *found = of.found;
         status = search(&of, t[*done + 1]);
-        if (course->asked.stop)
+        if (course->cancellation.stop)
             status = STOPPED; /* what was found in this interval means nothing */
         if (status == EVENTS_FULL || status == STOPPED)
-            memcpy(side, sides, sizeof sides);
+            memcpy(branch, sides, sizeof sides);
         else
             *found = of.found;
         if (status)

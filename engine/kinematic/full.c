@@ -1,10 +1,10 @@
 /* The closed linkage in absolute coordinates. */
 
 /* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
-static int solve_motion(Course *course, const Position *here, double *a, Aside *aside)
+static int solve_motion(Course *course, const Position *here, double *a, RhsOutputs *rhs)
 {
-    const Memory memory = {.asked = &course->asked, USUAL_SHARES};
-    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &memory, course->p, a, aside);
+    const DiscreteState discrete = {.cancellation = &course->cancellation, USUAL_SHARES};
+    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &discrete, course->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }
 
@@ -53,7 +53,7 @@ static int velocities(double t, const double *q, const Parameters *p, double *v)
 }
 
 /* From one place to another near by; accelerations come with `settle`. */
-static int place_at(const Course *course, double t, const Position *from, Position *to, double *moved)
+static int bracket_point_at(const Course *course, double t, const Position *from, Position *to, double *moved)
 {
     *moved = 0.0;
     to->t = t;
@@ -65,13 +65,13 @@ static int place_at(const Course *course, double t, const Position *from, Positi
 }
 
 /* What a sample has beside positions and velocities. */
-static int settle(Course *course, Position *here)
+static int update_modes(Course *course, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
-    Aside aside;
+    RhsOutputs rhs;
     if (here->interpolated)
         return 0;
-    const int status = solve_motion(course, here, here->a, &aside);
+    const int status = solve_motion(course, here, here->a, &rhs);
     if (status)
         return status;
     constraints(beyond_jump(here->t), here->q, course->p, phi);
@@ -79,7 +79,7 @@ static int settle(Course *course, Position *here)
     for (int r = 0; r < N_ALL_ROWS; r++)
         here->phi = larger(here->phi, fabs(phi[r]));
     for (int r = 0; r < N_ROWS; r++)
-        here->phi_dot = larger(here->phi_dot, fabs(aside.phi_dot[r]));
+        here->phi_dot = larger(here->phi_dot, fabs(rhs.phi_dot[r]));
     return 0;
 }
 
@@ -92,5 +92,5 @@ static int begin(Course *course, double t, const double *q, const double *v, Pos
     memcpy(here->v, v, sizeof here->v);
     constraints(beyond_jump(t), q, course->p, phi); /* rows may depend on each other there */
     here->left = project(beyond_jump(t), q, phi, course->p, step) ? INFINITY : 0.0;
-    return settle(course, here);
+    return update_modes(course, here);
 }

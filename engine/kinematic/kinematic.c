@@ -2,7 +2,7 @@
  * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
  * is followed from sample to sample so that it stays on its branch.
  */
-#include "../run/asked.h"
+#include "../run/cancellation.h"
 
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
 
@@ -29,62 +29,62 @@ typedef struct {
 typedef struct {
     const Parameters *p;
     double reach, extent, t_end;
-    Asked asked;
-    Pace pace;
+    Cancellation cancellation;
+    ProgressMonitor monitor;
     Position motion, work;
     int motion_begun, work_begun;
     long passed;     /* samples that were interpolated at or near a change point */
     double t_passed; /* the first of them, s */
-    double *tape; /* rows of t, q, v at the ends of steps, which Python fetches; nobody wants any: NULL */
+    double *step_record; /* rows of t, q, v at the ends of steps, which Python fetches; nobody wants any: NULL */
     long taped, capacity;
 } Course;
 
-size_t gudgeon_course_size(void) { return sizeof(Course); }
+size_t gudgeon_kinematic_size(void) { return sizeof(Course); }
 
-/* `reach` and `extent` as in Course; `ask` is called with `whom` each `every` seconds (0: at each step). */
-void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
-    double every)
+/* `reach` and `extent` as in Course; `ask` is called with `caller` each `every` seconds (0: at each step). */
+void gudgeon_kinematic_begin(
+    void *integrator, double reach, double extent, double t_end, int (*ask)(void *), void *caller, double every)
 {
-    Course *course = memory;
+    Course *course = integrator;
     *course = (Course){.reach = reach, .extent = extent, .t_end = t_end};
-    set_asked(&course->asked, ask, whom, every);
+    start_cancellation(&course->cancellation, ask, caller, every);
 }
 
 /* The motion is begun anew at the next call, from a row that is given there. */
-void gudgeon_course_again(void *memory) { ((Course *)memory)->motion_begun = 0; }
+void gudgeon_kinematic_restart(void *integrator) { ((Course *)integrator)->motion_begun = 0; }
 
 /* How far motion and works got, s; s that its last steps gained, how many they are, whether they are far shorter. */
-void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps)
+void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps)
 {
-    const Course *course = memory;
+    const Course *course = integrator;
     t[0] = course->motion.t;
     t[1] = course->work_begun ? course->work.t : NAN;
-    *gained = course->pace.gain;
-    steps[0] = PACE_STEPS;
-    steps[1] = course->pace.crawls;
+    *gained = course->monitor.gain;
+    steps[0] = MONITOR_STEPS;
+    steps[1] = course->monitor.crawls;
 }
 
 /* How many samples so far were interpolated at or near a change point, and the time of the first, s. */
-long gudgeon_course_passed(const void *memory, double *t)
+long gudgeon_kinematic_interpolated(const void *integrator, double *t)
 {
-    const Course *course = memory;
+    const Course *course = integrator;
     *t = course->t_passed;
     return course->passed;
 }
 
 /* Room for so many rows of the tape; NULL: none is wanted any more. */
-void gudgeon_course_tape(void *memory, double *rows, long capacity)
+void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
 {
-    Course *course = memory;
-    course->tape = rows;
+    Course *course = integrator;
+    course->step_record = rows;
     course->capacity = capacity;
     course->taped = 0;
 }
 
 /* Rows since the last call; the next one is written to the first place. */
-long gudgeon_course_taped(void *memory)
+long gudgeon_kinematic_recorded(void *integrator)
 {
-    Course *course = memory;
+    Course *course = integrator;
     const long n = course->taped;
     course->taped = 0;
     return n;
@@ -92,9 +92,9 @@ long gudgeon_course_taped(void *memory)
 
 static void tape_place(Course *course, const Position *here)
 {
-    if (!course->tape)
+    if (!course->step_record)
         return;
-    double *row = course->tape + (1 + 2 * N_Q) * course->taped++;
+    double *row = course->step_record + (1 + 2 * N_Q) * course->taped++;
     *row++ = here->t;
     memcpy(row, here->q, sizeof here->q);
     memcpy(row + N_Q, here->v, sizeof here->v);
@@ -120,33 +120,33 @@ static double turn_of(const double *x, double extent)
 /* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
 static double bend_between(const Position *a, const Position *b, double extent)
 {
-    const double half = 0.5 * (b->t - a->t), share = 1.0 / extent;
+    const double half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
     double lengths = 0.0, angles = 0.0;
     for (int k = 0; k < N_Q; k += 3) {
         for (int c = k; c < k + 2; c++)
             lengths = larger(lengths, fabs(b->q[c] - a->q[c] - half * (a->v[c] + b->v[c])));
         angles = larger(angles, fabs(b->q[k + 2] - a->q[k + 2] - half * (a->v[k + 2] + b->v[k + 2])));
     }
-    return larger(angles, lengths * share);
+    return larger(angles, lengths * fraction);
 }
 
 #include "change_point.c"
 
 #if N_PULSES
-static int only_wide_bounds(void *context, double share, int sure)
+static int only_wide_bounds(void *context, double fraction, int sure)
 {
-    (void)context, (void)share;
+    (void)context, (void)fraction;
     return !sure;
 }
 
 /* Whether a drive or a force acts between the ends of a step and the nodes of its quadrature. */
-static int hides_a_pulse(double t0, double t1, const Parameters *p)
+static int hides_transient(double t0, double t1, const Parameters *p)
 {
     static const double place[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
-    return unseen_term(t0, t1 - t0, place, 5, only_wide_bounds, NULL, p) > 0.0;
+    return undersampled_term(t0, t1 - t0, place, 5, only_wide_bounds, NULL, p) > 0.0;
 }
 #else
-static int hides_a_pulse(double t0, double t1, const Parameters *p)
+static int hides_transient(double t0, double t1, const Parameters *p)
 {
     (void)t0, (void)t1, (void)p;
     return 0;
@@ -172,10 +172,10 @@ static int step_on(Course *course, Stride *stride, double t1, Position *here)
     for (;;) {
         Position there, passed;
         double moved = 0.0, bent = 0.0;
-        if (given_up(&course->asked))
+        if (given_up(&course->cancellation))
             return STOPPED;
         const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
-        const int status = next > here->t ? place_at(course, next, here, &there, &moved) : NEWTON_FAILED;
+        const int status = next > here->t ? bracket_point_at(course, next, here, &there, &moved) : NEWTON_FAILED;
         if (status == STOPPED)
             return status;
         if ((status || (next == t1 && is_rough(&there))) && next > here->t && rows_are_numbers(next, here, course->p)
@@ -187,7 +187,7 @@ static int step_on(Course *course, Stride *stride, double t1, Position *here)
         if (near)
             bent = bend_between(here, &there, course->extent);
         if (near && bent <= straight
-            && (stride->halvings > PULSE_HALVINGS || !hides_a_pulse(here->t, next, course->p))) {
+            && (stride->halvings > PULSE_HALVINGS || !hides_transient(here->t, next, course->p))) {
             *here = there;
             if (stride->halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
                 stride->h *= 2.0;
@@ -206,27 +206,27 @@ static int advance(Course *course, double t1, Position *here, long *steps)
 {
     Stride stride = {t1 - here->t, 0};
     while (here->t < t1) {
-        if (course->tape && course->taped == course->capacity)
+        if (course->step_record && course->taped == course->capacity)
             return EVENTS_FULL;
         const int status = step_on(course, &stride, t1, here);
         if (status)
             return status;
         ++*steps;
         tape_place(course, here);
-        if (creeps(&course->pace, here->t, course->t_end))
+        if (has_stalled(&course->monitor, here->t, course->t_end))
             return STALLED;
     }
-    return settle(course, here);
+    return update_modes(course, here);
 }
 
 /*
  * n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds what is known at t[0]: the
  * start, or where the last call came to. `done` is the last row that is complete, whatever is returned.
  */
-int gudgeon_kinematic(void *memory, long n, const double *t, const double *parameters, double *q, double *v, double *a,
-    double *phi_max, double *phi_dot_max, long *steps, long *done)
+int gudgeon_kinematic(void *integrator, long n, const double *t, const double *parameters, double *q, double *v,
+    double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
-    Course *course = memory;
+    Course *course = integrator;
     Position *here = &course->motion;
     course->p = (const Parameters *)parameters;
     *done = 0;

@@ -2,10 +2,10 @@
 #define MAX_BEND 0.05 /* rad, or share of the mechanism's size, that second rates may add to a first guess */
 
 /* Powers, accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
-static int solve_motion(Course *course, const Position *here, double *a, Aside *aside)
+static int solve_motion(Course *course, const Position *here, double *a, RhsOutputs *rhs)
 {
-    const Memory memory = {.asked = &course->asked};
-    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &memory, course->p, a, aside);
+    const DiscreteState discrete = {.cancellation = &course->cancellation};
+    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &discrete, course->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
 }
 
@@ -50,7 +50,7 @@ static int is_unbounded(const Position *from, double h, double extent)
 }
 
 /* From one place to another near by: first guess s + h s' + h^2 s''/2, or s + h s' where s'' is unbounded. */
-static int place_at(const Course *course, double t, const Position *from, Position *to, double *moved)
+static int bracket_point_at(const Course *course, double t, const Position *from, Position *to, double *moved)
 {
     const double h = t - from->t, bend = is_unbounded(from, h, course->extent) ? 0.0 : 0.5 * h;
     *moved = 0.0;
@@ -65,7 +65,7 @@ static int place_at(const Course *course, double t, const Position *from, Positi
 }
 
 /* A place has all that a sample needs. */
-static int settle(const Course *course, const Position *here) { return (void)course, (void)here, 0; }
+static int update_modes(const Course *course, const Position *here) { return (void)course, (void)here, 0; }
 
 /* A given position; where closures depend on each other the equations of motion may still tell its accelerations. */
 static int begin(Course *course, double t, const double *q, const double *v, Position *here)
@@ -79,13 +79,14 @@ static int begin(Course *course, double t, const double *q, const double *v, Pos
     if (!close_step(beyond_jump(t), here->s, p, step, rates, &here->phi)
         && !arrive(beyond_jump(t), here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
         return 0;
-    Aside aside;
+    RhsOutputs rhs;
     here->left = INFINITY;
     memcpy(here->q, q, sizeof here->q);
     memcpy(here->v, v, sizeof here->v);
     for (int k = 0; k < N_X; k++)
         here->s_second[k] = 0.0;
     here->phi = here->phi_dot = 0.0;
-    const int status = dynamics(t, q, v, &(Memory){.asked = &course->asked, USUAL_SHARES}, p, here->a, &aside);
+    const int status =
+        dynamics(t, q, v, &(DiscreteState){.cancellation = &course->cancellation, USUAL_SHARES}, p, here->a, &rhs);
     return status > 0 ? N_LOOPS + status : status;
 }

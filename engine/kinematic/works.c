@@ -4,15 +4,15 @@
 /* Powers at a place, and the accelerations of all bodies; a status as that of settle. */
 static int powers(Course *course, Position *here, double *power)
 {
-    Aside aside;
+    RhsOutputs rhs;
 #if POSITIONS_IN_TREE
     double a[N_X + 1];
-    const int status = solve_motion(course, here, a, &aside);
+    const int status = solve_motion(course, here, a, &rhs);
 #else
-    const int status = solve_motion(course, here, here->a, &aside);
+    const int status = solve_motion(course, here, here->a, &rhs);
 #endif
     for (int k = 0; k < N_WORK; k++)
-        power[k] = aside.power[k];
+        power[k] = rhs.power[k];
     return status;
 }
 
@@ -32,7 +32,7 @@ static int work_between(Course *course, const Position *a, const Position *b, do
     for (int i = 0; i < 3; i++) {
         Position at;
         double power[N_WORK], moved;
-        int status = place_at(course, a->t + half * (1.0 + node[i]), a, &at, &moved);
+        int status = bracket_point_at(course, a->t + half * (1.0 + node[i]), a, &at, &moved);
         if (!status)
             status = powers(course, &at, power);
         if (status)
@@ -109,10 +109,10 @@ static int work_of_step(Course *course, const Position *a, const Position *b, do
 }
 
 /* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
-int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *parameters, const double *q,
+int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *parameters, const double *q,
     const double *v, double *work, long *done)
 {
-    Course *course = memory;
+    Course *course = integrator;
     Position here = course->work;
     course->p = (const Parameters *)parameters;
     *done = 0;

@@ -8,72 +8,72 @@ enum { SIDE_PARTS = 4, MAX_AGAIN = 8 /* times that a step is taken again to end 
  * Sides of user events that were held at zero up to a step and are again from its end on, where friction or a contact
  * holds them: wherever they are between.
  */
-static void take_sides_inside(Run *run, Step *step, double share, int event, const Parameters *p)
+static void update_event_signs_inside(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
-    const int is_friction = event >= N_CLEARANCES + N_SWITCHES && event < N_MARGINS - N_USER_EVENTS;
+    const int is_friction = event >= N_CLEARANCES + N_SWITCHES && event < N_EVENT_FUNCTIONS - N_USER_EVENTS;
     int unknown = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        unknown |= run->memory.event_side[i] == 0;
+        unknown |= run->discrete.event_sign[i] == 0;
     if (!unknown || event < 0 || !(event < N_CLEARANCES || is_friction) || make_dense(run, p, step))
         return;
     for (int part = 1; part < SIDE_PARTS; part++) {
         double y[N_Y], dy[N_Y];
-        const double s = share * part / SIDE_PARTS;
-        Aside aside;
-        if (state_at(run, step, s, p, y, dy, &aside))
+        const double s = fraction * part / SIDE_PARTS;
+        RhsOutputs rhs;
+        if (state_at(run, step, s, p, y, dy, &rhs))
             return;
-        take_sides(run, step->t + s * step->h, y, &aside, p);
+        update_event_signs(run, step->t + s * step->h, y, &rhs, p);
     }
 }
 
 /* Takes a step, or its part up to an event, as the new state. */
-static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
+static int commit_step(Integrator *run, Step *step, double fraction, double t_new, int event, const Parameters *p)
 {
-    take_sides_inside(run, step, share, event, p);
+    update_event_signs_inside(run, step, fraction, event, p);
     /* the interpolant is made already where the step ends early: its end may be replaced */
-    int status = share < 1.0 ? state_at(run, step, share, p, step->y, step->dy, &step->aside) : 0;
+    int status = fraction < 1.0 ? state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
-    inner_peaks(run, step, share, p);
-    turn_passed(run, step);
+    inner_peaks(run, step, fraction, p);
+    flip_ignored_branches(run, step);
     note_works(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
         run->dy[k] = step->dy[k];
     }
-    run->aside = step->aside;
+    run->rhs = step->rhs;
     set_last_step(run, t_new - run->t);
-    note_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
+    record_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
     run->t = t_new;
     count_step(run, !!step->method->stiff);
     forget_linear(run);
     forget_series(run);
     note_speed(run);
-    weigh(run);
+    update_error_weights(run);
     for (int i = 0; i < N_CLEARANCES; i++)
-        note_turn(run, i, run->aside.clearance[i].deltadot);
+        note_turn(run, i, run->rhs.clearance[i].deltadot);
     const double drift = run->residuals.phi_dot_max; /* at the corner of a drive rates are those before the impulse */
     status = watch(run, p);
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the corner, on whichever side */
-        watch_all(run);
-        status = settle_sides(run, -1, p);
+        watch_every_switch(run);
+        status = update_branches(run, -1, p);
     }
-    take_sides(run, run->t, run->y, &run->aside, p);
+    update_event_signs(run, run->t, run->y, &run->rhs, p);
     if (!status && event >= 0)
-        status = is_stuck(run) ? CHATTERING : change(run, event, p);
+        status = is_chattering(run) ? CHATTERING : apply_event(run, event, p);
     return status ? status : check_contacts(run, p);
 }
 
 /* How close (s) to the end t of a fixed step a sample is the end's own: both are products of rounded numbers. */
-static double rounded_end(const Run *run, double t)
+static double rounded_end(const Integrator *run, double t)
 {
     return run->control.fixed > 0.0 ? rounded(t, run->control.fixed) : 0.0;
 }
 
 /* Samples of the step before `t_new`, from its interpolant. */
-static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, const Samples *out)
+static int sample_step(Integrator *run, Step *step, double t_new, const Parameters *p, const Samples *out)
 {
     const long evaluations = run->counts.evaluations;
     for (; *out->done < out->n && out->t[*out->done] < t_new; ++*out->done) {
@@ -95,34 +95,34 @@ static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, 
  * Rows of the tape inside a step, up to a share of it, before it is taken: the ends of parts, and right beside its own
  * ends where something changes there (`jumps`: at the last one).
  */
-static int tape_step(Run *run, Step *step, double share, int jumps, const Parameters *p)
+static int record_inside_step(Integrator *run, Step *step, double fraction, int jumps, const Parameters *p)
 {
     const long evaluations = run->counts.evaluations;
-    const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.tick) / step->h;
-    const double beside = max_of(BESIDE * share, located);
-    if (!run->tape.rows)
+    const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
+    const double beside = max_of(BESIDE * fraction, located);
+    if (!run->step_record.rows)
         return 0;
     int status = make_dense(run, p, step);
-    for (int k = !run->tape.jumped; k < TAPE_PARTS + jumps && !status; k++) {
-        const double s = k == 0 ? beside : k == TAPE_PARTS ? share - beside : share * k / TAPE_PARTS;
+    for (int k = !run->step_record.jumped; k < TAPE_PARTS + jumps && !status; k++) {
+        const double s = k == 0 ? beside : k == TAPE_PARTS ? fraction - beside : fraction * k / TAPE_PARTS;
         const double t = step->t + s * step->h;
         double now[N_Y];
-        if (!(s > 0.0 && s < share && t > step->t))
+        if (!(s > 0.0 && s < fraction && t > step->t))
             continue; /* so short a step is all beside the jump */
         interpolate(run, step, s, now);
         project_state(run, t, now, p);
-        tape_row(run, t, now, p);
+        record_state(run, t, now, p);
     }
     restore_evaluations(run, evaluations); /* as of samples */
     return status;
 }
 
 /* The end of a step that is taken; where something changed there, it follows with the next step if there is one. */
-static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
+static void record_step_end_state(Integrator *run, int jumped, int is_last, const Parameters *p)
 {
     mark_jump(run, jumped);
     if (!jumped || is_last)
-        tape_row(run, run->t, run->y, p);
+        record_state(run, run->t, run->y, p);
 }
 
 #ifndef PERIODS
@@ -136,19 +136,20 @@ static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
 #define KNOT_REACH 0.4 /* of a piece of a curve: further behind its end it is read as another one (curves.h) */
 
 /* A step of length h instead, and its first event. */
-static int step_again(Run *run, double h, double t_end, const Parameters *p, Step *step, double *share, int *event)
+static int step_again(
+    Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
 {
     set_length(run, h);
     open_attempt(run, t_end, p);
-    run->memory.held = 1;
+    run->discrete.held = 1;
     const int status = accepted_step(run, p, step);
     if (!status)
-        *share = first_event(run, step, p, event);
+        *fraction = first_event(run, step, p, event);
     return status;
 }
 
 /* Whether the interpolant of a step is needed, for an event or a sample, and could not be made. */
-static int lacks_dense(Run *run, Step *step, const Parameters *p, const Samples *out)
+static int lacks_dense(Integrator *run, Step *step, const Parameters *p, const Samples *out)
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
     const int needed = step->dense_ready == FAILED || out->t[*out->done] < step->t + step->h;
@@ -158,10 +159,10 @@ static int lacks_dense(Run *run, Step *step, const Parameters *p, const Samples 
 }
 
 /* Whether a step leads so far beyond a knot that it may not have read one piece alone; pieces are about as long. */
-static int reaches_far(const Run *run, const Step *step, double share)
+static int reaches_far(const Integrator *run, const Step *step, double fraction)
 {
-    const double piece = step->t + share * step->h - run->roots.t_crossed;
-    return KNOTS && (1.0 - share) * step->h > KNOT_REACH * piece;
+    const double piece = step->t + fraction * step->h - run->roots.t_crossed;
+    return KNOTS && (1.0 - fraction) * step->h > KNOT_REACH * piece;
 }
 
 /*
@@ -171,21 +172,22 @@ static int reaches_far(const Run *run, const Step *step, double share)
  * close behind the event, wherever that is. So does a step that reaches far beyond a knot of a curve, and one inside of
  * which forces of films are wrong at the event.
  */
-static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step *step, double *share, int *event)
+static int event_of_step(
+    Integrator *run, const Samples *out, const Parameters *p, Step *step, double *fraction, int *event)
 {
     const double t_end = out->t[out->n - 1], longer = PERIODS ? PERIOD_END : NEAR_END;
     const int free = run->control.fixed <= 0.0;
     int status = 0;
-    *share = first_event(run, step, p, event);
+    *fraction = first_event(run, step, p, event);
     for (int k = 0; k < SHORTENED && !status && free && lacks_dense(run, step, p, out); k++)
-        status = step_again(run, 0.25 * step->h, t_end, p, step, share, event);
-    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0; k++) {
-        const double next = run->control.h, h = longer * *share * step->h;
-        if (h <= run->roots.tick)
+        status = step_again(run, 0.25 * step->h, t_end, p, step, fraction, event);
+    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *fraction < 1.0; k++) {
+        const double next = run->control.h, h = longer * *fraction * step->h;
+        if (h <= run->roots.time_resolution)
             break; /* it lies at the step's beginning, where no row is another one */
-        if (free && !PERIODS && !reaches_far(run, step, *share) && !misses_film_at(run, step, *share, p))
+        if (free && !PERIODS && !reaches_far(run, step, *fraction) && !misses_film_at(run, step, *fraction, p))
             break; /* a fixed step ends by the method itself there: its interpolant may be of low order */
-        status = step_again(run, h, t_end, p, step, share, event);
+        status = step_again(run, h, t_end, p, step, fraction, event);
         set_length(run, next);
     }
     return status;
@@ -195,13 +197,13 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
  * What comes before a step: the start, samples that are due. Whether a step is wanted (run->control.attempt has it) and
  * not, as `last` says, to be left to another call; if not *status is 0, EVENTS_FULL, STOPPED, or what went wrong.
  */
-static int wants_step(Run *run, int last, const Parameters *p, const Samples *out, int *status)
+static int needs_step(Integrator *run, int last, const Parameters *p, const Samples *out, int *status)
 {
     const double t_end = out->t[out->n - 1];
-    const int begins = !run->memory.held && !run->control.attempt.open;
+    const int begins = !run->discrete.held && !run->control.attempt.open;
     *status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
     if (!*status && begins)
-        tape_jump(run, p);
+        record_after_jump(run, p);
     mark_jump(run, begins);
     if (run->control.attempt.open)
         return !last; /* it was under way */
@@ -217,7 +219,7 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
     else if (lists_full(run))
         *status = EVENTS_FULL;
     else if (run->control.fixed <= 0.0 && stalls(run, t_end))
-        *status = what_ends(run, STALLED, p);
+        *status = diagnose_stall(run, STALLED, p);
     else
         open_attempt(run, t_end, p);
     return !*status;
@@ -227,50 +229,50 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
  * An accepted step, up to its first event: samples, and what changes at its end. Whatever it returns, the run is at
  * the end of a whole step, with what changes there.
  */
-static int take_step(Run *run, const Parameters *p, const Samples *out)
+static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
 {
     const double t_end = out->t[out->n - 1];
     Step *step = &run->step;
     int event;
-    double share;
-    choose(run, p);
-    int status = event_of_step(run, out, p, step, &share, &event);
+    double fraction;
+    choose_method(run, p);
+    int status = event_of_step(run, out, p, step, &fraction, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* what was found meanwhile means nothing */
     if (run->control.fixed > 0.0)
-        run->memory.held = 1;
+        run->discrete.held = 1;
     const double t_whole = run->control.fixed > 0.0 ? run->control.attempt.end
         : step->h == t_end - run->t ? t_end : run->t + step->h;
-    const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
+    const double t_new = fraction < 1.0 ? run->t + fraction * step->h : t_whole;
     /* what is so near is at the event */
     const double close = event < 0 ? rounded_end(run, t_new)
-        : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.tick);
+        : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.time_resolution);
     status = sample_step(run, step, t_new - close, p, out);
     /* the end of a fixed step may lie at the jump of a drive, as that of a run may */
-    const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && share >= 1.0));
-    const int jumps = may_jump || (event >= 0 && event < N_MARGINS - N_USER_EVENTS);
+    const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && fraction >= 1.0));
+    const int jumps = may_jump || (event >= 0 && event < N_EVENT_FUNCTIONS - N_USER_EVENTS);
     if (!status)
-        status = tape_step(run, step, share, jumps, p);
+        status = record_inside_step(run, step, fraction, jumps, p);
     defer_stop(&run->cancellation);
     if (AUDITS && !status)
-        audit_step(run, step, share, event, p);
+        audit_step(run, step, fraction, event, p);
     const int listed = run->events.n;
     const double drift = run->residuals.phi_dot_max;
     if (!status)
-        status = commit(run, step, share, t_new, event, p);
+        status = commit_step(run, step, fraction, t_new, event, p);
     if (!status && event >= 0)
-        status = fit_first(run, t_end - run->t, p);
-    run->memory.held = 1;
+        status = first_step_after_event(run, t_end - run->t, p);
+    run->discrete.held = 1;
     if (may_jump && !status) {
         set_phi_dot_max(run, drift); /* which branch a rate has at a jump's own time says nothing */
-        status = pass_jumps_here(run, p);
+        status = pass_drive_jumps_here(run, p);
     }
     if (!status && run->t == t_end)
         status = end_on_zeros(run, 0.0, p);
     if (AUDITS && (!status || status == ENDED))
         status = audit_state(run, listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
-        tape_end(run, jumps, status == ENDED || run->t == t_end, p);
+        record_step_end_state(run, jumps, status == ENDED || run->t == t_end, p);
     allow_stop(&run->cancellation);
     return status;
 }
@@ -279,19 +281,19 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
  * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
  * or to be called again), EVENTS_FULL, STOPPED, or what went wrong.
  */
-int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done)
 {
-    Run *run = memory;
+    Integrator *run = integrator;
     const Parameters *p = (const Parameters *)parameters;
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
     relink_choice(run);
     run->step.method = own_method(run->step.method);
-    for (long i = 0; wants_step(run, i == limit, p, &out, &status); i++) {
+    for (long i = 0; needs_step(run, i == limit, p, &out, &status); i++) {
         status = accepted_step(run, p, &run->step);
         if (!status)
-            status = take_step(run, p, &out);
+            status = accept_step(run, p, &out);
         if (status)
             break;
     }

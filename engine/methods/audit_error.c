@@ -11,30 +11,30 @@
 enum { AUDIT_ENOUGH = 3 }; /* steps whose mean error says something */
 
 /* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
-static int branches_fit(const Run *run, const Aside *aside)
+static int branches_fit(const Integrator *run, const RhsOutputs *rhs)
 {
     int fit = 1;
     for (int k = 0; k < N_SWITCHES; k++)
-        fit &= !(run->memory.side[k] * aside->g[k] < 0.0);
+        fit &= !(run->discrete.branch[k] * rhs->g[k] < 0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
-        fit &= !gives(i) || !run->memory.latch[i].closed == !(aside->clearance[i].delta > 0.0);
+        fit &= !gives(i) || !run->discrete.contact[i].closed == !(rhs->clearance[i].delta > 0.0);
     return fit;
 }
 
-/* One over the tolerance of coordinate or velocity k, from scales and speeds as both/weigh.h describes it. */
-static double audit_weight(const Run *run, int k)
+/* One over the tolerance of coordinate or velocity k, from scales and speeds as both/error_weights.h describes it. */
+static double audit_weight(const Integrator *run, int k)
 {
     const int kind = is_angle[k % N_X];
     return run->norm.inverse_scale[k] / (k < N_X ? 1.0 : run->norm.speed[kind] + run->norm.speed_floor[kind]);
 }
 
 /* Whether a drive's second rate jumps, or is unbounded, where a step begins or ends: no polynomial follows it. */
-static int meets_jump(const Run *run, const Step *step, const Parameters *p)
+static int meets_jump(const Integrator *run, const Step *step, const Parameters *p)
 {
     for (int end = 0; end < 2 && N_DRIVES; end++) {
         const double t = end ? step->t + step->h : run->t;
         double all[N_S];
-        to_absolute(t, end ? step->y : run->y, &run->memory, p, all);
+        to_absolute(t, end ? step->y : run->y, &run->discrete, p, all);
         if (drives_jump(t, all, all + N_Q, p))
             return 1;
     }
@@ -46,7 +46,7 @@ static int meets_jump(const Run *run, const Step *step, const Parameters *p)
  * step, unless stability bounds that. A method that has lost its order takes so many short steps that errors within the
  * tolerance add up. `error`, `change`: of a step, in tolerances.
  */
-static void check_order(Run *run, double error, double change)
+static void check_order(Integrator *run, double error, double change)
 {
     Audit *audit = &run->audit;
     if (!(run->choice.stability < 1.0 && change < INFINITY))
@@ -65,7 +65,7 @@ static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 
     0.17392742256872692};
 
 /* The largest of errors e of a step, as a multiple of `limit` tolerances; in `most` in tolerances. */
-static double largest_error(const Run *run, const Step *step, const double *e, double limit, double *most)
+static double largest_error(const Integrator *run, const Step *step, const double *e, double limit, double *most)
 {
     double worst = 0.0;
     *most = 0.0;
@@ -85,21 +85,21 @@ static double largest_error(const Run *run, const Step *step, const double *e, d
  * by 1 - h J there; of an explicit step, too, if it is too large otherwise, for it may be as long as it is stable. A
  * step over which a force has another branch, or is made elsewhere (lanes), is left out.
  */
-static void check_length(Run *run, Step *step, const Parameters *p)
+static void check_length(Integrator *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
     double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], most, change = 0.0; /* of the defect, 1/s */
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
             return;
-    if (run->counts.steps == 0 || run->memory.way != AT_ONCE || make_dense(run, p, step))
+    if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE || make_dense(run, p, step))
         return; /* a start off its constraints is projected by the first step */
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);
-        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &aside) || !branches_fit(run, &aside))
+        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !branches_fit(run, &rhs))
             return;
         interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)

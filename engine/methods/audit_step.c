@@ -25,7 +25,7 @@ enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
  * where that is less than the largest so far. A stiff component within its tolerance may have any rate: there h times
  * the difference is divided by 1 - h J.
  */
-static double defect_of(Run *run, const Step *step, const double *y, const double *rate, const double *dy,
+static double defect_of(Integrator *run, const Step *step, const double *y, const double *rate, const double *dy,
     const Parameters *p)
 {
     const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
@@ -63,8 +63,8 @@ static double defect_of(Run *run, const Step *step, const double *y, const doubl
  * length: iterations find stages up to a share of a tolerance, however short a step is. An explicit step that stability
  * bounds errs by tolerances, however little moves. Positions and velocities apart.
  */
-static void check_rate(Run *run, const Step *step, double t, const double *y, const double *rate, const double *dy,
-    const Parameters *p)
+static void check_rate(Integrator *run, const Step *step, double t, const double *y, const double *rate,
+    const double *dy, const Parameters *p)
 {
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
@@ -83,32 +83,32 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
 }
 
 /* The end of a step: what it took for the rates there. */
-static void check_end(Run *run, Step *step, const Parameters *p)
+static void check_end(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y];
-    Aside aside;
-    if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &aside))
+    RhsOutputs rhs;
+    if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &rhs))
         record(&run->audit, CHECK_defect, defect_of(run, step, step->y, step->dy, dy, p), 1.0, step->t + step->h, -1);
 }
 
 /* Forces of films, by the accelerations that they give; which none of a step follow that begins or ends at a jump. */
-static void check_forces(Run *run, const Step *step, double t, const Aside *aside, const double *rate,
+static void check_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
     const double *dy, const Parameters *p)
 {
     int where;
     if (!has_films())
         return;
-    double most = largest_film_force(aside, &where);
+    double most = largest_film_force(rhs, &where);
     for (int i = 0; i < N_CLEARANCES; i++)
         most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
-    const double share = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
-    if (where >= 0 && has_tolerance(run) && run->counts.steps > 0 && (share <= limit || !meets_jump(run, step, p)))
-        record(&run->audit, CHECK_force, share, limit, t, where);
+    const double fraction = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
+    if (where >= 0 && has_tolerance(run) && run->counts.steps > 0 && (fraction <= limit || !meets_jump(run, step, p)))
+        record(&run->audit, CHECK_force, fraction, limit, t, where);
 }
 
 /* What is checked of each state inside a step; `drawn`: of one whose place was drawn. */
-static void check_state_inside(Run *run, Step *step, double theta, int drawn, const double *y, const double *dy,
-    const Aside *aside, const Parameters *p)
+static void check_state_inside(Integrator *run, Step *step, double theta, int drawn, const double *y, const double *dy,
+    const RhsOutputs *rhs, const Parameters *p)
 {
     const double t = step->t + theta * step->h;
     double rate[2 * N_X];
@@ -118,47 +118,47 @@ static void check_state_inside(Run *run, Step *step, double theta, int drawn, co
         record(&run->audit, CHECK_defect, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy, p);
-    check_forces(run, step, t, aside, rate, dy, p);
-    check_joints(run, t, aside, p);
-    check_branches(run, step, t, y, aside, p);
+    check_forces(run, step, t, rhs, rate, dy, p);
+    check_joints(run, t, rhs, p);
+    check_branches(run, step, t, y, rhs, p);
 }
 
 /* One place inside a step, up to the event that ends it. */
-static void check_inside(Run *run, Step *step, double theta, int drawn, const Parameters *p)
+static void check_inside(Integrator *run, Step *step, double theta, int drawn, const Parameters *p)
 {
     const double t = step->t + theta * step->h;
     double y[N_Y], dy[N_Y], all[N_S];
-    Aside aside;
+    RhsOutputs rhs;
     if (make_dense(run, p, step))
         return;
     if (run->counts.steps == 0) { /* a start off its constraints is projected by the first step alone */
         interpolate(run, step, theta, y);
-        if (rates(run, t, y, p, dy, &aside))
+        if (rates(run, t, y, p, dy, &rhs))
             return;
-    } else if (state_at(run, step, theta, p, y, dy, &aside))
+    } else if (state_at(run, step, theta, p, y, dy, &rhs))
         return; /* what lies beyond an event need not be computable */
-    check_state_inside(run, step, theta, drawn, y, dy, &aside, p);
+    check_state_inside(run, step, theta, drawn, y, dy, &rhs, p);
     if (!drawn)
         return;
-    to_absolute(t, y, &run->memory, p, all);
+    to_absolute(t, y, &run->discrete, p, all);
     check_rows(run, t, all, !RATE_JUMPS, p);
-    if (branches_fit(run, &aside))
+    if (branches_fit(run, &rhs))
         check_accelerations(run, t, y, dy, all, p);
 }
 
 /* Whether the value of event i changes its sign in a step at a zero, and not where it grows beyond all bounds. */
-static int event_has_zero(Run *run, Step *step, double share, int i, const Parameters *p)
+static int event_has_zero(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
-    double low = 0.0, high = share, y[N_Y], dy[N_Y];
-    const double before = run->aside.event[i], after = step->aside.event[i];
+    double low = 0.0, high = fraction, y[N_Y], dy[N_Y];
+    const double before = run->rhs.event[i], after = step->rhs.event[i];
     double nearest = INFINITY;
-    Aside aside;
+    RhsOutputs rhs;
     for (int n = 0; n < AUDIT_HALVINGS && make_dense(run, p, step) == 0; n++) {
         const double middle = 0.5 * (low + high);
-        if (state_at(run, step, middle, p, y, dy, &aside))
+        if (state_at(run, step, middle, p, y, dy, &rhs))
             return 0;
-        nearest = fabs(aside.event[i]);
-        if (aside.event[i] * before > 0.0)
+        nearest = fabs(rhs.event[i]);
+        if (rhs.event[i] * before > 0.0)
             low = middle;
         else
             high = middle;
@@ -167,34 +167,37 @@ static int event_has_zero(Run *run, Step *step, double share, int i, const Param
 }
 
 /* Whether the value of event i at the beginning of a step, or at its end, is larger than its uncertainty. */
-static int is_known(Run *run, const Step *step, int end, int i, const Parameters *p)
+static int is_known(Integrator *run, const Step *step, int end, int i, const Parameters *p)
 {
-    const int k = N_MARGINS - N_USER_EVENTS + i;
-    return end ? is_resolved(run, step->t + step->h, step->y, &step->aside, k, p)
-        : is_resolved(run, run->t, run->y, &run->aside, k, p);
+    const int k = N_EVENT_FUNCTIONS - N_USER_EVENTS + i;
+    return end ? is_resolved(run, step->t + step->h, step->y, &step->rhs, k, p)
+        : is_resolved(run, run->t, run->y, &run->rhs, k, p);
 }
 
 /* Notes how far expressions of events are from zero in a step, and finds zeros that end none, before it is taken. */
-static void find_zeros(Run *run, Step *step, double share, int event, const Parameters *p)
+static void find_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
-    audit->ended = event - (N_MARGINS - N_USER_EVENTS);
+    audit->ended = event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        const double before = run->aside.event[i], after = step->aside.event[i];
-        const Seen seen = seen_of(step, N_MARGINS - N_USER_EVENTS + i);
+        const double before = run->rhs.event[i], after = step->rhs.event[i];
+        const StageValues seen = stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
         double inside = fabs(after); /* the beginning may be a pole that was located */
         for (int k = 0; k < step->n_seen; k++)
-            inside = max_of(inside, fabs(seen_at(seen, k)));
+            inside = max_of(inside, fabs(stage_value(seen, k)));
         if (step->h > AUDIT_SHORT * audit->longest && isfinite(inside))
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->away[i] |= max_of(fabs(before), inside) > noise;
-        const int begins_beyond = run->counts.steps == 0 && run->memory.event_side[i] * after > 0.0; /* begin_beyond */
-        const int far = share * step->h > located_within(run); /* from a pole too: nearer, it grows and falls at once */
+        /* begin_beyond */
+        const int begins_beyond = run->counts.steps == 0 && run->discrete.event_sign[i] * after > 0.0;
+        /* from a pole too: nearer, it grows and falls at once */
+        const int far = fraction * step->h > located_within(run);
         audit->event_before[i] = audit->ended == i && far && is_known(run, step, 0, i, p) ? before : 0.0;
-        audit->crossed[i] = share >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
+        audit->crossed[i] = fraction >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
-            && is_known(run, step, 0, i, p) && is_known(run, step, 1, i, p) && event_has_zero(run, step, share, i, p);
+            && is_known(run, step, 0, i, p) && is_known(run, step, 1, i, p)
+            && event_has_zero(run, step, fraction, i, p);
     }
 }
 
@@ -209,37 +212,38 @@ static double mean_interval(const Method *method)
 }
 
 /*
- * The inside of a step that is accepted up to `share`, before it is taken. An event's state is known: it is checked
+ * The inside of a step that is accepted up to `fraction`, before it is taken. An event's state is known: it is checked
  * without another right-hand side.
  */
-static void audit_step(Run *run, Step *step, double share, int event, const Parameters *p)
+static void audit_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (!audit->level)
         return;
     const long evaluations = run->counts.evaluations;
     const int dense_ready = step->dense_ready;
-    const double h = share * step->h;
+    const double h = fraction * step->h;
     const int all = audit->level == AUDIT_FULL, due = run->counts.steps >= audit->due;
-    const int whole = share >= 1.0 && event < 0;
+    const int whole = fraction >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->control.last_step || (whole && h > AUDIT_LONGEST * audit->longest))
         && !step->method->own_length
         && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->counts.steps;
     const int by_turn = (int)(audit->turns % 2);
     const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
-    find_zeros(run, step, share, event, p);
-    const int ends = event >= 0 && share < 1.0;
-    const int known = ends && run->counts.steps > 0 && run->roots.looked.beyond == share;
+    find_zeros(run, step, fraction, event, p);
+    const int ends = event >= 0 && fraction < 1.0;
+    const int known = ends && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
     if (known)
-        check_state_inside(run, step, share, 0, run->roots.looked.y, run->roots.looked.dy, &run->roots.looked.aside, p);
+        check_state_inside(
+            run, step, fraction, 0, run->roots.samples.y, run->roots.samples.dy, &run->roots.samples.rhs, p);
     if (places || (ends && !known) || measured) {
-        const Memory memory = run->memory;
+        const DiscreteState discrete = run->discrete;
         if (ends && !known)
-            check_inside(run, step, share, 0, p);
+            check_inside(run, step, fraction, 0, p);
         for (int k = 0; k < places; k++)
-            check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
-        if (drawn && share >= 1.0)
+            check_inside(run, step, fraction * (k + draw(audit)) / places, drawn, p);
+        if (drawn && fraction >= 1.0)
             check_end(run, step, p);
         if (measured && whole && has_tolerance(run))
             check_length(run, step, p);
@@ -248,7 +252,7 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
             audit->due = run->counts.steps + 1 + (long)(2.0 * draw(audit) * first * mean_interval(step->method));
         }
         audit->longer += is_longer;
-        run->memory = memory;
+        run->discrete = discrete;
     }
     /* a check is not integration: what it made is made again, and counted, by others */
     restore_evaluations(run, evaluations);

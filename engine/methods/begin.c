@@ -3,28 +3,28 @@
  */
 #if N_USER_EVENTS
 /* The side of what is watched and begins on a zero: that to which it goes, as soon as that is known. */
-static int leave_zeros(Run *run, const Parameters *p)
+static int set_initial_branches(Integrator *run, const Parameters *p)
 {
-    for (double share = 1e-6; share < 0.1; share *= 100.0) {
+    for (double fraction = 1e-6; fraction < 0.1; fraction *= 100.0) {
         double value[N_USER_EVENTS];
         int zeros = 0;
         for (int i = 0; i < N_USER_EVENTS; i++)
-            zeros |= run->memory.event_side[i] == 0;
-        const int status = zeros ? events_ahead(run, run->t, share * run->control.h, run->y, run->dy, p, value) : 0;
+            zeros |= run->discrete.event_sign[i] == 0;
+        const int status = zeros ? events_ahead(run, run->t, fraction * run->control.h, run->y, run->dy, p, value) : 0;
         if (status || !zeros)
-            return share > 1e-6 ? 0 : status;
+            return fraction > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)
-            if (run->memory.event_side[i] == 0)
-                event_crosses(i, &run->memory.event_side[i], value[i]);
+            if (run->discrete.event_sign[i] == 0)
+                event_crosses(i, &run->discrete.event_sign[i], value[i]);
     }
     return 0;
 }
 #else
-static inline int leave_zeros(Run *run, const Parameters *p) { return (void)run, (void)p, 0; }
+static inline int set_initial_branches(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 
 /* 1/s: over one time that speeds of the state and accelerations `dy` take for the smallest length that matters. */
-static double fastest_rate(const Run *run, const double *dy)
+static double fastest_rate(const Integrator *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
@@ -43,11 +43,11 @@ static double fastest_rate(const Run *run, const double *dy)
  * after it. Only where these lead nowhere (a pulse is yet to come) the run's own time has to tell. Rounding is measured
  * by speeds that do not depend on how long the run is.
  */
-static void floor_speeds(Run *run, double left, const Parameters *p)
+static void set_speed_floors(Integrator *run, double left, const Parameters *p)
 {
     double rate = fastest_rate(run, run->dy), dy[N_Y];
-    Aside aside;
-    if (rate * left > TOO_FAST && !rates(run, run->t + left / TOO_FAST, run->y, p, dy, &aside))
+    RhsOutputs rhs;
+    if (rate * left > TOO_FAST && !rates(run, run->t + left / TOO_FAST, run->y, p, dy, &rhs))
         rate = min_of(rate, fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
@@ -56,16 +56,16 @@ static void floor_speeds(Run *run, double left, const Parameters *p)
 }
 
 /* Whether a run begins in a contact whose surfaces give. */
-static int rests_on_law(const Run *run)
+static int begins_in_contact(const Integrator *run)
 {
     int found = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        found |= gives(i) && run->memory.latch[i].closed;
+        found |= gives(i) && run->discrete.contact[i].closed;
     return found;
 }
 
 /* Errors of inner states: relative to the deflection at which a joint slides, or as those of lengths where it is 0. */
-static void weigh_states(Run *run, const Parameters *p)
+static void set_inner_state_weights(Integrator *run, const Parameters *p)
 {
 #if LAW_STATES
     const double length = is_angle[0] ? run->norm.least[0] / run->norm.least[1] : 1.0;
@@ -80,11 +80,11 @@ static void weigh_states(Run *run, const Parameters *p)
 }
 
 /* A run; one that starts at a drive's jump, or right before it, beyond: on the rows that hold there, without work. */
-static int begin_run(Run *run, const Parameters *p)
+static int begin_run(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
         double all[N_S];
-        to_absolute(run->t, run->y, &run->memory, p, all);
+        to_absolute(run->t, run->y, &run->discrete, p, all);
         if (drives_jump(run->t, all, all + N_Q, p))
             project_state(run, ahead_of(run->t), run->y, p);
     }
@@ -95,33 +95,33 @@ static int begin_run(Run *run, const Parameters *p)
 }
 
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
-static int begin_adaptive(Run *run, double left, const Parameters *p)
+static int begin_adaptive(Integrator *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
-    set_tick(run, left);
+    set_time_resolution(run, left);
     start_films(run, p);
-    hold_sides(run);
+    freeze_branches(run);
     if (!status)
-        status = settle_sides(run, -1, p);
-    floor_speeds(run, left, p);
+        status = update_branches(run, -1, p);
+    set_speed_floors(run, left, p);
     note_speed(run);
     /* weights are its inverse */
-    run->norm.turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
-    weigh_states(run, p);
-    weigh(run);
+    run->norm.energy_scale = max_of(initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
+    set_inner_state_weights(run, p);
+    update_error_weights(run);
     if (!status)
-        status = pass_jumps_here(run, p); /* to the sides that hold there */
+        status = pass_drive_jumps_here(run, p); /* to the sides that hold there */
     if (!status)
         status = begin_beyond(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
-        status = first_size(run, left, p);
-        if (!status && rests_on_law(run)) { /* its force may have begun right before the start: as at an onset */
-            begin_with(run, &run->control.after_contact[count_closed(run)][0], ROUGH);
-            status = fit_first(run, left, p);
+        status = initial_step(run, left, p);
+        if (!status && begins_in_contact(run)) { /* its force may have begun right before the start: as at an onset */
+            set_first_length(run, &run->control.after_contact[count_closed(run)][0], ROUGH);
+            status = first_step_after_event(run, left, p);
         }
     }
     if (!status)
-        status = leave_zeros(run, p);
+        status = set_initial_branches(run, p);
     if (run->choice.method->own_length)
         set_length(run, left);
     return status;
@@ -132,10 +132,10 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
  * scale (2 N_X): tolerances, those of velocities a unit of speed; least: the smallest length (m) and angle (rad) that
  * matter.
  */
-void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
+void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
     double fixed)
 {
-    Run *run = memory;
+    Integrator *run = integrator;
     start_choice(run, method, automatic);
     start_control(run, fixed);
     start_roots(run);

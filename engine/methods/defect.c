@@ -27,13 +27,13 @@ static inline void interpolate_rates(const Step *step, double theta, int rows, d
  * `rate`, by the error of the forces there.
  */
 /* The largest force of a film, N, and the joint that has it, -1 of none. */
-static double largest_film_force(const Aside *aside, int *where)
+static double largest_film_force(const RhsOutputs *rhs, int *where)
 {
     double most = 0.0;
     *where = -1;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (has_film(i) && total_force(&aside->clearance[i]) > most)
-            most = total_force(&aside->clearance[i]), *where = i;
+        if (has_film(i) && total_force(&rhs->clearance[i]) > most)
+            most = total_force(&rhs->clearance[i]), *where = i;
     return most;
 }
 
@@ -43,11 +43,11 @@ static double largest_film_force(const Aside *aside, int *where)
  * A defect as a share of what a film's force, `most`, gives the lightest body, or of a part of the largest acceleration
  * of its kind if that is more. Of very short steps rates are differences of rounded velocities.
  */
-static double film_share(const Run *run, const Step *step, const double *rate, const double *dy, double most,
+static double film_share(const Integrator *run, const Step *step, const double *rate, const double *dy, double most,
     double part)
 {
     const double rounded = RATE_ROUNDED / step->h;
-    double off[2] = {0.0, 0.0}, largest[2], share = 0.0;
+    double off[2] = {0.0, 0.0}, largest[2], fraction = 0.0;
     largest[0] = most / run->films.lightest;
     largest[1] = largest[0] * run->norm.least[1] / run->norm.least[0];
     for (int k = N_X; k < 2 * N_X && most > 0.0; k++) {
@@ -56,8 +56,8 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
         largest[kind] = max_of(largest[kind], part * max_of(fabs(run->dy[k]), max_of(fabs(rate[k]), fabs(dy[k]))));
     }
     for (int kind = 0; kind < 2; kind++)
-        share = max_of(share, largest[kind] > 0.0 ? off[kind] / largest[kind] : 0.0);
-    return share;
+        fraction = max_of(fraction, largest[kind] > 0.0 ? off[kind] / largest[kind] : 0.0);
+    return fraction;
 }
 
 #define FILM_FORCE 1e4 /* times rtol: share of a film's force that may be wrong inside a step */
@@ -66,38 +66,38 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
 #define FILM_FADED 1e-3 /* of the largest force of a film in a run: the audit measures errors of smaller ones by that */
 #define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least; ten times that of explicit methods, without control */
 
-static double film_limit(const Run *run) { return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
+static double film_limit(const Integrator *run) { return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
 
-static double film_audit_limit(const Run *run, const Step *step)
+static double film_audit_limit(const Integrator *run, const Step *step)
 {
     return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * tolerance_of(run)));
 }
 
 /* The share of films' forces that is wrong at a place inside a step; most: a force of theirs. -1: there is no state. */
-static double film_share_at(Run *run, const Step *step, double theta, double most, const Parameters *p)
+static double film_share_at(Integrator *run, const Step *step, double theta, double most, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], rate[N_Y];
     int where;
-    Aside aside;
-    if (state_at(run, step, theta, p, y, dy, &aside))
+    RhsOutputs rhs;
+    if (state_at(run, step, theta, p, y, dy, &rhs))
         return -1.0;
     interpolate_rates(step, theta, 2 * N_X, rate);
-    return film_share(run, step, rate, dy, max_of(most, largest_film_force(&aside, &where)), FILM_PART);
+    return film_share(run, step, rate, dy, max_of(most, largest_film_force(&rhs, &where)), FILM_PART);
 }
 
 /*
  * The error of films' forces inside a step, in multiples of their limit: where the interpolant errs most. A velocity
  * that is as good as the tolerance, times the damping of a thin film, may be any force.
  */
-static double film_error(Run *run, Step *step, const Parameters *p)
+static double film_error(Integrator *run, Step *step, const Parameters *p)
 {
     int where;
-    const double ends = max_of(largest_film_force(&step->aside, &where), largest_film_force(&run->aside, &where));
-    const double share = make_dense(run, p, step) ? -1.0 : film_share_at(run, step, step->method->between, ends, p);
-    if (share < 0.0)
+    const double ends = max_of(largest_film_force(&step->rhs, &where), largest_film_force(&run->rhs, &where));
+    const double fraction = make_dense(run, p, step) ? -1.0 : film_share_at(run, step, step->method->between, ends, p);
+    if (fraction < 0.0)
         return 0.0;
     run->films.h = step->h, run->films.steps = run->counts.steps;
-    run->films.error = share / film_limit(run);
+    run->films.error = fraction / film_limit(run);
     if (step->method->lane == BY_RODAS5P)
         run->films.error *= RODAS5P_FILM;
     return run->films.error;
@@ -107,13 +107,14 @@ static double film_error(Run *run, Step *step, const Parameters *p)
  * Whether forces of films are wrong at an event inside a step: the error inside a step is measured at one place of the
  * whole step, and the state at the event is the start of what follows.
  */
-static int misses_film_at(Run *run, const Step *step, double share, const Parameters *p)
+static int misses_film_at(Integrator *run, const Step *step, double fraction, const Parameters *p)
 {
-    return has_films() && step->method->stiff && film_share_at(run, step, share, 0.0, p) > film_limit(run);
+    return has_films() && step->method->stiff && film_share_at(run, step, fraction, 0.0, p) > film_limit(run);
 }
 
 /* Rates of velocities of a stiff method's interpolant at an end of a step, by weights of its stages and of y - y0. */
-static void rates_at_end(const Run *run, const Step *step, const double *weight, int n, double of_end, double *rate)
+static void rates_at_end(
+    const Integrator *run, const Step *step, const double *weight, int n, double of_end, double *rate)
 {
     const double *k = step->stages_lane ? step->stages_lane : step->k[0];
     const int stride = step->stages_lane ? step->lanes : 1;
@@ -134,25 +135,25 @@ enum { FILM_STEPS = 16 /* in each 16th */ };
  * its begin what the interpolant misses, at its end what iterations have left of a velocity. film_error has been seen
  * to be up to 37 times as large, of errors that were far below the limit.
  */
-static double film_error_at_ends(const Run *run, const Step *step, double part)
+static double film_error_at_ends(const Integrator *run, const Step *step, double part)
 {
     const Method *method = step->method;
     double rate[N_Y];
     int where;
     if (!method->stiff || !has_films())
         return 0.0;
-    const double most = largest_film_force(&step->aside, &where);
+    const double most = largest_film_force(&step->rhs, &where);
     rates_at_end(run, step, method->begins, method->n_begins, method->begins_end, rate);
-    double share = film_share(run, step, rate, run->dy, most, part);
+    double fraction = film_share(run, step, rate, run->dy, most, part);
     if (method->n_ends) {
         rates_at_end(run, step, method->ends, method->n_ends, method->ends_end, rate);
-        share = max_of(share, film_share(run, step, rate, step->dy, most, part));
+        fraction = max_of(fraction, film_share(run, step, rate, step->dy, most, part));
     }
-    return share / film_limit(run);
+    return fraction / film_limit(run);
 }
 
 /* Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. */
-static int is_film_known(const Run *run, const Step *step, double at_ends)
+static int is_film_known(const Integrator *run, const Step *step, double at_ends)
 {
     if (!step->method->stiff || !has_films())
         return 1;
@@ -164,7 +165,7 @@ static int is_film_known(const Run *run, const Step *step, double at_ends)
  * Whether a step that begins with a force of a film which fades at once, or rises, leads over that: where the
  * interpolant begins with other accelerations than the motion does, forces inside the step are wrong.
  */
-static int misses_film(const Run *run, const Step *step, double at_ends)
+static int misses_film(const Integrator *run, const Step *step, double at_ends)
 {
     return at_ends > 1.0 && film_error_at_ends(run, step, 1.0) > 1.0;
 }
@@ -179,7 +180,7 @@ static double lightest_mass(const Parameters *p)
     return lightest;
 }
 
-static void start_films(Run *run, const Parameters *p)
+static void start_films(Integrator *run, const Parameters *p)
 {
     run->films.lightest = has_films() ? lightest_mass(p) : INFINITY;
 }

@@ -6,10 +6,10 @@
 #include "../both/dop853.h"
 
 /* Shares of a step, in their order, at which the estimate of its error hears of the equations. */
-static const double dop853_heard[] = {0.0, 0.25, 0.3076923076923077, 0.3333333333333333, 0.6, 0.6512820512820513,
+static const double dop853_error_nodes[] = {0.0, 0.25, 0.3076923076923077, 0.3333333333333333, 0.6, 0.6512820512820513,
     0.8571428571428571, 1.0};
 
-static void dop853_interpolate(const Run *run, const Step *step, double s, double *y)
+static void dop853_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
     const double u = 1.0 - s;
@@ -23,4 +23,4 @@ static void dop853_interpolate(const Run *run, const Step *step, double s, doubl
 static const Method dop853 = {.name = "dop853", .try = dop853_try, .dense = dop853_dense,
     .interpolate = dop853_interpolate, .power = 0.125, .unstable = 4.8, .bounded = 4.0, .stages = DOP853_STAGES,
     .more = DOP853_MORE, .degree = 7, .turned = 0x2a,
-    .heard = dop853_heard, .n_heard = COUNT_OF(dop853_heard)};
+    .error_nodes = dop853_error_nodes, .n_error_nodes = COUNT_OF(dop853_error_nodes)};

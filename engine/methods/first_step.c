@@ -17,16 +17,16 @@
 enum { MAX_FITTED = 3 };
 
 /* A first step from the size of the motion's first two rates. */
-static int first_size(Run *run, double left, const Parameters *p)
+static int initial_step(Integrator *run, double left, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < 2 * N_X; k++)
         one = max_of(one, fabs(run->dy[k]) * run->norm.weight[k]);
     double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, FIRST_SHARE * left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    const int status = rates(run, run->t + h, y, p, dy, &rhs);
     if (status)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
@@ -38,13 +38,13 @@ static int first_size(Run *run, double left, const Parameters *p)
 }
 
 /* How accelerations change over h of straight motion: in tolerances of velocity a second, and their size. */
-static int changes_within(Run *run, double h, const Parameters *p, double *change, double *size)
+static int acceleration_change(Integrator *run, double h, const Parameters *p, double *change, double *size)
 {
     double y[N_Y], dy[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    const int status = rates(run, run->t + h, y, p, dy, &rhs);
     *change = *size = 0.0;
     for (int k = N_X; k < 2 * N_X && !status; k++) {
         *change = max_of(*change, fabs(dy[k] - run->dy[k]) * run->norm.weight[k]);
@@ -58,7 +58,7 @@ static int changes_within(Run *run, double h, const Parameters *p, double *chang
  * by a power of the length, for forces begin as delta^n; elsewhere accelerations change in proportion to it, and what
  * is less than a tolerance is no change.
  */
-static double better_by(const Run *run, double h, double change, double size, double fits)
+static double length_ratio(const Integrator *run, double h, double change, double size, double fits)
 {
     const double missed = change * h;
     if (!(missed > 0.0))
@@ -71,10 +71,10 @@ static double better_by(const Run *run, double h, double change, double size, do
  * After an event: as long a step as fits what straight motion changes. Each onset is as fast as it is, by the
  * tolerances that fitted the last one; of others the length is known once their like was there. left: to the run's end.
  */
-static int fit_first(Run *run, double left, const Parameters *p)
+static int first_step_after_event(Integrator *run, double left, const Parameters *p)
 {
     const int stiff = !!run->choice.method->stiff, begins = run->control.rough > 0.0;
-    const int corner = begins_at_corner(run);
+    const int corner = begins_at_switch(run);
     const double onset = run->control.onset[stiff] > 0.0 ? run->control.onset[stiff] : stiff ? ONSET_STIFF : ONSET;
     const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
     if (!run->control.first || run->control.fixed > 0.0 || run->choice.method->own_length
@@ -84,11 +84,11 @@ static int fit_first(Run *run, double left, const Parameters *p)
     for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
         const double h = min_of(run->control.h, left);
         double change, size, by = FIT_FAILED;
-        const int status = changes_within(run, h, p, &change, &size);
+        const int status = acceleration_change(run, h, p, &change, &size);
         if (status == STOPPED)
             return status;
         if (!status && isfinite(change + size)) {
-            by = better_by(run, h, change, size, fits);
+            by = length_ratio(run, h, change, size, fits);
             run->control.onset_share = change * rough_power(h, 2.0 - run->control.rough);
         }
         if (h < run->control.h && by >= 1.0)

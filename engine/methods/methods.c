@@ -7,9 +7,9 @@
 
 struct Method {
     const char *name;                                           /* as in runtime/contract/methods.py */
-    int (*try)(Run *, double h, const Parameters *, Step *);    /* a step of length h into Step, with its error */
-    int (*dense)(Run *, const Parameters *, Step *);            /* makes the interpolant of an accepted one */
-    void (*interpolate)(const Run *, const Step *, double share, double *y);
+    int (*try)(Integrator *, double h, const Parameters *, Step *); /* a step of length h into Step, with its error */
+    int (*dense)(Integrator *, const Parameters *, Step *);            /* makes the interpolant of an accepted one */
+    void (*interpolate)(const Integrator *, const Step *, double fraction, double *y);
     const struct Tableau *tableau; /* of runge_kutta.c */
     int drifts;               /* whether Baumgarte's terms keep the rows, and no step is projected onto them */
     int lane;                 /* which of those that lanes know (run.h) */
@@ -18,8 +18,8 @@ struct Method {
     double unstable, bounded; /* h rho beyond which no step is taken; at which stability bounds its steps */
     int stages, more;         /* that a try makes, that its interpolant makes besides (batch/) */
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
-    const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
-    int n_heard;
+    const double *error_nodes;      /* shares of a step, in their order, at which its error hears of the equations */
+    int n_error_nodes;
     double between;           /* of a stiff one: the share of a step at which its interpolant errs most */
     double begins[8], begins_end; /* h times its rates at a step's begin, by stages and by y - y0 */
     double ends[4], ends_end; /* the same at its end, where stages are found by iterations */
@@ -47,7 +47,7 @@ static const Method *const METHODS[] = {
 };
 #define EXPLICIT (&dop853)  /* what the automatic choice is between, and the run's `implicit` */
 
-static int drifts(const Run *run) { return run->choice.method->drifts; }
+static int drifts(const Integrator *run) { return run->choice.method->drifts; }
 
 /* A method's number, as gudgeon_adaptive_setup takes it; -1: none has that name. */
 int gudgeon_method(const char *name)
@@ -59,17 +59,17 @@ int gudgeon_method(const char *name)
 }
 
 /* What others have found of a step that they tried. */
-static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y])
+static void copy_from_lane(const double *lane, int lanes, int rows, double (*to)[N_Y])
 {
     for (int k = 0; k < rows; k++)
         for (int i = 0; i < N_Y; i++)
             to[k][i] = lane[(k * N_Y + i) * lanes];
 }
 
-static void forget_looked(Run *run); /* watch/roots.c */
+static void forget_samples(Integrator *run); /* watch/roots.c */
 
 /* The interpolant of a step, made once. 0, or why there is none: a stage of its own may not be computable. */
-static int make_dense(Run *run, const Parameters *p, Step *step)
+static int make_dense(Integrator *run, const Parameters *p, Step *step)
 {
     const int there = step->dense_ready == ELSEWHERE;
     if (step->dense_ready == HERE)
@@ -77,14 +77,14 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     if (step->dense_ready == FAILED)
         return step->dense_status;
     step->dense_ready = HERE;
-    forget_looked(run);
+    forget_samples(run);
     if (there) {
-        take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
+        copy_from_lane(step->dense_lane, step->lanes, N_DENSE, step->dense);
         count_evaluations(run, step->method->more);
         return 0;
     }
     if (step->stages_lane)
-        take_over(step->stages_lane, step->lanes, step->method->stages, step->k);
+        copy_from_lane(step->stages_lane, step->lanes, step->method->stages, step->k);
     step->stages_lane = NULL;
     step->dense_status = step->method->dense(run, p, step);
     if (step->dense_status)

@@ -1,34 +1,34 @@
 /*
  * Radau IIA of orders 5 and 9 (both/radau.h), and what lies between the ends of its steps.
  */
-static int make_pair(Run *run, double eta, double eta_i, ComplexLinear *pair)
+static int make_pair(Integrator *run, double eta, double eta_i, ComplexLinear *pair)
 {
     pair->p = run->newton.linear.p;
     pair->value = run->newton.linear.value;
     return newton_factor_complex(eta, eta_i, pair) ? NOT_FINITE : 0;
 }
 
-static void look_around(Run *run) { look_back(run); }
+static void look_around(Integrator *run) { update_iteration_history(run); }
 
 /* Rates that were asked for are counted where they are made. */
-static void count_rates(Run *run, int active, int n) { (void)run, (void)active, (void)n; }
+static void count_rates(Integrator *run, int active, int n) { (void)run, (void)active, (void)n; }
 
 /* An iteration begins; what is seen at a stage of it. */
-static void begin_pass(Run *run, Step *step, int active, int n)
+static void begin_pass(Integrator *run, Step *step, int active, int n)
 {
     (void)run, (void)active, (void)n;
     forget_stages(step);
 }
 
-static void note_pass(Run *run, Step *step, int active, const double *y, const Aside *aside, double node)
+static void note_pass(Integrator *run, Step *step, int active, const double *y, const RhsOutputs *rhs, double node)
 {
     (void)active;
-    note_state(step, y);
-    note_stage(run, step, aside, node);
+    record_stage_state(step, y);
+    record_stage(run, step, rhs, node);
 }
 
 /* Where stages were not found the step is refused. */
-static int stages_lost(Run *run, int lost) { return (void)run, lost ? NOT_FOUND : 0; }
+static int stages_lost(Integrator *run, int lost) { return (void)run, lost ? NOT_FOUND : 0; }
 
 #include "../both/radau.h"
 
@@ -37,7 +37,7 @@ static int stages_lost(Run *run, int lost) { return (void)run, lost ? NOT_FOUND 
  * accelerations, and with three stages velocities are its derivative: of a higher order. With films accelerations have
  * the errors of velocities times the film's damping: the quintic would have those times h rho between the ends.
  */
-static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages)
+static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int stages)
 {
     const double h = step->h;
     double (*const d)[N_Y] = step->dense, way[N_Y];
@@ -68,37 +68,37 @@ static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages
     return 0;
 }
 
-static int radau5_dense(Run *run, const Parameters *p, Step *step)
+static int radau5_dense(Integrator *run, const Parameters *p, Step *step)
 {
     return (void)p, radau_dense(run, step, &RADAU5, 3);
 }
 
-static int radau9_dense(Run *run, const Parameters *p, Step *step)
+static int radau9_dense(Integrator *run, const Parameters *p, Step *step)
 {
     return (void)p, radau_dense(run, step, &RADAU9, 5);
 }
 
-static void radau_interpolate(const Run *run, const Step *step, double s, double *y)
+static void radau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense, r = 1.0 - s;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i] + s * (d[0][i] + r * (d[1][i] + s * (d[2][i] + r * (d[3][i] + s * d[4][i]))));
 }
 
-static const double radau5_heard[] = {0.0, 0.15505102572168219, 0.64494897427831781, 1.0};
-static const double radau9_heard[] = {0.0, 0.057104196114517682, 0.27684301363812383, 0.58359043236891682,
+static const double radau5_error_nodes[] = {0.0, 0.15505102572168219, 0.64494897427831781, 1.0};
+static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.27684301363812383, 0.58359043236891682,
     0.86024013565621945, 1.0};
 
 static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .heard = radau5_heard,
-    .n_heard = COUNT_OF(radau5_heard), .between = 0.85,
+    .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,
+    .n_error_nodes = COUNT_OF(radau5_error_nodes), .between = 0.85,
     .begins = {10.048809399827416, -1.3821427331607489}, .n_begins = 2, .begins_end = 1.0 / 3.0,
     .ends = {5.5319726474218083, -7.5319726474218083}, .n_ends = 2, .ends_end = 5.0};
 static const Method radau9 = {.name = "radau9", .try = radau9_try, .dense = radau9_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .heard = radau9_heard,
-    .n_heard = COUNT_OF(radau9_heard), .between = 0.74,
+    .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .error_nodes = radau9_error_nodes,
+    .n_error_nodes = COUNT_OF(radau9_error_nodes), .between = 0.74,
     .begins = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begins = 4,
     .begins_end = 0.2, .ends = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101},
     .n_ends = 4, .ends_end = 13.0};

@@ -4,11 +4,11 @@
  */
 
 /* The equations linearized at the run's state, and Newton's matrix for a step. A Jacobian counts once a step. */
-static int make_linear(Run *run, double hg, const Parameters *p)
+static int make_linear(Integrator *run, double hg, const Parameters *p)
 {
     if (run->newton.ready != HERE) {
-        show_states(&run->memory, run->y);
-        const int lost = linearize_state(run->t, run->y, &run->memory, p, run->dy + N_X, &run->aside,
+        show_states(&run->discrete, run->y);
+        const int lost = linearize_state(run->t, run->y, &run->discrete, p, run->dy + N_X, &run->rhs,
             &run->newton.linear);
         if (lost)
             return lost;
@@ -20,18 +20,18 @@ static int make_linear(Run *run, double hg, const Parameters *p)
 }
 
 /* From a new state on. */
-static void forget_linear(Run *run) { run->newton.ready = 0; }
+static void forget_linear(Integrator *run) { run->newton.ready = 0; }
 
 #include "../both/rodas5p.h"
 
 /* Shares of a step, in their order, at which it is evaluated. */
-static const double rodas5p_heard[] = {0.0, 0.4095798393397535, 0.4288403609558664, 0.6358126895828704,
+static const double rodas5p_error_nodes[] = {0.0, 0.4095798393397535, 0.4288403609558664, 0.6358126895828704,
     0.9769306725060716, 1.0};
 
 #define RODAS5P_BEGINS 25.948786856663858, -2.5579724845846235, 10.433815404888879, -2.3679251022685204, \
     0.524948541321073, 1.1241088310450404, 0.4272876194431874, -0.17202221070155493
 
-static int rodas5p_dense(Run *run, const Parameters *p, Step *step)
+static int rodas5p_dense(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
     static const double b[] = {RODAS5P_BEGINS};
@@ -50,15 +50,28 @@ static int rodas5p_dense(Run *run, const Parameters *p, Step *step)
     return 0;
 }
 
-static void rodas5p_interpolate(const Run *run, const Step *step, double s, double *y)
+static void rodas5p_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i] + s * (d[0][i] + (1.0 - s) * (d[1][i] + s * (d[2][i] + s * d[3][i])));
 }
 
-static const Method rodas5p = {.name = "rodas5p", .try = rodas5p_try, .dense = rodas5p_dense,
-    .interpolate = rodas5p_interpolate, .power = 0.2, .stiff = 1, .lane = BY_RODAS5P,
-    .unstable = INFINITY, .bounded = INFINITY,
-    .stages = RODAS5P_STAGES, .degree = 4, .turned = 0x2, .heard = rodas5p_heard, .n_heard = COUNT_OF(rodas5p_heard),
-    .between = 0.5, .begins = {RODAS5P_BEGINS}, .n_begins = RODAS5P_STAGES, .begins_end = 1.0};
+static const Method rodas5p = {.name = "rodas5p",
+    .try = rodas5p_try,
+    .dense = rodas5p_dense,
+    .interpolate = rodas5p_interpolate,
+    .power = 0.2,
+    .stiff = 1,
+    .lane = BY_RODAS5P,
+    .unstable = INFINITY,
+    .bounded = INFINITY,
+    .stages = RODAS5P_STAGES,
+    .degree = 4,
+    .turned = 0x2,
+    .error_nodes = rodas5p_error_nodes,
+    .n_error_nodes = COUNT_OF(rodas5p_error_nodes),
+    .between = 0.5,
+    .begins = {RODAS5P_BEGINS},
+    .n_begins = RODAS5P_STAGES,
+    .begins_end = 1.0};

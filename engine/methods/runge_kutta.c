@@ -4,19 +4,19 @@
  */
 #include "../both/runge_kutta.h"
 
-static int tableau_try(Run *run, double h, const Parameters *p, Step *step)
+static int tableau_try(Integrator *run, double h, const Parameters *p, Step *step)
 {
     return runge_kutta_try(run, step->method->tableau, h, p, step);
 }
 
-static int tableau_dense(Run *run, const Parameters *p, Step *step)
+static int tableau_dense(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
     runge_kutta_dense(run, step->method->tableau, step);
     return 0;
 }
 
-static void tableau_interpolate(const Run *run, const Step *step, double s, double *y)
+static void tableau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double u = 1.0 - s;
     for (int i = 0; i < N_Y; i++)
@@ -28,13 +28,13 @@ static void tableau_interpolate(const Run *run, const Step *step, double s, doub
     .turned = 0xa
 
 /* In absolute coordinates Baumgarte's terms keep the rows. */
-static const double rk4_heard[] = {0.0, 0.5, 1.0};
+static const double rk4_error_nodes[] = {0.0, 0.5, 1.0};
 static const Method rk4 = {.name = "rk4", BY_TABLEAU, .tableau = &classical, .stages = RK4_STAGES, .lane = BY_RK4,
-    .drifts = !TREE, .power = 1.0 / 4.0, .unstable = 2.8, .bounded = 2.5, .heard = rk4_heard,
-    .n_heard = COUNT_OF(rk4_heard)};
+    .drifts = !TREE, .power = 1.0 / 4.0, .unstable = 2.8, .bounded = 2.5, .error_nodes = rk4_error_nodes,
+    .n_error_nodes = COUNT_OF(rk4_error_nodes)};
 
 /* A decaying mode grows from h rho = 3.3 on. */
-static const double dopri5_heard[] = {0.0, 0.3, 0.8, 8.0 / 9.0, 1.0};
+static const double dopri5_error_nodes[] = {0.0, 0.3, 0.8, 8.0 / 9.0, 1.0};
 static const Method dopri5 = {.name = "dopri5", BY_TABLEAU, .tableau = &dormand_prince, .stages = DOPRI5_STAGES,
-    .lane = BY_DOPRI5, .power = 1.0 / 5.0, .unstable = 3.3, .bounded = 2.7, .heard = dopri5_heard,
-    .n_heard = COUNT_OF(dopri5_heard)};
+    .lane = BY_DOPRI5, .power = 1.0 / 5.0, .unstable = 3.3, .bounded = 2.7, .error_nodes = dopri5_error_nodes,
+    .n_error_nodes = COUNT_OF(dopri5_error_nodes)};

@@ -25,14 +25,14 @@
 #define SHRINK_NEWTON 0.5       /* where Newton's iteration failed [2] */
 #define SHRINK_FAILED 0.25      /* where a stage is not finite */
 #define SHRINK_UNRESOLVED 0.25  /* where what happens between the stages is not resolved */
-#define STRIDE_SLACK 1.5        /* times stride(): a longer step is refused */
-#define SHRINK_STRIDE 0.5       /* and tried again with this share of its length */
-#define PULSE_PART 0.5          /* of the part of a step up to a pulse that it missed: the next length */
+#define FLIGHT_STEP_SLACK 1.5        /* times stride(): a longer step is refused */
+#define SHRINK_FLIGHT_STEP 0.5       /* and tried again with this share of its length */
+#define TRANSIENT_PART 0.5          /* of the part of a step up to a pulse that it missed: the next length */
 #define MIN_PARTING 0.1         /* of a step: a contact that ends sooner does not change its length */
 enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     WORTHWHILE = 400 /* steps of a method that lasted: the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, ASKED_AGAIN = 24 /* steps until the explicit method is considered again */,
-    VOTES = 3 /* steps in a row against the explicit method, until the stiff one takes over */,
+    MAX_AGAINST = 3 /* steps in a row against the explicit method, until the stiff one takes over */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
 #define FALLING 0.7   /* of a film's error, that is left in a shorter step at most if it is no rounding */
@@ -51,14 +51,14 @@ static const Method *own_method(const Method *method)
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
-static void relink_choice(Run *run)
+static void relink_choice(Integrator *run)
 {
     run->choice.method = own_method(run->choice.method);
     run->choice.implicit = own_method(run->choice.implicit);
 }
 
 /* Begin with a method (gudgeon_method), and the stiff one that the run may change to; 0: it may not. */
-static void start_choice(Run *run, int method, int automatic)
+static void start_choice(Integrator *run, int method, int automatic)
 {
     run->choice.method = METHODS[method];
     run->choice.automatic = automatic > 0;
@@ -67,7 +67,7 @@ static void start_choice(Run *run, int method, int automatic)
 }
 
 /* fixed: the length of all steps, s; 0: errors choose it. */
-static void start_control(Run *run, double fixed)
+static void start_control(Integrator *run, double fixed)
 {
     run->control.fixed = run->control.h = fixed;
     run->control.grid = run->t;
@@ -76,7 +76,7 @@ static void start_control(Run *run, double fixed)
 }
 
 /* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
-static void change_method(Run *run)
+static void change_method(Integrator *run)
 {
     const int stiff = run->choice.method->stiff;
     if (!stiff)
@@ -84,7 +84,7 @@ static void change_method(Run *run)
             : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
     run->choice.method = stiff ? EXPLICIT : run->choice.implicit;
-    run->choice.votes = 0;
+    run->choice.n_against = 0;
     run->choice.since = 0;
 }
 
@@ -93,10 +93,10 @@ static void change_method(Run *run)
  * in B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326. Stages of a stiff method
  * do not see a fast mode that is at rest; an explicit step is unstable by it all the same. 0: it is not known.
  */
-static double largest_rate(Run *run, const Parameters *p)
+static double largest_rate(Integrator *run, const Parameters *p)
 {
     double way[N_Y], y[N_Y], dy[N_Y], growth[2] = {0.0, 0.0};
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         way[k] = (k % 2 ? -1.0 : 1.0) / run->norm.weight[k];
     for (int n = 0; n <= RATE_ITERATIONS; n++) {
@@ -108,7 +108,7 @@ static double largest_rate(Run *run, const Parameters *p)
         growth[n % 2] = size; /* two by two: a vibration turns from positions to velocities and back */
         for (int k = 0; k < N_Y; k++)
             y[k] = run->y[k] + way[k] / size;
-        if (!(size > 0.0 && isfinite(size)) || rates(run, run->t, y, p, dy, &aside))
+        if (!(size > 0.0 && isfinite(size)) || rates(run, run->t, y, p, dy, &rhs))
             return 0.0;
         for (int k = 0; k < N_Y; k++)
             way[k] = dy[k] - run->dy[k];
@@ -117,7 +117,7 @@ static double largest_rate(Run *run, const Parameters *p)
 }
 
 /* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
-static void choose(Run *run, const Parameters *p)
+static void choose_method(Integrator *run, const Parameters *p)
 {
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
@@ -125,20 +125,20 @@ static void choose(Run *run, const Parameters *p)
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.stability;
     const int against = stiff ? stability < SLACK : stability > run->choice.method->bounded || slower;
-    run->choice.votes = against ? run->choice.votes + 1 : 0;
+    run->choice.n_against = against ? run->choice.n_against + 1 : 0;
     run->choice.since++;
-    if (!run->choice.automatic || run->choice.votes < (stiff ? run->choice.patience : VOTES))
+    if (!run->choice.automatic || run->choice.n_against < (stiff ? run->choice.patience : MAX_AGAINST))
         return;
     const double rate = stiff ? largest_rate(run, p) : 0.0;
     if (rate * run->control.h < SLACK)
         change_method(run);
     else
-        run->choice.votes = -ASKED_AGAIN;
+        run->choice.n_against = -ASKED_AGAIN;
     run->choice.rate = rate;
 }
 
 /* Of which power of a step's length its error is: the method's, or less where something has just begun. */
-static double order_of(const Run *run, const Step *step)
+static double order_of(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
     return run->control.first && run->control.rough > 0.0 ? min_of(run->control.rough, order) : order;
@@ -148,10 +148,10 @@ static double order_of(const Run *run, const Step *step)
 static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
 
 /* A step's error, in tolerances, from which a length can be told. */
-static double told_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
+static double limited_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
 
 /* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
-static double shrink(Run *run, const Step *step)
+static double shrink(Integrator *run, const Step *step)
 {
     Attempt *now = &run->control.attempt;
     double order = order_of(run, step);
@@ -166,12 +166,12 @@ static double shrink(Run *run, const Step *step)
 }
 
 /* What would have fitted in place of the first step since something changed. */
-static void note_first(Run *run, const Step *step)
+static void record_first_step(Integrator *run, const Step *step)
 {
     if (!run->control.first)
         return;
     const double safe = run->control.rough > 0.0 ? SAFETY_ONSET : SAFETY;
-    const double fits = safe * rough_power(told_error(step), -1.0 / order_of(run, step));
+    const double fits = safe * rough_power(limited_error(step), -1.0 / order_of(run, step));
     *run->control.first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
     if (run->control.rough > 0.0 && run->control.onset_share > 0.0)
         run->control.onset[!!step->method->stiff] = run->control.onset_share
@@ -183,35 +183,35 @@ static void note_first(Run *run, const Step *step)
  * By which share a step may become longer, as errors were seen to grow from an accepted step to the longer one that was
  * refused before it: of stiff motion that can be a far higher power than the method's, and would be refused again.
  */
-static double share_as_seen(Run *run, const Step *step, int again)
+static double observed_growth(Integrator *run, const Step *step, int again)
 {
     const Attempt *now = &run->control.attempt;
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
-        run->control.steep = min_of(STEEPEST, log(now->error / told_error(step)) / log(now->refused / step->h));
+        run->control.steep = min_of(STEEPEST, log(now->error / limited_error(step)) / log(now->refused / step->h));
     run->control.steep *= FADES;
     const double steep = run->control.steep;
-    return steep * step->method->power > 1.0 ? SAFETY * rough_power(told_error(step), -1.0 / steep) : INFINITY;
+    return steep * step->method->power > 1.0 ? SAFETY * rough_power(limited_error(step), -1.0 / steep) : INFINITY;
 }
 
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
-static void next_length(Run *run, const Step *step, int again, int whole)
+static void next_length(Integrator *run, const Step *step, int again, int whole)
 {
     if (step->method->own_length) { /* as far as one may look ahead */
         run->control.h = again ? step->h : length_ahead(run);
         return;
     }
-    const double error = told_error(step), power = step->method->power;
+    const double error = limited_error(step), power = step->method->power;
     double factor = SAFETY * rough_exp2(power
         * (LAST_ERROR_EXPONENT * rough_log2(run->control.error_before) - ERROR_EXPONENT * rough_log2(error)));
     const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
     const double stability = max_of(run->choice.stability, known);
     if (!step->method->stiff && stability > 1.0)
         factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
-    factor = min_of(factor, share_as_seen(run, step, again));
-    const double most = again ? 1.0 /* [1] */ : step->looked ? MAX_GROWTH_EVENTS : MAX_GROWTH;
+    factor = min_of(factor, observed_growth(run, step, again));
+    const double most = again ? 1.0 /* [1] */ : step->is_searched ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(most, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
-    note_first(run, step);
+    record_first_step(run, step);
     if (step->h * factor > run->control.h || (whole && run->roots.skip < 0) || factor < 1.0)
         run->control.h = step->h * factor;
 }
@@ -220,24 +220,24 @@ static void next_length(Run *run, const Step *step, int again, int whole)
  * A step that ends close behind the end of a contact, if it would reach beyond: across it a force is no power series.
  * What is left of the contact is told by its depth and rate.
  */
-static double up_to_parting(const Run *run, double h)
+static double limit_by_separation(const Integrator *run, double h)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *joint = &run->aside.clearance[i];
+        const Clearance *joint = &run->rhs.clearance[i];
         const double left = PAST * joint->delta / -joint->deltadot;
-        if (gives(i) && run->memory.latch[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
+        if (gives(i) && run->discrete.contact[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
             h = left;
     }
     return h;
 }
 
 /* No longer than a journal takes that crosses its bearing as it leaves the wall, or a corner its guide. */
-static double within_flight(const Run *run, double h, const Parameters *p)
+static double limit_by_flight(const Integrator *run, double h, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *joint = &run->aside.clearance[i];
+        const Clearance *joint = &run->rhs.clearance[i];
         const double c = radial_clearance(p, i), way = max_of(c, 2.0 * c + joint->delta);
-        if (gives(i) && !run->memory.latch[i].closed && joint->deltadot < 0.0)
+        if (gives(i) && !run->discrete.contact[i].closed && joint->deltadot < 0.0)
             h = min_of(h, FLIGHT * way / -joint->deltadot);
     }
     return h;
@@ -247,9 +247,9 @@ static double within_flight(const Run *run, double h, const Parameters *p)
  * A corner of the forces changes the motion little: a length that was just refused is too long behind it, too, whatever
  * fitted behind the like of it before. That the estimate of so long a step is small would be chance.
  */
-static double below_refused(const Run *run, double h)
+static double limit_by_refused(const Integrator *run, double h)
 {
-    const int again = begins_at_corner(run) && run->t < run->control.too_long_until;
+    const int again = begins_at_switch(run) && run->t < run->control.too_long_until;
     return again ? min_of(h, run->control.too_long) : h;
 }
 
@@ -257,7 +257,7 @@ static double below_refused(const Run *run, double h)
  * What a fixed step has left to the next end of the grid that begins with the run, *end: an event in between does not
  * move it. One that is taken again, to end close behind an event, is as long as control.h has it.
  */
-static double up_to_grid(Run *run, double t_end, double *end)
+static double fixed_step_length(Integrator *run, double t_end, double *end)
 {
     StepControl *control = &run->control;
     double h;
@@ -277,16 +277,17 @@ static double up_to_grid(Run *run, double t_end, double *end)
  * How long a step towards t_end is tried at first. A fixed one reads at each stage what the state there says: no error
  * tells that branches which are held beyond their ends grow without bounds, as the force of a film does.
  */
-static void open_attempt(Run *run, double t_end, const Parameters *p)
+static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
-        h = up_to_grid(run, t_end, &end);
-        run->memory.held = DRIVE_IMPULSES; /* at the jump of a drive rows have two rates */
+        h = fixed_step_length(run, t_end, &end);
+        run->discrete.held = DRIVE_IMPULSES; /* at the jump of a drive rows have two rates */
     } else {
-        h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.pace) : run->control.h;
-        h = within_flight(run, up_to_parting(run, min_of(below_refused(run, h), stride(run, NULL, p))), p);
+        h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
+        h = limit_by_flight(
+            run, limit_by_separation(run, min_of(limit_by_refused(run, h), flight_step_limit(run, NULL, p))), p);
         h = h > left * SAME_LENGTH ? left : h;
     }
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
@@ -294,7 +295,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
 }
 
 /* Another one, as long as attempt->h. */
-static int again(Run *run)
+static int again(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
     return 0;
@@ -305,14 +306,14 @@ static int again(Run *run)
  * run->control.attempt. If so, the next one's length is in run->control.h; or *status is what went wrong. Events are
  * not looked for.
  */
-static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int *status)
+static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Step *step, int *status)
 {
     const Method *method = step->method;
     Attempt *now = &run->control.attempt;
     const int fixed = run->control.fixed > 0.0;
     *status = tried;
-    if (N_SWITCHES > 0 && fixed && tried == NOT_FINITE && run->memory.held) {
-        run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+    if (N_SWITCHES > 0 && fixed && tried == NOT_FINITE && run->discrete.held) {
+        run->discrete.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
         return again(run);
     }
     if (tried == STOPPED || fixed)
@@ -335,10 +336,10 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
             now->h *= method->bounded / run->choice.stability;
         return again(run);
     }
-    if (good && STRIDE_SLACK * stride(run, step, p) < now->h) {
+    if (good && FLIGHT_STEP_SLACK * flight_step_limit(run, step, p) < now->h) {
         now->again = 1;
         count_rejected(run);
-        now->h *= SHRINK_STRIDE;
+        now->h *= SHRINK_FLIGHT_STEP;
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
@@ -348,16 +349,16 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         now->h *= SHRINK_UNRESOLVED;
         return again(run);
     }
-    const double pulse = good && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
+    const double pulse = good && now->h > FINE * now->far ? missed_transient(run, step, p) : 0.0;
     if (pulse > 0.0 && now->shortened++ < SHORTENED) {
         now->again = 1;
         count_rejected(run);
-        now->h *= max_of(SHRINK_UNRESOLVED, PULSE_PART * pulse);
+        now->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * pulse);
         return again(run);
     }
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
-        *status = note_crawl(run, now->h < CRAWL_LENGTH * now->far) ? what_ends(run, TOO_SMALL, p) : 0;
+        *status = note_short_step(run, now->h < SHORT_STEP * now->far) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;
@@ -365,13 +366,13 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink(run, step);
     if (now->h > least)
         return again(run);
-    if (N_SWITCHES > 0 && tried == NOT_FINITE && run->memory.held) {
-        run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+    if (N_SWITCHES > 0 && tried == NOT_FINITE && run->discrete.held) {
+        run->discrete.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
         now->h = now->longest;
         return again(run);
     }
     if (!run->choice.automatic || !method->stiff || now->given_up++) {
-        *status = tried ? tried : what_ends(run, TOO_SMALL, p);
+        *status = tried ? tried : diagnose_stall(run, TOO_SMALL, p);
         return 1;
     }
     change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
@@ -379,23 +380,24 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     return again(run);
 }
 
-static int try_step(Run *run, const Parameters *p, Step *step)
+static int try_step(Integrator *run, const Parameters *p, Step *step)
 {
     step->method = run->choice.method;
     step->stages_lane = NULL;
     int status;
-    for (first_way(run); other_way(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
+    for (begin_singular_policy(run);
+         next_singular_policy(run, status = run->choice.method->try(run, run->control.attempt.h, p, step));)
         ;
     return status;
 }
 
-static void close_attempt(Run *run) { run->control.attempt.open = 0; }
+static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
 /* Steps as long as run->control.attempt has them, until one is accepted; 0, or what went wrong. */
-static int accepted_step(Run *run, const Parameters *p, Step *step)
+static int accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;
-    while (!is_settled(run, try_step(run, p, step), p, step, &status))
+    while (!is_step_accepted(run, try_step(run, p, step), p, step, &status))
         ;
     close_attempt(run);
     return status;

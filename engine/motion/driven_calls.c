@@ -2,20 +2,21 @@
  * Calls from outside into the reduced formulation; q and v are tree coordinates here. Behind those that are free q
  * holds a first guess of the driven chains' coordinates, which are closed first.
  */
-static int outside_state(double t, const double *q, const double *v, Memory *memory, const Parameters *p, TreeState *at)
+static int outside_state(
+    double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     double y[N_Y];
     for (int k = 0; k < N_X; k++) {
         y[k] = q[k];
         y[N_X + k] = v[k];
     }
-    seat_chains(t, q + N_X, memory, p);
-    return tree_state(t, y, memory, p, at);
+    seat_chains(t, q + N_X, discrete, p);
+    return tree_state(t, y, discrete, p, at);
 }
 
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
 {
-    Memory now = {0};
+    DiscreteState now = {0};
     TreeState at = {0};
     outside_state(t, q, v, &now, (const Parameters *)p, &at);
     expand(t, at.q, at.v, (const Parameters *)p, all_q, all_v);
@@ -26,27 +27,27 @@ void gudgeon_reduce(double t, const double *all_q, const double *all_v, const do
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
 }
 
-int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
 {
-    Memory now = {0};
-    Aside aside;
+    DiscreteState now = {0};
+    RhsOutputs rhs;
     TreeState at;
-    read_memory(memory, &now);
+    read_discrete_state(discrete, &now);
     int status = outside_state(t, q, v, &now, (const Parameters *)p, &at);
     if (status)
         return status;
-    status = reduced_dynamics(t, at.q, at.v, &now, (const Parameters *)p, a, &aside);
+    status = reduced_dynamics(t, at.q, at.v, &now, (const Parameters *)p, a, &rhs);
     for (int r = 0; r < N_LOOPS; r++)
-        lambda[r] = aside.lambda[r];
+        lambda[r] = rhs.lambda[r];
     for (int k = 0; k < N_WORK; k++)
-        power[k] = aside.power[k];
+        power[k] = rhs.power[k];
     return status;
 }
 
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
 {
-    Memory now = {0};
+    DiscreteState now = {0};
     TreeState at = {0};
     outside_state(t, q, v, &now, (const Parameters *)p, &at);
     closures(t, at.q, (const Parameters *)p, phi);
@@ -55,7 +56,7 @@ void gudgeon_closures(double t, const double *q, const double *v, const double *
 
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
 {
-    Memory now = {0};
+    DiscreteState now = {0};
     TreeState at;
     const int status = outside_state(t, q, q, &now, (const Parameters *)p, &at);
     return status ? status : reduced_project(t, at.q, r, (const Parameters *)p, x);
@@ -63,21 +64,22 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 
 #if RESCUED
 /* What is done where a pivot vanishes, at any state: for tests. */
-int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
+int gudgeon_reduced_rescue(
+    double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
-    Memory now = {0};
-    Aside aside;
+    DiscreteState now = {0};
+    RhsOutputs rhs;
     TreeState at;
-    read_memory(memory, &now);
+    read_discrete_state(discrete, &now);
     const int status = outside_state(t, q, v, &now, (const Parameters *)p, &at);
-    return status ? status : solve_by_absolute(t, at.q, at.v, &now, (const Parameters *)p, a, &aside);
+    return status ? status : solve_by_absolute(t, at.q, at.v, &now, (const Parameters *)p, a, &rhs);
 }
 
 #endif
 /* The coordinates of the driven chains at t, from the guess in q (N_CHAIN), and three rates of each (3 N_CHAIN). */
 int gudgeon_chains(double t, double *q, const double *p, double *v)
 {
-    Memory now = {0};
+    DiscreteState now = {0};
     seat_chains(t, q, &now, (const Parameters *)p);
     for (int k = 0; k < N_CHAIN; k++)
         q[k] = now.chain.q[k];
@@ -90,14 +92,14 @@ int gudgeon_chains(double t, double *q, const double *p, double *v)
  * The reduced right-hand side many times over, for benchmarks; each call waits for the one before. The chains are
  * closed from where they were a step earlier, in which the first of them turned by a tenth or so, each time anew.
  */
-double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory,
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *parameters)
 {
     const Parameters *p = (const Parameters *)parameters;
     double dy[N_Y], y[N_Y], sum = 0.0;
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
+    DiscreteState now = {0};
+    RhsOutputs rhs;
+    read_discrete_state(discrete, &now);
     seat_chains(t, q + N_X, &now, p);
     const double speed = hypot(now.chain.v[0], 1e-6), ahead = 0.1 / speed;
     for (int k = 0; k < N_X; k++) {
@@ -105,7 +107,7 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
         y[N_X + k] = v[k];
     }
     for (long i = 0; i < count; i++) {
-        motion(t + (i % 2 ? ahead : 0.9 * ahead), y, &now, p, dy, &aside);
+        motion(t + (i % 2 ? ahead : 0.9 * ahead), y, &now, p, dy, &rhs);
         sum += dy[N_X];
         y[0] = q[0] + 1e-300 * sum;
     }

@@ -6,27 +6,27 @@
 #define IN_BOTH
 #define MOTION motion_here
 #define REDUCED_DYNAMICS reduced_dynamics
-#define CLOSURES(t, q, memory, p, phi) closures(t, q, p, phi)
-#define CLOSURE_RATES(t, q, v, memory, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
+#define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi)
+#define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
 #include "../both/motion.h"
 
-int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside)
+int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
-    return reduced_dynamics(t, y, y + N_X, memory, p, NULL, aside);
+    return reduced_dynamics(t, y, y + N_X, discrete, p, NULL, rhs);
 }
 
 /* The state of all bodies, (q, v, work). */
-void to_absolute(double t, const double *y, const Memory *memory, const Parameters *p, double *all)
+void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all)
 {
-    (void)memory;
+    (void)discrete;
     expand(t, y, y + N_X, p, all, all + N_Q);
     for (int k = 0; k < N_WORK; k++)
         all[2 * N_Q + k] = y[2 * N_X + k];
 }
 
-void from_absolute(double t, const double *all, Memory *memory, const Parameters *p, double *y)
+void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y)
 {
-    (void)memory;
+    (void)discrete;
     reduce_state(t, all, all + N_Q, p, y, y + N_X);
     for (int k = 0; k < N_WORK; k++)
         y[2 * N_X + k] = all[2 * N_Q + k];

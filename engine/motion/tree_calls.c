@@ -9,17 +9,17 @@ void gudgeon_reduce(double t, const double *all_q, const double *all_v, const do
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
 }
 
-int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
 {
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
-    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
+    DiscreteState now = {0};
+    RhsOutputs rhs;
+    read_discrete_state(discrete, &now);
+    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &rhs);
     for (int r = 0; r < N_LOOPS; r++)
-        lambda[r] = aside.lambda[r];
+        lambda[r] = rhs.lambda[r];
     for (int k = 0; k < N_WORK; k++)
-        power[k] = aside.power[k];
+        power[k] = rhs.power[k];
     return status;
 }
 
@@ -36,27 +36,28 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 
 #if RESCUED
 /* What is done where a pivot vanishes, at any state: for tests. */
-int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
+int gudgeon_reduced_rescue(
+    double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
-    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &aside);
+    DiscreteState now = {0};
+    RhsOutputs rhs;
+    read_discrete_state(discrete, &now);
+    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &rhs);
 }
 
 #endif
 /* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
-double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory,
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p)
 {
     double a[N_X + 1] = {0.0}, moved[N_X + 1], sum = 0.0;
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
+    DiscreteState now = {0};
+    RhsOutputs rhs;
+    read_discrete_state(discrete, &now);
     for (int k = 0; k < N_X; k++)
         moved[k] = q[k];
     for (long i = 0; i < count; i++) {
-        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
+        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &rhs);
         sum += a[0];
         moved[0] = q[0] + 1e-300 * sum;
     }

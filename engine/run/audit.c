@@ -20,7 +20,7 @@
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 
-static int is_resolved(Run *run, double t, const double *y, const Aside *aside, int k, const Parameters *p);
+static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k, const Parameters *p);
 
 /* A number in (0, 1) that looks random: the same in every run. */
 static double draw(Audit *audit)
@@ -30,11 +30,11 @@ static double draw(Audit *audit)
 }
 
 /* Whether steps are as long as a tolerance allows. */
-static int has_tolerance(const Run *run) { return run->control.fixed <= 0.0; }
+static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0.0; }
 
-static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
+static double audit_tolerance(const Integrator *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
 
-static double size_of(const Run *run) { return run->audit.size; }
+static double size_of(const Integrator *run) { return run->audit.size; }
 
 static void record_larger(Audit *audit, int check, double value, double limit, double t, int where)
 {
@@ -59,7 +59,7 @@ static void record(Audit *audit, int check, double value, double limit, double t
  * The largest violation so far of the rows that each accepted step looks at: closures of the tree, or all rows. What a
  * run begins with, off its constraints, is no fault of its steps.
  */
-static void check_closed(Run *run)
+static void check_closed(Integrator *run)
 {
     if (drifts(run))
         return;
@@ -73,7 +73,7 @@ static void check_closed(Run *run)
 }
 
 /* Positions, and with `rates_too` velocities, of all rows of the motion at a state `all` of all bodies. */
-static void check_rows(Run *run, double t, const double *all, int rates_too, const Parameters *p)
+static void check_rows(Integrator *run, double t, const double *all, int rates_too, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (drifts(run))
@@ -111,12 +111,12 @@ static void check_rows(Run *run, double t, const double *all, int rates_too, con
  * States of all bodies about h (s) before and after a time, with velocities and accelerations `dy` as they are now.
  * Returns the time between them, to the bit.
  */
-static double states_near(const Run *run, double t, const double *y, const double *dy, double h, const Parameters *p,
-    double (*near)[N_S])
+static double states_near(const Integrator *run, double t, const double *y, const double *dy, double h,
+    const Parameters *p, double (*near)[N_S])
 {
     const double before = t - h, after = t + h;
-    for (int side = 0; side < 2; side++) {
-        const double way = side ? after - t : before - t;
+    for (int branch = 0; branch < 2; branch++) {
+        const double way = branch ? after - t : before - t;
         double state[N_Y];
         for (int k = 0; k < N_X; k++) {
             state[k] = y[k] + way * (y[N_X + k] + 0.5 * way * dy[N_X + k]);
@@ -124,7 +124,7 @@ static double states_near(const Run *run, double t, const double *y, const doubl
         }
         for (int k = 2 * N_X; k < N_Y; k++)
             state[k] = y[k];
-        to_absolute(side ? after : before, state, &run->memory, p, near[side]);
+        to_absolute(branch ? after : before, state, &run->discrete, p, near[branch]);
     }
     return after - before;
 }
@@ -133,23 +133,23 @@ static double states_near(const Run *run, double t, const double *y, const doubl
  * Whether rates are not those of the state itself, or small changes of positions change accelerations `a` as much; or,
  * where drives lead chains of bodies near a dead centre, changes of the time as small as roundings of the closures.
  */
-static int is_sensitive(Run *run, double t, const double *y, const double *a, const double *scale, double share,
-    const Parameters *p)
+static int is_sensitive(Integrator *run, double t, const double *y, const double *a, const double *scale,
+    double fraction, const Parameters *p)
 {
     double state[N_Y], all[N_S], other[N_Q], rate[N_Y], force;
-    Memory now = run->memory;
-    Aside aside;
-    if (motion_here(t, y, &now, p, rate, &aside))
+    DiscreteState now = run->discrete;
+    RhsOutputs rhs;
+    if (motion_here(t, y, &now, p, rate, &rhs))
         return 1; /* near a singular position rates are continued from both sides of it */
     const double size = size_of(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
     const double near = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
-    to_absolute(near, state, &run->memory, p, all);
-    if (absolute_accelerations(near, all, &run->memory, p, other, &force))
+    to_absolute(near, state, &run->discrete, p, all);
+    if (absolute_accelerations(near, all, &run->discrete, p, other, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        if (!(fabs(other[k] - a[k]) < 0.1 * share * scale[k]))
+        if (!(fabs(other[k] - a[k]) < 0.1 * fraction * scale[k]))
             return 1;
     return 0;
 }
@@ -160,13 +160,14 @@ static int is_sensitive(Run *run, double t, const double *y, const double *a, co
  * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). Where second differences say that h is too
  * long, as near a singular position, h is shorter, or nothing is compared. `all`: the state of all bodies.
  */
-static void check_accelerations(Run *run, double t, const double *y, const double *dy, const double *all,
+static void check_accelerations(Integrator *run, double t, const double *y, const double *dy, const double *all,
     const Parameters *p)
 {
 #if TREE
     const double size = size_of(run);
     double a[N_Q], m[N_Q], scale[N_Q], near[2][N_S], force, rate = 0.0, most[2] = {0.0, 0.0};
-    if (run->memory.way != AT_ONCE || absolute_accelerations(t, all, &run->memory, p, a, &force))
+    if (run->discrete.singular_policy != SINGULAR_CONTINUE
+        || absolute_accelerations(t, all, &run->discrete, p, a, &force))
         return; /* near a singular position both lose digits */
     for (int k = 0; k < N_Q; k++) {
         const double unit = k % 3 == 2 ? 1.0 : size;
@@ -182,8 +183,8 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
         const double rounding = m[k] > 0.0 ? AUDIT_BALANCE * force * (k % 3 == 2 ? size : 1.0) / m[k] : 0.0;
         scale[k] = max_of(max_of(most[k % 3 == 2], rounding), 1e-300);
     }
-    for (double share = 1e-5; share > 1e-8 && rate > 0.0; share *= 0.03) {
-        const double h = share / rate;
+    for (double fraction = 1e-5; fraction > 1e-8 && rate > 0.0; fraction *= 0.03) {
+        const double h = fraction / rate;
         double worst = 0.0, bend = 0.0;
         int where = 0;
         const double between = states_near(run, t, y, dy, h, p, near);
@@ -209,17 +210,17 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
 }
 
 /* Open joints at a state do not penetrate. */
-static void check_joints(Run *run, double t, const Aside *aside, const Parameters *p)
+static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
-        const Clearance *joint = &aside->clearance[i];
-        if (run->memory.latch[i].closed)
+        const Clearance *joint = &rhs->clearance[i];
+        if (run->discrete.contact[i].closed)
             continue;
         if (joint->delta <= AUDIT_GRAZE) {
             record(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
             continue;
         }
-        const double located = 4.0 * (run->roots.tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
+        const double located = 4.0 * (run->roots.time_resolution + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
         const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->norm.least[0], rounding) + located;
@@ -228,29 +229,30 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
 }
 
 /* How far behind its zero an event may be located, s. */
-static double located_within(const Run *run)
+static double located_within(const Integrator *run)
 {
-    return AUDIT_LOCATED * (run->roots.tick + 2.0 * DBL_EPSILON * fabs(run->t));
+    return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
 }
 
-static int make_dense(Run *run, const Parameters *p, Step *step);
-static int state_at(Run *run, const Step *step, double share, const Parameters *p, double *y, double *dy, Aside *aside);
+static int make_dense(Integrator *run, const Parameters *p, Step *step);
+static int state_at(
+    Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs);
 
 /*
  * Whether switching function k has just jumped to the wrong side at time t inside a step: as many event tolerances
  * before, it was on its side. Its zero is located no better, and a jump is as large there as anywhere.
  */
-static int has_just_jumped(Run *run, Step *step, double t, int k, const Parameters *p)
+static int has_just_jumped(Integrator *run, Step *step, double t, int k, const Parameters *p)
 {
-    const double share = (t - located_within(run) - step->t) / step->h;
+    const double fraction = (t - located_within(run) - step->t) / step->h;
     double y[N_Y], dy[N_Y];
-    Aside aside;
-    return share <= 0.0 || make_dense(run, p, step) || state_at(run, step, share, p, y, dy, &aside)
-        || run->memory.side[k] * aside.g[k] >= 0.0;
+    RhsOutputs rhs;
+    return fraction <= 0.0 || make_dense(run, p, step) || state_at(run, step, fraction, p, y, dy, &rhs)
+        || run->discrete.branch[k] * rhs.g[k] >= 0.0;
 }
 
 /* Branches that a step holds, at a state inside it: how far each function lies on the wrong side. */
-static void check_branches(Run *run, Step *step, double t, const double *y, const Aside *aside,
+static void check_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
 {
     if (N_SWITCHES > 0)
@@ -258,25 +260,25 @@ static void check_branches(Run *run, Step *step, double t, const double *y, cons
     if (t <= run->t + located_within(run))
         return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
-        run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(aside->g[k]));
+        run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
-        const double g = run->memory.side[k] * aside->g[k];
+        const double g = run->discrete.branch[k] * rhs->g[k];
         if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
-            || !is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
+            || !is_resolved(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
-        const Seen seen = seen_of(step, N_CLEARANCES + k);
+        const StageValues seen = stage_values(step, N_CLEARANCES + k);
         for (int n = 0; n < step->n_seen; n++) /* where each step ends at a zero, its magnitude is seen inside alone */
-            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(seen_at(seen, n)));
+            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(stage_value(seen, n)));
         if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_just_jumped(run, step, t, k, p))
             record(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 
 /* Joints that are open bear no force. */
-static void check_free(Run *run)
+static void check_free(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
-            record(&run->audit, CHECK_free, total_force(&run->aside.clearance[i]),
+        if (!run->discrete.contact[i].closed && gives(i) && !has_film(i))
+            record(&run->audit, CHECK_free, total_force(&run->rhs.clearance[i]),
                 max_of(1e-6 * run->contacts.F_peak[i], 1e-300), run->t, i);
 }

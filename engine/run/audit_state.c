@@ -5,10 +5,10 @@
  * Event i at the end of a step before which `listed` events were recorded: a zero is recorded, and nothing is recorded
  * again and again while the expression is rounding.
  */
-static void check_event(Run *run, int i, int listed)
+static void check_event(Integrator *run, int i, int listed)
 {
     Audit *audit = &run->audit;
-    const double before = audit->event_before[i], now = run->aside.event[i];
+    const double before = audit->event_before[i], now = run->rhs.event[i];
     const int ended = audit->ended == i && fabs(before) > AUDIT_NOISE * audit->event_scale[i]
         && fabs(now) < AUDIT_ZERO * fabs(before) && event_direction[i] * before <= 0.0;
     int found = 0;
@@ -25,12 +25,12 @@ static void check_event(Run *run, int i, int listed)
 }
 
 /* Sides that a step held, at its end: how far each function lies on the wrong side, in how many steps in a row. */
-static void check_sides(Run *run, const Parameters *p)
+static void check_branches_at_end(Integrator *run, const Parameters *p)
 {
     Audit *audit = &run->audit;
     double g[AT_LEAST_ONE(N_SWITCHES)], least = 0.0;
     for (int k = 0; k < N_SWITCHES; k++)
-        g[k] = run->memory.side[k] * run->aside.g[k];
+        g[k] = run->discrete.branch[k] * run->rhs.g[k];
     for (int k = 0; k < N_SWITCHES; k++)
         audit->switch_scale[k] = max_of(audit->switch_scale[k], fabs(g[k]));
     for (int k = 0; k < N_SWITCHES; k++)
@@ -45,28 +45,28 @@ static void check_sides(Run *run, const Parameters *p)
             continue;
         }
         audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
-        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
+        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->rhs, N_CLEARANCES + k, p))
             record(audit, CHECK_branch, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
     }
 }
 
 /* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
-static int audit_state(Run *run, int listed, const Parameters *p)
+static int audit_state(Integrator *run, int listed, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (!audit->level)
         return 0;
     check_closed(run);
-    check_joints(run, run->t, &run->aside, p);
+    check_joints(run, run->t, &run->rhs, p);
 #if N_CHAIN
     double all[N_S];
-    to_absolute(run->t, run->y, &run->memory, p, all);
+    to_absolute(run->t, run->y, &run->discrete, p, all);
     check_rows(run, run->t, all, 0, p);
 #endif
     check_free(run);
-    if (N_SWITCHES > 0 && run->memory.held) {
+    if (N_SWITCHES > 0 && run->discrete.held) {
         record(audit, CHECK_branch, 0.0, 1.0, run->t, -1);
-        check_sides(run, p);
+        check_branches_at_end(run, p);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
         check_event(run, i, listed);
@@ -75,7 +75,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 }
 
 /* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
-static void start_audit(Run *run, int level, double size)
+static void start_audit(Integrator *run, int level, double size)
 {
     run->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
     for (int k = 0; k < N_CHECKS; k++)
@@ -83,7 +83,7 @@ static void start_audit(Run *run, int level, double size)
 }
 
 /* Of each check the largest value as a multiple of its limit, < 0: not checked, its time, and where it was. */
-static void report_audit(const Run *run, double *worst, double *t, int *where)
+static void report_audit(const Integrator *run, double *worst, double *t, int *where)
 {
     for (int k = 0; k < N_CHECKS; k++) {
         worst[k] = run->audit.record[k].worst;

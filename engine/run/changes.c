@@ -5,9 +5,9 @@
 #define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
 
 /* Sides of all corners that act; the one that was just crossed keeps what it was given. */
-static int settle_sides(Run *run, int crossed, const Parameters *p)
+static int update_branches(Integrator *run, int crossed, const Parameters *p)
 {
-    return settle_at(run, run->t, run->y, run->dy, &run->aside, crossed, p);
+    return update_branches_at(run, run->t, run->y, run->dy, &run->rhs, crossed, p);
 }
 
 #if N_USER_EVENTS && N_SWITCHES
@@ -16,59 +16,59 @@ static int settle_sides(Run *run, int crossed, const Parameters *p)
  * zeros of several switches, and between these event functions have values that they never take. The switch `crossed`
  * keeps its own.
  */
-static int settle_right_after(Run *run, int crossed, const Parameters *p)
+static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
 {
     const double h = located_within(run);
-    double side[N_SWITCHES], y[N_Y], dy[N_Y];
-    Aside beyond;
-    memcpy(side, run->memory.side, sizeof side);
+    double branch[N_SWITCHES], y[N_Y], dy[N_Y];
+    RhsOutputs beyond;
+    memcpy(branch, run->discrete.branch, sizeof branch);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    const int status = settle_at(run, run->t + h, y, dy, &beyond, crossed, p);
-    if (status || !memcmp(side, run->memory.side, sizeof side))
+    const int status = update_branches_at(run, run->t + h, y, dy, &beyond, crossed, p);
+    if (status || !memcmp(branch, run->discrete.branch, sizeof branch))
         return status;
-    return rates(run, run->t, run->y, p, run->dy, &run->aside);
+    return rates(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 
 /* Whether event function i keeps its sign at a zero, for switches have changed their sides there since `before`. */
-static int keeps_sign(Run *run, int i, const double *before, const Parameters *p)
+static int keeps_sign(Integrator *run, int i, const double *before, const Parameters *p)
 {
     double value[N_USER_EVENTS];
-    return memcmp(before, run->memory.side, sizeof run->memory.side)
+    return memcmp(before, run->discrete.branch, sizeof run->discrete.branch)
         && !events_ahead(run, run->t, located_within(run), run->y, run->dy, p, value)
-        && run->memory.event_side[i] * value[i] > 0.0;
+        && run->discrete.event_sign[i] * value[i] > 0.0;
 }
 #else
-static int settle_right_after(Run *run, int crossed, const Parameters *p)
+static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
 {
     return (void)run, (void)crossed, (void)p, 0;
 }
-static int keeps_sign(Run *run, int i, const double *before, const Parameters *p)
+static int keeps_sign(Integrator *run, int i, const double *before, const Parameters *p)
 {
     return (void)run, (void)i, (void)before, (void)p, 0;
 }
 #endif
 
-static int count_closed(const Run *run)
+static int count_closed(const Integrator *run)
 {
     int count = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        count += run->memory.latch[i].closed;
+        count += run->discrete.contact[i].closed;
     return count;
 }
 
-static void cross_contact(Run *run, int i, double floor)
+static void cross_contact(Integrator *run, int i, double floor)
 {
-    const int opens = run->memory.latch[i].closed;
+    const int opens = run->discrete.contact[i].closed;
     if (opens)
         open_joint(run, i, run->t);
     else
-        close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
-    begin_with(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
+        close_joint(run, i, run->t, run->rhs.clearance[i].deltadot, floor);
+    set_first_length(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
     forget_stiff_length(run);
 }
 
-static void cross(Run *run, int k, const Parameters *p)
+static void cross_event(Integrator *run, int k, const Parameters *p)
 {
     if (k < N_CLEARANCES && !gives(k))
         return; /* meet() sees to all of them */
@@ -76,13 +76,13 @@ static void cross(Run *run, int k, const Parameters *p)
         cross_contact(run, k, slowest_impact(p, k));
     else if (k < N_CLEARANCES + N_SWITCHES) {
         const int corner = k - N_CLEARANCES;
-        run->memory.side[corner] *= -1.0;
-        begin_with(run, &run->control.after_corner[corner][run->memory.side[corner] > 0.0], 0.0);
+        run->discrete.branch[corner] *= -1.0;
+        set_first_length(run, &run->control.after_switch[corner][run->discrete.branch[corner] > 0.0], 0.0);
     }
 }
 
 /* What works are measured by at the start: the energy of the motion, at least that of the speeds that count, J. */
-static double energy_scale(const Run *run, const Parameters *p)
+static double initial_energy_scale(const Integrator *run, const Parameters *p)
 {
     double m[N_Q], sum = kinetic_energy(run, p);
     mass_matrix(p, m);
@@ -96,18 +96,18 @@ static double energy_scale(const Run *run, const Parameters *p)
  * Sides of all corners as they are at `ahead`, right behind this time; the one that was just crossed keeps its own,
  * unless it hangs on others that change.
  */
-static int settle_beyond(Run *run, double ahead, int crossed, const Parameters *p)
+static int update_branches_just_after(Integrator *run, double ahead, int crossed, const Parameters *p)
 {
     double dy[N_Y];
     for (int pass = 0; pass < 6; pass++) {
         int changed = 0;
-        Aside aside;
-        const int status = rates(run, ahead, run->y, p, dy, &aside);
+        RhsOutputs rhs;
+        const int status = rates(run, ahead, run->y, p, dy, &rhs);
         if (status)
             return status;
         for (int k = 0; k < N_SWITCHES; k++)
-            if ((k != crossed || pass > 0) && !isnan(aside.g[k]) && (run->memory.side[k] < 0.0) != (aside.g[k] < 0.0)) {
-                run->memory.side[k] = -run->memory.side[k];
+            if ((k != crossed || pass > 0) && !isnan(rhs.g[k]) && (run->discrete.branch[k] < 0.0) != (rhs.g[k] < 0.0)) {
+                run->discrete.branch[k] = -run->discrete.branch[k];
                 changed = 1;
             }
         if (!changed)
@@ -121,16 +121,16 @@ static int settle_beyond(Run *run, double ahead, int crossed, const Parameters *
  * t0: from there to `apart` s beside it accelerations change far more than from there to twice as far, while the state
  * is the same.
  */
-static int is_unbounded(Run *run, double apart, const Parameters *p)
+static int is_unbounded(Integrator *run, double apart, const Parameters *p)
 {
     const double way[3] = {1e-5 * apart, apart, 2.0 * apart};
-    Memory free = run->memory;
+    DiscreteState free = run->discrete;
     double dy[3][N_Y], most = 0.0;
-    Aside aside;
+    RhsOutputs rhs;
     int some = 0;
     free.held = 0;
     for (int i = 0; i < 3; i++)
-        if (motion(run->t + way[i], run->y, &free, p, dy[i], &aside))
+        if (motion(run->t + way[i], run->y, &free, p, dy[i], &rhs))
             return 0;
     for (int k = N_X; k < 2 * N_X; k++)
         most = max_of(most, fabs(dy[1][k]));
@@ -140,23 +140,23 @@ static int is_unbounded(Run *run, double apart, const Parameters *p)
 }
 
 /* What the corner of a drive changes, and all others that lie at the same time: first sides, then velocities. */
-static int change_drives(Run *run, int corner, const Parameters *p)
+static int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
 {
-    const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.tick);
+    const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.time_resolution);
     /* other methods come near in short steps; a corner is located to a few ticks */
-    const double apart = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.tick);
+    const double apart = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.time_resolution);
     if (run->control.fixed > 0.0 && (is_unbounded(run, -apart, p) || is_unbounded(run, apart, p)))
         return UNBOUNDED;
-    int status = settle_beyond(run, ahead, corner, p);
+    int status = update_branches_just_after(run, ahead, corner, p);
     if (status)
         return status;
     const double before = kinetic_energy(run, p);
-    pass_impulse(run, p);
+    apply_drive_impulse(run, p);
     if (kinetic_energy(run, p) == before)
-        return settle_sides(run, corner, p);
-    status = settle_beyond(run, ahead, corner, p); /* those of speeds, which are others now */
+        return update_branches(run, corner, p);
+    status = update_branches_just_after(run, ahead, corner, p); /* those of speeds, which are others now */
     if (!status)
-        status = rates(run, t, run->y, p, run->dy, &run->aside);
+        status = rates(run, t, run->y, p, run->dy, &run->rhs);
     return status ? status : note_leaps(run, NULL, p);
 }
 
@@ -164,73 +164,77 @@ static int change_drives(Run *run, int corner, const Parameters *p)
  * A start, or an end, at the jump of a drive's rate, or right before it, is beyond that: it holds what follows. User
  * events that the impulse leads across their zeros are noted.
  */
-static int pass_jumps_here(Run *run, const Parameters *p)
+static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
 {
     double before[N_SWITCHES + 1];
     int some = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        before[k] = run->memory.side[k];
-    int status = settle_beyond(run, ahead_of(run->t), -1, p);
+        before[k] = run->discrete.branch[k];
+    int status = update_branches_just_after(run, ahead_of(run->t), -1, p);
     for (int k = 0; k < N_SWITCHES; k++)
-        some |= before[k] != run->memory.side[k];
+        some |= before[k] != run->discrete.branch[k];
     if (status || !some)
         return status;
-    pass_impulse(run, p);
-    status = settle_beyond(run, ahead_of(run->t), -1, p);
+    apply_drive_impulse(run, p);
+    status = update_branches_just_after(run, ahead_of(run->t), -1, p);
     if (!status)
-        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
-        status = meet(run, -1, p);
+        status = update_contacts(run, -1, p);
     return status ? status : note_leaps(run, NULL, p);
 }
 #else
-static inline int change_drives(Run *run, int corner, const Parameters *p) { return settle_sides(run, corner, p); }
-static inline int pass_jumps_here(Run *run, const Parameters *p) { return (void)run, (void)p, 0; }
+static inline int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
+{
+    return update_branches(run, corner, p);
+}
+static inline int pass_drive_jumps_here(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 
 /* The side of a corner, and what the other one moves at once. */
-static int change_side(Run *run, int corner, const Parameters *p)
+static int change_branch(Integrator *run, int corner, const Parameters *p)
 {
     double before[N_Y];
     memcpy(before, run->dy, sizeof before);
-    const int status = change_drives(run, corner, p);
-    pace_corner(run, corner, before);
+    const int status = pass_drive_jump(run, corner, p);
+    suppress_repeated_switch(run, corner, before);
     return status;
 }
 
 /* A force that begins with a jump may be largest at its onset. */
-static void show_onsets(Run *run)
+static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->memory.latch[i].closed && run->contacts.open[i].t_on == run->t && gives(i))
-            peak(run, i, run->t, total_force(&run->aside.clearance[i]));
+        if (run->discrete.contact[i].closed && run->contacts.open[i].t_on == run->t && gives(i))
+            peak(run, i, run->t, total_force(&run->rhs.clearance[i]));
 }
 
 /*
  * At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. Where
  * that leads other user events across their zeros, these happen too: a step looks from where it begins.
  */
-static int change(Run *run, int event, const Parameters *p)
+static int apply_event(Integrator *run, int event, const Parameters *p)
 {
-    double before[AT_LEAST_ONE(N_USER_EVENTS)], side[AT_LEAST_ONE(N_SWITCHES)];
+    double before[AT_LEAST_ONE(N_USER_EVENTS)], branch[AT_LEAST_ONE(N_SWITCHES)];
     const Held held = held_before(run);
-    memcpy(side, run->memory.side, sizeof side);
+    memcpy(branch, run->discrete.branch, sizeof branch);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        before[i] = run->aside.event[i];
+        before[i] = run->rhs.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
-        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < shallow(p, k)))
-            cross(run, k, p);
+        if (k == event
+            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < penetration_rounding(p, k)))
+            cross_event(run, k, p);
     const int corner = event - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
-    int status = corner >= 0 && friction < 0 ? change_side(run, corner, p) : settle_sides(run, -1, p);
+    int status = corner >= 0 && friction < 0 ? change_branch(run, corner, p) : update_branches(run, -1, p);
     if (!status && corner >= 0)
-        status = settle_right_after(run, friction < 0 ? corner : -1, p);
+        status = update_branches_after_event(run, friction < 0 ? corner : -1, p);
     if (!status)
-        show_onsets(run);
+        record_onset_forces(run);
     if (!status && friction >= 0 && user_event < 0)
         status = switch_friction(run, p);
     if (!status && user_event < 0)
-        status = meet(run, event, p);
-    if (!status && user_event >= 0 && !keeps_sign(run, user_event, side, p) && cross_zero(run, user_event)
+        status = update_contacts(run, event, p);
+    if (!status && user_event >= 0 && !keeps_sign(run, user_event, branch, p) && cross_zero(run, user_event)
         && !run->events.pole && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
     const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;
@@ -239,11 +243,11 @@ static int change(Run *run, int event, const Parameters *p)
 }
 
 /* A free journal never lies outside its bearing, nor a free corner in its wall, whatever the method thought. */
-static int check_contacts(const Run *run, const Parameters *p)
+static int check_contacts(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->memory.latch[i].closed
-            && run->aside.clearance[i].delta > min_of(1e-9, 1e-6 * deepest(p, i)) + 1e-3 * radial_clearance(p, i))
+        if (!run->discrete.contact[i].closed
+            && run->rhs.clearance[i].delta > min_of(1e-9, 1e-6 * deepest(p, i)) + 1e-3 * radial_clearance(p, i))
             return LOST;
     return 0;
 }

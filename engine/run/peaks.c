@@ -11,61 +11,61 @@ enum { MAX_TOPS = 20, FEW = 2 /* stages: they tell little */ };
 #define LEAST_OF_TOP 1e-10
 #define MOST_OF_TOP 1e-5
 
-static void peak(Run *run, int i, double t, double F)
+static void peak(Integrator *run, int i, double t, double F)
 {
     if (run->envelope.rows)
-        trace_force(run, i, t, F);
+        extend_force_envelope(run, i, t, F);
     raise_force(run, i, t, F);
     raise_contact_force(run, i, t, F);
 }
 
-static double force_at(Run *run, const Step *step, double s, int i, const Parameters *p)
+static double force_at(Integrator *run, const Step *step, double s, int i, const Parameters *p)
 {
-    Aside aside;
+    RhsOutputs rhs;
     int wrong = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        aside.g[k] = NAN; /* of those that no force of a joint with play depends on */
-    int status = play_in(run, step, s, p, &aside);
+        rhs.g[k] = NAN; /* of those that no force of a joint with play depends on */
+    int status = play_in(run, step, s, p, &rhs);
     for (int k = 0; k < N_SWITCHES; k++)
-        wrong |= run->memory.side[k] * aside.g[k] < 0.0;
+        wrong |= run->discrete.branch[k] * rhs.g[k] < 0.0;
     if (!status && wrong) { /* a switch that the step holds although it is passed: forces are those of its other side */
-        const Memory held = run->memory;
+        const DiscreteState held = run->discrete;
         double y[N_Y], dy[N_Y];
-        status = state_at(run, step, s, p, y, dy, &aside);
+        status = state_at(run, step, s, p, y, dy, &rhs);
         if (!status)
-            status = settle_at(run, step->t + s * step->h, y, dy, &aside, -1, p);
-        run->memory = held;
+            status = update_branches_at(run, step->t + s * step->h, y, dy, &rhs, -1, p);
+        run->discrete = held;
     }
     if (status)
         return 0.0;
-    const double F = total_force(&aside.clearance[i]);
+    const double F = total_force(&rhs.clearance[i]);
     peak(run, i, step->t + s * step->h, F);
-    raise_eccentricity(run, i, aside.clearance[i].e);
+    raise_eccentricity(run, i, rhs.clearance[i].e);
     return F;
 }
 
-/* The node of the stage of an explicit step up to `share` that has the largest force of joint i, or the middle. */
-static double highest_stage(const Step *step, double share, int i, double force)
+/* The node of the stage of an explicit step up to `fraction` that has the largest force of joint i, or the middle. */
+static double highest_stage(const Step *step, double fraction, int i, double force)
 {
-    const Seen forces = seen_of(step, SEEN_FORCES + i);
-    double most = force * force, node = 0.5 * share;
+    const StageValues forces = stage_values(step, SEEN_FORCES + i);
+    double most = force * force, node = 0.5 * fraction;
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++)
-        if (step->node[k] > 0.0 && step->node[k] < share && seen_at(forces, k) > most)
-            most = seen_at(forces, k), node = step->node[k];
+        if (step->node[k] > 0.0 && step->node[k] < fraction && stage_value(forces, k) > most)
+            most = stage_value(forces, k), node = step->node[k];
     return node;
 }
 
 /*
- * The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
- * known. It is found where the next place would raise it by less than TOP_OF tolerances, as the parabola tells, whose
- * error is that of the one before or less: a place nearer the top divides it by ten as a rule.
+ * The top of joint i's force inside a step up to `fraction`, by parabolas through three of its places; at both ends it
+ * is known. It is found where the next place would raise it by less than TOP_OF tolerances, as the parabola tells,
+ * whose error is that of the one before or less: a place nearer the top divides it by ten as a rule.
  */
-static void inner_peak(Run *run, const Step *step, double share, int i, double before, double after,
+static void inner_peak(Integrator *run, const Step *step, double fraction, int i, double before, double after,
     const Parameters *p)
 {
-    const double first = highest_stage(step, share, i, max_of(before, after));
+    const double first = highest_stage(step, fraction, i, max_of(before, after));
     const double fine = min_of(MOST_OF_TOP, max_of(LEAST_OF_TOP, TOP_OF * tolerance_of(run)));
-    double x[3] = {0.0, first, share}, f[3] = {before, force_at(run, step, first, i, p), after}, error = INFINITY;
+    double x[3] = {0.0, first, fraction}, f[3] = {before, force_at(run, step, first, i, p), after}, error = INFINITY;
     peak(run, i, step->t, before);
     for (int n = 0; n < MAX_TOPS; n++) {
         const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
@@ -89,43 +89,45 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
 }
 
 #if N_RIGID
-/* Whether the stages of an explicit step up to `share` tell that the force of contact i only rises or only falls. */
-static int is_force_monotone(Step *step, double share, int i, double before, double after, const Parameters *p)
+/* Whether the stages of an explicit step up to `fraction` tell that the force of contact i only rises or only falls. */
+static int is_force_monotone(Step *step, double fraction, int i, double before, double after, const Parameters *p)
 {
     Place all[N_STAGES + 2];
-    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, SEEN_FORCES + i);
     const Place begin = {0.0, before * before, NAN}, end = {1.0, after * after, NAN};
     const int n = values_of_stages(step, begin, end, forces, all);
-    const double bend = largest_bend(all, n);
+    const double bend = max_second_derivative(all, n);
     int rises = 0, falls = 0;
     for (int k = 1; k < n; k++) {
         const double w = all[k].s - all[k - 1].s, slope = (all[k].f - all[k - 1].f) / w;
         rises += slope - 0.5 * bend * w > 0.0;
         falls += slope + 0.5 * bend * w < 0.0;
     }
-    return share == 1.0 && !step->method->stiff && n >= LEAST_STAGES && (rises == n - 1 || falls == n - 1)
-        && !swings_between(step, all, n, p);
+    return fraction == 1.0 && !step->method->stiff && n >= LEAST_STAGES && (rises == n - 1 || falls == n - 1)
+        && !may_oscillate_between_stages(step, all, n, p);
 }
 
 /*
- * The largest force of a rigid contact i inside a step up to `share`, which may come and go within a step whose motion
- * is rest: the step is bisected (watch/forces.c) until no part may hold a force larger than the largest by far.
+ * The largest force of a rigid contact i inside a step up to `fraction`, which may come and go within a step whose
+ * motion is rest: the step is bisected (watch/forces.c) until no part may hold a force larger than the largest by far.
  */
-static void rigid_peak(Run *run, Step *step, double share, int i, double before, double after, const Parameters *p)
+static void rigid_peak(
+    Integrator *run, Step *step, double fraction, int i, double before, double after, const Parameters *p)
 {
     Sampled part[MAX_BISECTIONS + 1];
     Place from = {0.0, before, NAN};
     peak(run, i, step->t, before);
-    if (is_force_monotone(step, share, i, before, after, p) || make_dense(run, p, step))
+    if (is_force_monotone(step, fraction, i, before, after, p) || make_dense(run, p, step))
         return;
-    part[0] = (Sampled){{0.5 * share, force_at(run, step, 0.5 * share, i, p), NAN}, {share, after, NAN}, INFINITY};
+    part[0] =
+        (Sampled){{0.5 * fraction, force_at(run, step, 0.5 * fraction, i, p), NAN}, {fraction, after, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const Sampled now = part[n - 1];
         const double w = now.end.s - from.s, known = max_of(run->contacts.open[i].F_peak, after) * (1.0 + SAME_FORCE);
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
-        const int clear = !(top + now.error > known) && !swings_unseen(step, from.s, now.end.s, p);
+        const int clear = !(top + now.error > known) && !may_oscillate_between(step, from.s, now.end.s, p);
         if (clear || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES) {
             from = now.end;
             n--;
@@ -151,24 +153,24 @@ static double cubic_top(double d0, double r0, double d1, double r1, double *heig
     return s;
 }
 
-/* The largest eccentricity of joint i inside a step up to `share`, where it turns round in it. */
-static void outermost(Run *run, Step *step, double share, int i, const Parameters *p)
+/* The largest eccentricity of joint i inside a step up to `fraction`, where it turns round in it. */
+static void outermost(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
-    Clearance low = run->aside.clearance[i], high = step->aside.clearance[i];
-    double from = 0.0, to = share;
+    Clearance low = run->rhs.clearance[i], high = step->rhs.clearance[i];
+    double from = 0.0, to = fraction;
     for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
         const double h = (to - from) * step->h;
         double top;
         const double round = low.e - outward(&low); /* the rest of e: of a contour what is no penetration, else 0 */
         const double s = from
             + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
-        Aside aside;
+        RhsOutputs rhs;
         if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i]) || make_dense(run, p, step)
-            || play_in(run, step, s, p, &aside))
+            || play_in(run, step, s, p, &rhs))
             return;
-        const Clearance *now = &aside.clearance[i];
+        const Clearance *now = &rhs.clearance[i];
         if (run->envelope.rows)
-            trace_place(run, i, step->t + s * step->h, now);
+            extend_path_envelope(run, i, step->t + s * step->h, now);
         raise_eccentricity(run, i, now->e);
         if (fabs(outward(now) - top) < 1e-9 * fabs(top + round))
             return;
@@ -184,39 +186,39 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
  * stages before; 0 where that bends too much to tell, or hardly changes. Stages of stiff methods lie too far from the
  * motion.
  */
-static int trend(const Step *step, double share, int i, double after)
+static int trend(const Step *step, double fraction, int i, double after)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
-    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, SEEN_FORCES + i);
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
         const double node = step->node[k];
-        if (!(node < 0.99 * share && node > s[1]) || node == s[0])
+        if (!(node < 0.99 * fraction && node > s[1]) || node == s[0])
             continue;
         const int last = node > s[0];
-        const double square = seen_at(forces, k);
+        const double square = stage_value(forces, k);
         s[1] = last ? s[0] : node, f[1] = last ? f[0] : square;
         s[0] = last ? node : s[0], f[0] = last ? square : f[0];
     }
     f[0] = sqrt(f[0]), f[1] = sqrt(f[1]);
-    const double slope = (after - f[0]) / (share - s[0]);
-    const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (share - s[0]) / (share - s[1]);
-    const int clear = fabs(bend) < BENT * fabs(slope) && fabs(slope) * (share - s[0]) > CLEAR * after;
+    const double slope = (after - f[0]) / (fraction - s[0]);
+    const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
+    const int clear = fabs(bend) < BENT * fabs(slope) && fabs(slope) * (fraction - s[0]) > CLEAR * after;
     return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
 
 /* Of joints where that does not tell: by a very short way along the motion. 0, or what went wrong. */
-static int trends_beyond(Run *run, const Step *step, double share, const double *after, int *trends,
+static int trends_beyond(Integrator *run, const Step *step, double fraction, const double *after, int *trends,
     const Parameters *p)
 {
     double x[N_Y];
-    Aside aside;
-    const double e = 1e-4 * share * step->h;
+    RhsOutputs rhs;
+    const double e = 1e-4 * fraction * step->h;
     for (int k = 0; k < N_Y; k++)
         x[k] = step->y[k] + e * step->dy[k];
-    const int status = play(run, step->t + share * step->h + e, x, p, &aside);
+    const int status = play(run, step->t + fraction * step->h + e, x, p, &rhs);
     for (int i = 0; i < N_CLEARANCES && !status; i++)
         if (!trends[i])
-            trends[i] = total_force(&aside.clearance[i]) > after[i] ? 1 : -1;
+            trends[i] = total_force(&rhs.clearance[i]) > after[i] ? 1 : -1;
     return status;
 }
 
@@ -224,15 +226,15 @@ static int trends_beyond(Run *run, const Step *step, double share, const double 
  * Whether the force of joint i may be larger between the ends of a step up to a share than at both, by the parabola
  * through these and the first stage beyond.
  */
-static int may_arch(const Step *step, double share, int i, double before, double after)
+static int may_arch(const Step *step, double fraction, int i, double before, double after)
 {
-    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, SEEN_FORCES + i);
     double node = INFINITY, force = NAN;
     for (int k = 0; k < step->n_seen; k++)
-        if (step->node[k] > share && step->node[k] < node)
-            node = step->node[k], force = sqrt(seen_at(forces, k));
-    const double bend = 2.0 * ((force - before) / node - (after - before) / share) / (node - share);
-    const double curve = UNSURE * fabs(bend) * share * share;
+        if (step->node[k] > fraction && step->node[k] < node)
+            node = step->node[k], force = sqrt(stage_value(forces, k));
+    const double bend = 2.0 * ((force - before) / node - (after - before) / fraction) / (node - fraction);
+    const double curve = UNSURE * fabs(bend) * fraction * fraction;
     return !(fabs(after - before) > 0.5 * curve || 0.125 * curve < (ARCHED - 1.0) * max_of(before, after));
 }
 
@@ -240,20 +242,20 @@ static int may_arch(const Step *step, double share, int i, double before, double
  * The largest force of joint i that is known between the ends of a step up to a share: at its stages, or in the middle
  * where a contact goes on and hardly a stage lies within.
  */
-static double largest_inside(Run *run, Step *step, double share, int i, const Parameters *p)
+static double largest_inside(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
-    const double before = total_force(&run->aside.clearance[i]), after = total_force(&step->aside.clearance[i]);
+    const double before = total_force(&run->rhs.clearance[i]), after = total_force(&step->rhs.clearance[i]);
     double most = 0.0;
     int found = 0;
-    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, SEEN_FORCES + i);
     for (int k = 0; k < step->n_seen; k++)
-        if (step->node[k] > 0.0 && step->node[k] < share) {
-            most = max_of(most, seen_at(forces, k));
+        if (step->node[k] > 0.0 && step->node[k] < fraction) {
+            most = max_of(most, stage_value(forces, k));
             found++;
         }
-    if (found < FEW && run->memory.latch[i].closed && gives(i) && may_arch(step, share, i, before, after)
+    if (found < FEW && run->discrete.contact[i].closed && gives(i) && may_arch(step, fraction, i, before, after)
         && make_dense(run, p, step) == 0)
-        return max_of(sqrt(most), force_at(run, step, 0.5 * share, i, p));
+        return max_of(sqrt(most), force_at(run, step, 0.5 * fraction, i, p));
     return sqrt(most);
 }
 
@@ -261,37 +263,38 @@ static double largest_inside(Run *run, Step *step, double share, int i, const Pa
 static int is_let_go(double before, double after) { return after < 1e-6 * before; }
 
 /* Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end. */
-static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
+static void inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force that is no peak yet */
     double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
     int trends[AT_LEAST_ONE(N_CLEARANCES)], arches[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        outermost(run, step, share, i, p);
-        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
-        const double known = run->memory.latch[i].closed ? run->contacts.open[i].F_peak : run->contacts.F_peak[i];
+        outermost(run, step, fraction, i, p);
+        const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
+        const double known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak : run->contacts.F_peak[i];
         before[i] = total_force(a), after[i] = total_force(b);
         /* a contact's force may double in a step, a film's grows by some percent */
-        const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
+        const double share_of = run->discrete.contact[i].closed ? 0.9 : 0.97;
 #if N_RIGID
-        if (!gives(i) && run->memory.latch[i].closed)
-            rigid_peak(run, step, share, i, before[i], after[i], p);
+        if (!gives(i) && run->discrete.contact[i].closed)
+            rigid_peak(run, step, fraction, i, before[i], after[i], p);
 #endif
-        const int bears = run->memory.latch[i].closed || has_film(i);
-        const double ends = max_of(before[i], after[i]), inside = bears ? largest_inside(run, step, share, i, p) : 0.0;
+        const int bears = run->discrete.contact[i].closed || has_film(i);
+        const double ends = max_of(before[i], after[i]),
+                     inside = bears ? largest_inside(run, step, fraction, i, p) : 0.0;
         arches[i] = gives(i) && inside > (step->method->stiff ? ARCHED_STIFF : ARCHED) * ends;
         const double largest = !gives(i) ? 0.0 : arches[i] ? inside : ends;
         const int near = largest > share_of * known && largest > 0.0;
-        trends[i] = !near ? LOW : is_let_go(before[i], after[i]) ? -1 : trend(step, share, i, after[i]);
+        trends[i] = !near ? LOW : is_let_go(before[i], after[i]) ? -1 : trend(step, fraction, i, after[i]);
         unknown |= !trends[i];
     }
-    if (unknown && trends_beyond(run, step, share, after, trends, p))
+    if (unknown && trends_beyond(run, step, fraction, after, trends, p))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const int turned = run->aside.clearance[i].F_n * step->aside.clearance[i].F_n < 0.0; /* it was none meanwhile */
+        const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was none meanwhile */
         const int near = trends[i] != LOW, falls = near && trends[i] < 0;
         if (near && (((falls || turned) && run->contacts.rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
-            inner_peak(run, step, share, i, before[i], after[i], p);
+            inner_peak(run, step, fraction, i, before[i], after[i], p);
         set_rising(run, i, !falls);
     }
 }

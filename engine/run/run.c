@@ -8,11 +8,12 @@
 #include "../both/states.h"
 
 /* Laws read their states where they read the latch; what they say of their rates follows the works. */
-static int motion_of_laws(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+static int motion_of_laws(
+    double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    show_states(memory, y);
-    const int status = motion(t, y, memory, p, dy, aside);
-    rates_of_states(aside, dy);
+    show_states(discrete, y);
+    const int status = motion(t, y, discrete, p, dy, rhs);
+    rates_of_states(rhs, dy);
     return status;
 }
 
@@ -20,90 +21,91 @@ static int motion_of_laws(double t, const double *y, Memory *memory, const Param
 #include "../scene/contact_forces.h"
 #endif
 
-static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
+static int rates(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     count_evaluations(run, 1);
     if (given_up(&run->cancellation))
         return STOPPED;
 #if N_RIGID
     int joint[N_RIGID];
-    const int n = list_closed(&run->memory, joint);
+    const int n = list_closed(&run->discrete, joint);
     count_evaluations(run, n ? n + 1 : 0);
-    return rates_in_contact(motion_of_laws, N_Y, t, y, &run->memory, p, dy, aside);
+    return rates_in_contact(motion_of_laws, N_Y, t, y, &run->discrete, p, dy, rhs);
 #else
-    return motion_of_laws(t, y, &run->memory, p, dy, aside);
+    return motion_of_laws(t, y, &run->discrete, p, dy, rhs);
 #endif
 }
 
-#include "watch.h"
-#include "latches.c"
-#include "trace.c"
+#include "joint_maxima.h"
+#include "contacts.c"
+#include "envelope.c"
 
 /* A journal deeper in its bearing, or a corner in its wall, than a tenth of the radius: laws mean nothing there. */
-static int outside_model(const Run *run, const Parameters *p)
+static int outside_model(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->aside.clearance[i].delta > deepest(p, i))
+        if (run->rhs.clearance[i].delta > deepest(p, i))
             return 1;
     return 0;
 }
 
 /* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
-static int watch(Run *run, const Parameters *p)
+static int watch(Integrator *run, const Parameters *p)
 {
-    const Aside *aside = &run->aside;
+    const RhsOutputs *rhs = &run->rhs;
     double sum = 0.0;
     for (int k = 0; k < N_Y; k++)
         sum += run->dy[k] + run->y[k];
-    const int lost = accept_state(run->t, run->y, &run->memory, p, aside, &run->residuals.phi_max,
+    const int lost = accept_state(run->t, run->y, &run->discrete, p, rhs, &run->residuals.phi_max,
         &run->residuals.phi_dot_max);
     if (lost)
         return lost;
     for (int i = 0; i < N_CLEARANCES; i++)
         watch_joint(run, i);
     if (run->envelope.rows)
-        trace_step(run);
+        extend_envelope(run);
     return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
 
 /* State of all bodies, latches and contact codes as row i of the samples. */
-static void store_sample(const Run *run, double t, const double *now, const Parameters *p, long i, double *y,
+static void store_sample(const Integrator *run, double t, const double *now, const Parameters *p, long i, double *y,
     double *latched, signed char *state)
 {
-    enum { MEMORY = AT_LEAST_ONE(N_MEMORY), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
-    to_absolute(t, now, &run->memory, p, y + i * N_S);
+    enum { MEMORY = AT_LEAST_ONE(N_DISCRETE), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
+    to_absolute(t, now, &run->discrete, p, y + i * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
-        latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
-        state[i * JOINTS + k] = (signed char)(!run->memory.latch[k].closed ? CODE_FREE
+        latched[i * MEMORY + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
+        state[i * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
             : run->contacts.compressing[k] ? CODE_IMPACT : CODE_CONTACT);
     }
     for (int k = 0; k < N_FRICTIONS; k++)
-        latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
+        latched[i * MEMORY + N_CLEARANCES + k] = run->discrete.mode[k];
     for (int k = 0; k < N_STATES; k++)
-        latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
+        latched[i * MEMORY + N_DISCRETE - N_STATES + k] = now[FIRST_STATE + k];
 }
 
 /* From now on corners keep the sides that they have here. */
-static void hold_sides(Run *run)
+static void freeze_branches(Integrator *run)
 {
     for (int k = 0; k < N_SWITCHES; k++)
-        run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
-    run->memory.held = 1;
+        run->discrete.branch[k] = run->rhs.g[k] < 0.0 ? -1.0 : 1.0;
+    run->discrete.held = 1;
 }
 
 /*
  * Sides of all corners that act from their functions at (t, y), and the right-hand side there; corner `kept` (-1: none)
  * keeps its own. What begins to act may have held the other side, on which it is no number.
  */
-static int settle_at(Run *run, double t, const double *y, double *dy, Aside *aside, int kept, const Parameters *p)
+static int update_branches_at(
+    Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int kept, const Parameters *p)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed; pass++) {
         changed = 0;
-        status = rates(run, t, y, p, dy, aside);
+        status = rates(run, t, y, p, dy, rhs);
         for (int k = 0; k < N_SWITCHES && status != STOPPED; k++)
-            if (k != kept && run->memory.side[k] * aside->g[k] < 0.0) {
-                run->memory.side[k] = -run->memory.side[k];
+            if (k != kept && run->discrete.branch[k] * rhs->g[k] < 0.0) {
+                run->discrete.branch[k] = -run->discrete.branch[k];
                 changed = 1;
             }
     }
@@ -111,17 +113,17 @@ static int settle_at(Run *run, double t, const double *y, double *dy, Aside *asi
 }
 
 /* Of all bodies, J. */
-static double kinetic_energy(const Run *run, const Parameters *p)
+static double kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double m[N_Q], all[N_S], sum = 0.0;
     mass_matrix(p, m);
-    to_absolute(run->t, run->y, &run->memory, p, all);
+    to_absolute(run->t, run->y, &run->discrete, p, all);
     for (int k = 0; k < N_Q; k++)
         sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
     return sum;
 }
 
-#include "tape.c"
+#include "step_record.c"
 #if N_FRICTIONS
 #include "slips.c"
 #endif
@@ -129,39 +131,39 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 #include "user_events.c"
 #include "friction.c"
 #if N_RIGID
-#include "rubbing.c"
-#include "seats.c"
+#include "frictional_impact.c"
+#include "contact_projection.c"
 #include "resolution.c"
 #endif
 #include "impacts.c"
 
 /* Whether the lists are to be fetched: the next step may find more than they hold. */
-static int lists_full(const Run *run)
+static int lists_full(const Integrator *run)
 {
-    return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || tape_full(run);
+    return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
 }
 
 /*
  * The mass that the force of contact i moves: what that force changes in the rate of deltadot, which is linear in the
  * velocities. way (N_X): the velocities that it leads to, by which deltadot is one more. No number where there is none.
  */
-static double moved_mass(Run *run, int i, double *way, const Parameters *p)
+static double moved_mass(Integrator *run, int i, double *way, const Parameters *p)
 {
     const double apart = 1e-3; /* s */
     double force[2], rate[2], y[N_Y], dy[2][N_Y], scrap[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     memcpy(y, run->y, sizeof y);
     for (int closed = 0; closed < 2; closed++) {
-        run->memory.latch[i].closed = (unsigned char)closed;
-        run->memory.latch[i].deltadot_minus = INFINITY; /* no damping */
-        if (settle_at(run, run->t, run->y, dy[closed], &aside, -1, p))
+        run->discrete.contact[i].closed = (unsigned char)closed;
+        run->discrete.contact[i].deltadot_minus = INFINITY; /* no damping */
+        if (update_branches_at(run, run->t, run->y, dy[closed], &rhs, -1, p))
             return NAN;
-        force[closed] = aside.clearance[i].F_n;
+        force[closed] = rhs.clearance[i].F_n;
         for (int k = N_X; k < 2 * N_X; k++)
             y[k] = run->y[k] + apart * dy[closed][k];
-        if (rates(run, run->t, y, p, scrap, &aside))
+        if (rates(run, run->t, y, p, scrap, &rhs))
             return NAN;
-        rate[closed] = aside.clearance[i].deltadot;
+        rate[closed] = rhs.clearance[i].deltadot;
     }
     const double pushed = (rate[1] - rate[0]) / apart;
     for (int k = 0; k < N_X; k++)
@@ -173,13 +175,13 @@ static double moved_mass(Run *run, int i, double *way, const Parameters *p)
  * Contact i, which the run begins in: of its onset nobody knows. It is taken as one without loss, whose energy is in
  * the motion and in the elastic force F, that at deltadot = 0: F delta / (n + 1), n the exponent of a power law.
  */
-static void begin_in_contact(Run *run, int i, const Parameters *p)
+static void begin_in_contact(Integrator *run, int i, const Parameters *p)
 {
-    const double deltadot = run->aside.clearance[i].deltadot;
+    const double deltadot = run->rhs.clearance[i].deltadot;
     double force[2], delta[2], way[N_X], y[N_Y], dy[N_Y];
-    Memory known = run->memory;
-    Aside aside;
-    hold_sides(run); /* an open contact is none then, wherever the journal lies */
+    DiscreteState known = run->discrete;
+    RhsOutputs rhs;
+    freeze_branches(run); /* an open contact is none then, wherever the journal lies */
     const double mass = moved_mass(run, i, way, p);
     memcpy(y, run->y, sizeof y);
     for (int part = 0; part < 2 && mass > 0.0; part++) {
@@ -187,40 +189,40 @@ static void begin_in_contact(Run *run, int i, const Parameters *p)
             y[k] = run->y[k] - (part ? 0.1 * delta[0] * way[k] : 0.0);
             y[N_X + k] = run->y[N_X + k] - deltadot * way[k];
         }
-        const int status = rates(run, run->t, y, p, dy, &aside);
-        force[part] = status ? NAN : fabs(aside.clearance[i].F_n);
-        delta[part] = aside.clearance[i].delta;
+        const int status = rates(run, run->t, y, p, dy, &rhs);
+        force[part] = status ? NAN : fabs(rhs.clearance[i].F_n);
+        delta[part] = rhs.clearance[i].delta;
     }
     if (mass > 0.0) {
         const double n = log(force[1] / force[0]) / log(delta[1] / delta[0]);
         const double onset = sqrt(deltadot * deltadot + 2.0 * force[0] * delta[0] / (n + 1.0) / mass);
         if (n > 0.0 && isfinite(onset))
-            known.latch[i].deltadot_minus = max_of(known.latch[i].deltadot_minus, onset);
+            known.contact[i].deltadot_minus = max_of(known.contact[i].deltadot_minus, onset);
     }
-    run->memory = known;
-    begin_contact(run, i, run->t, known.latch[i].deltadot_minus);
+    run->discrete = known;
+    begin_contact(run, i, run->t, known.contact[i].deltadot_minus);
 }
 
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
-static int begin(Run *run, const Parameters *p)
+static int begin(Integrator *run, const Parameters *p)
 {
-    int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
         status = begin_friction(run, p);
-    const Memory known = run->memory;
-    if (!status && begin_latches(run, p)) {
+    const DiscreteState known = run->discrete;
+    if (!status && begin_contacts_of_start(run, p)) {
         for (int i = 0; i < N_CLEARANCES; i++)
-            if (run->memory.latch[i].closed && !known.latch[i].closed && run->aside.clearance[i].delta > 0.0)
+            if (run->discrete.contact[i].closed && !known.contact[i].closed && run->rhs.clearance[i].delta > 0.0)
                 begin_in_contact(run, i, p);
-        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     if (!status)
         status = begin_contacts(run, p);
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
-    resolved_events(run, run->t, run->y, &run->aside, p, value);
+    resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        event_crosses(i, &run->memory.event_side[i], value[i]);
-        if (isnan(run->aside.event[i]) && !status)
+        event_crosses(i, &run->discrete.event_sign[i], value[i]);
+        if (isnan(run->rhs.event[i]) && !status)
             note_no_number(run, i, run->t);
     }
     run->ready = 1;
@@ -230,23 +232,23 @@ static int begin(Run *run, const Parameters *p)
 size_t gudgeon_run_size(void)
 {
 #if N_USER_EVENTS
-    return sizeof(Run) + sizeof(EventStates);
+    return sizeof(Integrator) + sizeof(EventStates);
 #else
-    return sizeof(Run);
+    return sizeof(Integrator);
 #endif
 }
 
 /* `y` is a state of all bodies. */
-void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched)
+void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *latched)
 {
-    Run *run = memory;
-    *run = (Run){.t = t};
-    from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
-    read_memory(latched, &run->memory);
-    run->memory.asked = &run->cancellation;
+    Integrator *run = integrator;
+    *run = (Integrator){.t = t};
+    from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
+    read_discrete_state(latched, &run->discrete);
+    run->discrete.cancellation = &run->cancellation;
     if (CONTINUES)
-        run->memory.least = run->memory.least_size = NEARBY;
+        run->discrete.least = run->discrete.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */
-        run->y[FIRST_STATE + k] = isnan(latched[N_MEMORY - N_STATES + k]) ? 0.0 : latched[N_MEMORY - N_STATES + k];
+        run->y[FIRST_STATE + k] = isnan(latched[N_DISCRETE - N_STATES + k]) ? 0.0 : latched[N_DISCRETE - N_STATES + k];
     start_contacts(run, t, latched);
 }

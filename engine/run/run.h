@@ -4,7 +4,7 @@
  */
 #ifndef GUDGEON_RUN_H
 #define GUDGEON_RUN_H
-#include "asked.h"
+#include "cancellation.h"
 #include "audit.h"
 
 enum {
@@ -26,29 +26,40 @@ typedef struct {
 typedef struct {
     double t; /* end of the row's last step */
     double joint[AT_LEAST_ONE(N_CLEARANCES)][N_TRACE_COLUMNS];
-} TraceRow;
+} EnvelopeRow;
 
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
-    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
+    N_EVENT_FUNCTIONS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order
+                                                                                  */
     /* at a stage: these; of joints with play F^2, N^2, from here on, and deltadot, m/s; so many in all */
-    SEEN_FORCES = N_MARGINS, SEEN_RATES = SEEN_FORCES + N_CLEARANCES, N_SEEN = SEEN_RATES + N_CLEARANCES,
+    SEEN_FORCES = N_EVENT_FUNCTIONS,
+    SEEN_RATES = SEEN_FORCES + N_CLEARANCES,
+    N_SEEN = SEEN_RATES + N_CLEARANCES,
 #if TAYLOR
     N_DENSE = TAYLOR_ORDERS,
 #else
     N_DENSE = 7,
 #endif
-    N_STAGES = 16, N_LOOKS = 16,
+    N_STAGES = 16,
+    N_SAMPLES = 16,
     /* the methods that lanes know; from BY_RODAS5P on they take the Jacobian, from BY_RADAU5 on they find stages */
-    BY_DOP853 = 0, BY_RK4, BY_DOPRI5, BY_RODAS5P, BY_RADAU5, BY_RADAU9, KINDS,
+    BY_DOP853 = 0,
+    BY_RK4,
+    BY_DOPRI5,
+    BY_RODAS5P,
+    BY_RADAU5,
+    BY_RADAU9,
+    KINDS,
     FAILED = -1, /* an interpolant that could not be made */
-    HERE = 1, ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
+    HERE = 1,
+    ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
 };
 
 #define LONG_RUN 1e4 /* s: an end further away than this says nothing about the shortest step that makes sense */
 #define LEAST_LENGTH (16.0 * DBL_EPSILON)   /* of how far from zero times are: no step is shorter */
 #define SAME_LENGTH (1.0 - 1e-9) /* ratio of the lengths of two steps, above which they count as equal */
-#define CRAWL_LENGTH (256.0 * LEAST_LENGTH) /* and so many shorter than this lead nowhere */
+#define SHORT_STEP (256.0 * LEAST_LENGTH) /* and so many shorter than this lead nowhere */
 
 typedef struct Method Method; /* methods.c */
 
@@ -56,7 +67,7 @@ typedef struct {
     const Method *method;
     double t, h, error;
     double y[N_Y], dy[N_Y];                  /* at the end */
-    Aside aside;
+    RhsOutputs rhs;
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
     int dense_ready;                         /* HERE; ELSEWHERE: in dense_lane; FAILED: dense_status says why */
@@ -65,15 +76,16 @@ typedef struct {
     const double *stages_lane, *dense_lane, *seen_lane;
     int lanes;
     int n_seen;                              /* stages so far, their nodes, what they saw, the least margins of them */
-    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_MARGINS)];
-    double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (looks.c) */
+    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1]; /* margins of what is watched, evenly along the step
+                                                              (dense_samples.c) */
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* corners that this step crosses without harm */
     double harm; /* in tolerances, that the wrong branches of corners change it by at most; infinite: not known */
     /* where a zero of what is watched was found, its values before it and behind it */
     double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)];
     double above[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
     double least[2 * N_X + 1], most[2 * N_X + 1];   /* of the state at stages, where something is watched */
-    unsigned char near[AT_LEAST_ONE(N_WATCHED)], looked;
+    unsigned char near[AT_LEAST_ONE(N_WATCHED)], is_searched;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
     double spread[AT_LEAST_ONE(N_TERMS)];         /* of terms of time alone over the step; -1: not known yet */
     int swings;                                   /* whether one may swing between stages (forces.c); -1: not known */
@@ -84,14 +96,14 @@ typedef struct {
  * no more was asked for), and the whole state at the last one at which the margin that was asked for was below zero. It
  * holds while the step and what it holds fixed do.
  */
-enum { N_LOOKED = 16 };
+enum { N_DENSE_SAMPLES = 16 };
 typedef struct {
-    int n, joints_alone[N_LOOKED];
-    double share[N_LOOKED], margin[N_LOOKED][AT_LEAST_ONE(N_MARGINS)];
-    double slope[N_LOOKED][AT_LEAST_ONE(N_CLEARANCES)]; /* of those of joints with play, by shares */
+    int n, joints_alone[N_DENSE_SAMPLES];
+    double fraction[N_DENSE_SAMPLES], event_function[N_DENSE_SAMPLES][AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    double slope[N_DENSE_SAMPLES][AT_LEAST_ONE(N_CLEARANCES)]; /* of those of joints with play, by shares */
     double beyond, y[N_Y], dy[N_Y];
-    Aside aside;
-} Looked;
+    RhsOutputs rhs;
+} DenseSamples;
 
 /*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
@@ -112,12 +124,12 @@ typedef struct {
     signed char *state;
 } Samples;
 
-/* States that Python fetches; rows NULL: none are. Written by: run/tape.c. */
+/* States that Python fetches; rows NULL: none are. Written by: run/step_record.c. */
 typedef struct {
     double *rows;
     long n, capacity;
     int jumped; /* something changed since the last row */
-} Tape;
+} StepRecord;
 
 /* What a step began with. */
 typedef struct {
@@ -126,7 +138,7 @@ typedef struct {
 
 /*
  * Contacts of joints with play, and their list until it is fetched.
- * Written by: run/latches.c, run/watch.h.
+ * Written by: run/contacts.c, run/joint_maxima.h.
  */
 typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* the contact that lasts in each joint */
@@ -148,9 +160,9 @@ typedef struct {
     unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether an event was reported to be no number */
 } EventList;
 
-/* The envelope of forces and paths; rows NULL: none is recorded. Written by: run/trace.c. */
+/* The envelope of forces and paths; rows NULL: none is recorded. Written by: run/envelope.c. */
 typedef struct {
-    TraceRow *rows;
+    EnvelopeRow *rows;
     long row, n_rows;   /* the row that is being filled, of so many */
     long steps, stride; /* in that row; in a row that is complete */
 } Envelope;
@@ -164,7 +176,7 @@ typedef struct {
     long steps;
 } FilmErrors;
 
-/* Singular positions. Written by: methods/near.c. */
+/* Singular positions. Written by: methods/singular_policy.c. */
 typedef struct {
     long unlooked, in_vain;
 } NearSingular;
@@ -181,12 +193,12 @@ typedef struct {
 
 /*
  * Whether time still advances: its pace, steps that each margin ended since the pace was taken.
- * Written by: run/step_log.h, run/asked.c. Copied by: batch/lane_quiet.c.
+ * Written by: run/step_log.h, run/cancellation.c. Copied by: batch/lane_quiet.c.
  */
 typedef struct {
-    Pace pace;
-    long ended[N_MARGINS + 1];
-    int stuck, crawl;
+    ProgressMonitor monitor;
+    long ended[N_EVENT_FUNCTIONS + 1];
+    int no_advance, short_steps;
 } Progress;
 
 /*
@@ -197,7 +209,7 @@ typedef struct {
     const Method *method, *implicit; /* of the next step; which of the stiff ones `auto` takes */
     double stability; /* h rho of the last step that was tried: its length times the largest rate of the motion */
     double rate; /* rho, 1/s, where `auto` returned to the explicit method */
-    int automatic, votes, patience, since;
+    int automatic, n_against, patience, since;
 } MethodChoice;
 
 /*
@@ -216,26 +228,26 @@ typedef struct {
      * Lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's).
      */
-    double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
+    double after_contact[N_CLEARANCES + 1][2], after_switch[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
     /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; in 1 s, now */
     double onset[2], onset_share;
 } StepControl;
 
 /*
  * The norm of errors: what tolerances are relative to.
- * Written by: both/weigh.h, both/speed.h, methods/begin.c.
+ * Written by: both/error_weights.h, both/speed.h, methods/begin.c.
  * Copied by: batch/lane_exchange.c, batch/lane_quiet.c.
  */
 typedef struct {
     double inverse_scale[2 * N_X + 1], least[2]; /* 1 / tolerances; the smallest length, m, and angle that matter */
     double speed[2], speed_floor[2], speed_rounded[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
-    double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
+    double work_scale, energy_scale; /* tolerance of works as a share of the energy (J) that was turned over so far */
 } ErrorNorm;
 
 /*
  * Newton's matrix and, of methods whose stages are iterated, what their iterations begin with.
- * Written by: methods/rodas5p.c, run/past.h, both/radau_step.h.
+ * Written by: methods/rodas5p.c, run/iteration_history.h, both/radau_step.h.
  * Copied by: batch/lane_exchange.c, batch/lane_quiet.c, batch/lane_tries.c.
  */
 typedef struct {
@@ -246,7 +258,7 @@ typedef struct {
     Beginning now;
     long seen_steps;
     double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls, force_found;
-    int goes_on;
+    int continues;
 #endif
 } NewtonIteration;
 
@@ -255,10 +267,10 @@ typedef struct {
  * Written by: watch/roots.c, watch/events.c.
  */
 typedef struct {
-    double tick; /* s, to which times of events are told apart; less where the whole run is short */
+    double time_resolution; /* s, to which times of events are told apart; less where the whole run is short */
     int crossed, skip; /* the switch that was crossed last; one that the next step does not watch, -1: none */
-    double t_crossed, pace; /* s: when it was; the length with which steps start again that do not watch it */
-    Looked looked;
+    double t_crossed, monitor; /* s: when it was; the length with which steps start again that do not watch it */
+    DenseSamples samples;
 } RootFinding;
 
 #if TAYLOR
@@ -282,8 +294,8 @@ typedef struct {
  */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
-    Aside aside;
-    Memory memory;
+    RhsOutputs rhs;
+    DiscreteState discrete;
     Contacts contacts;
     EventList events;
     Envelope envelope;
@@ -300,13 +312,13 @@ typedef struct {
 #if TAYLOR
     Series series;
 #endif
-    Asked cancellation;
+    Cancellation cancellation;
     int ready;
-    Tape tape;
+    StepRecord step_record;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Step step;
     Audit audit;
-} Run;
+} Integrator;
 
 /* Whether the law of a joint with play has a film. */
 static inline int has_films(void)
@@ -319,17 +331,17 @@ static inline int has_films(void)
 
 #include "step_log.h"
 #if IMPLICIT_STAGES
-#include "past.h"
+#include "iteration_history.h"
 #endif
 
 #if N_USER_EVENTS
-/* States at the user events of a run's list, as samples have them: they lie behind the Run. */
+/* States at the user events of a run's list, as samples have them: they lie behind the Integrator. */
 typedef struct {
-    double y[LISTED_EVENTS][N_S], latched[LISTED_EVENTS][AT_LEAST_ONE(N_MEMORY)];
+    double y[LISTED_EVENTS][N_S], latched[LISTED_EVENTS][AT_LEAST_ONE(N_DISCRETE)];
     signed char state[LISTED_EVENTS][AT_LEAST_ONE(N_CLEARANCES)];
 } EventStates;
 
-static inline EventStates *event_states(Run *run) { return (EventStates *)(run + 1); }
+static inline EventStates *event_states(Integrator *run) { return (EventStates *)(run + 1); }
 #endif
 
 #endif

@@ -4,11 +4,11 @@
 #define LEFT_SLIP 2e-9 /* m/s, what its place is located to */
 
 /* By how much the rate of slip i, and all rates (dy), change with the direction of its force; 0: that is not known. */
-static double response_to_friction(Run *run, double t, const double *y, int i, const Parameters *p, double *dy)
+static double slip_response(Integrator *run, double t, const double *y, int i, const Parameters *p, double *dy)
 {
-    double *mode = &run->memory.mode[i], other[N_Y];
+    double *mode = &run->discrete.mode[i], other[N_Y];
     const double known = *mode;
-    Aside along, against;
+    RhsOutputs along, against;
     *mode = -1.0;
     int status = rates(run, t, y, p, dy, &along);
     *mode = 1.0;
@@ -20,7 +20,7 @@ static double response_to_friction(Run *run, double t, const double *y, int i, c
 }
 
 /* Whether velocities that change so are a rest of a step: a slip may be small because its arm is, not its speed. */
-static int is_left_over(const Run *run, const double *way, double times)
+static int is_slip_residual(const Integrator *run, const double *way, double times)
 {
     int small = 1;
     for (int k = N_X; k < 2 * N_X; k++) {
@@ -37,16 +37,16 @@ static int is_left_over(const Run *run, const double *way, double times)
  * Stops the slips of friction that sticks, which are left over or which a step let drift: by impulses of the friction.
  * Whether there were any. One of them leaves the others at rest.
  */
-static int stop_slips(Run *run, double t, double *y, const Aside *aside, const Parameters *p)
+static int remove_slip_residuals(Integrator *run, double t, double *y, const RhsOutputs *rhs, const Parameters *p)
 {
     int some = 0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         double way[N_Y];
-        const double v = aside->friction[i].v;
-        if (run->memory.mode[i] != 0.0 || fabs(v) <= RESTS)
+        const double v = rhs->friction[i].v;
+        if (run->discrete.mode[i] != 0.0 || fabs(v) <= RESTS)
             continue;
-        const double response = response_to_friction(run, t, y, i, p, way);
-        if (!(response > 0.0) || !is_left_over(run, way, v / response))
+        const double response = slip_response(run, t, y, i, p, way);
+        if (!(response > 0.0) || !is_slip_residual(run, way, v / response))
             continue;
         for (int k = N_X; k < 2 * N_X; k++)
             y[k] -= way[k] * (v / response);
@@ -56,20 +56,20 @@ static int stop_slips(Run *run, double t, double *y, const Aside *aside, const P
 }
 
 /* The right-hand side at a state; friction that sticks is at rest there. */
-static int rates_at_rest(Run *run, double t, double *y, const Parameters *p, double *dy, Aside *aside)
+static int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    const int status = rates(run, t, y, p, dy, aside);
-    return status || !stop_slips(run, t, y, aside, p) ? status : rates(run, t, y, p, dy, aside);
+    const int status = rates(run, t, y, p, dy, rhs);
+    return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);
 }
 
 /* The same of a state alone. */
-static void hold_slips(Run *run, double t, double *y, const Parameters *p)
+static void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     double dy[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     int sticks = 0;
     for (int i = 0; i < N_FRICTIONS; i++)
-        sticks |= run->memory.mode[i] == 0.0;
+        sticks |= run->discrete.mode[i] == 0.0;
     if (sticks)
-        (void)rates_at_rest(run, t, y, p, dy, &aside);
+        (void)rates_at_rest(run, t, y, p, dy, &rhs);
 }

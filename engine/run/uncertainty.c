@@ -9,10 +9,10 @@
  * What is missing to close the linkage at a state is an error of it; so is what velocities miss at positions that are
  * wrong, some by more, others by less: near a singular position that counts for more than rounding does.
  */
-static void add_closing(Run *run, double t, const double *y, const Parameters *p, double *error)
+static void add_closing(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     double dq[N_X + 1], dv[N_X + 1], other[N_Y], worst;
-    if (N_LOOPS == 0 || closing_of_state(t, y, &run->memory, p, dq, dv, &worst))
+    if (N_LOOPS == 0 || closing_of_state(t, y, &run->discrete, p, dq, dv, &worst))
         return;
     for (int k = 0; k < N_X; k++) {
         error[k] += isfinite(dq[k]) ? LEFT * fabs(dq[k]) : 0.0;
@@ -22,7 +22,7 @@ static void add_closing(Run *run, double t, const double *y, const Parameters *p
     for (int mask = 0; mask < 3; mask++) {
         for (int k = 0; k < N_X; k++)
             other[k] = y[k] + (k & mask ? -error[k] : error[k]);
-        if (closing_of_state(t, other, &run->memory, p, dq, dv, &worst))
+        if (closing_of_state(t, other, &run->discrete, p, dq, dv, &worst))
             continue;
         for (int k = 0; k < N_X; k++)
             error[N_X + k] += isfinite(dv[k]) ? fabs(dv[k]) : 0.0;
@@ -33,7 +33,7 @@ static void add_closing(Run *run, double t, const double *y, const Parameters *p
  * Errors of the coordinates and velocities of a state y: rounding of the largest of each kind, lengths and angles, and
  * what it misses the constraints by.
  */
-static void rounding_errors(Run *run, double t, const double *y, const Parameters *p, double *error)
+static void rounding_errors(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     double size[2] = {0.0, 1.0}, speed[2] = {run->norm.speed[0], run->norm.speed[1]};
     for (int k = 0; k < N_X; k++) {
@@ -52,49 +52,51 @@ static void rounding_errors(Run *run, double t, const double *y, const Parameter
  * What is left of the slip of friction that sticks is an error of the velocities: those by which an impulse of the
  * friction would stop it. Forces of both directions lead there; the others that stick stay at rest.
  */
-static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)
+static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     double scrap[N_Y], way[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     int status = -1;
     for (int i = 0; i < N_FRICTIONS; i++) {
-        if (run->memory.mode[i] != 0.0)
+        if (run->discrete.mode[i] != 0.0)
             continue;
-        status = status < 0 ? rates(run, t, y, p, scrap, &aside) : status;
-        const double response = status ? 0.0 : response_to_friction(run, t, y, i, p, way);
+        status = status < 0 ? rates(run, t, y, p, scrap, &rhs) : status;
+        const double response = status ? 0.0 : slip_response(run, t, y, i, p, way);
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
-            error[k] += fabs(way[k] * aside.friction[i].v / response);
+            error[k] += fabs(way[k] * rhs.friction[i].v / response);
     }
     for (int k = 0; k < N_X && status >= 0; k++) /* a place that is held may be 0: by lengths that count */
         error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->norm.least[is_angle[k]]);
 }
 #else
-static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)
+static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     (void)run, (void)t, (void)y, (void)p, (void)error;
 }
 #endif
 
 /* A watched function's value, whichever side it is on. */
-static inline double watched_value(const Aside *aside, int i)
+static inline double watched_value(const RhsOutputs *rhs, int i)
 {
     const int k = watched[i] - N_CLEARANCES;
-    return k < N_SWITCHES ? aside->g[k] : aside->event[k - N_SWITCHES - N_FRICTIONS];
+    return k < N_SWITCHES ? rhs->g[k] : rhs->event[k - N_SWITCHES - N_FRICTIONS];
 }
 
 /* By how much errors of the state change each watched function; 0 where they lead to a pole. */
 #if KNOWN_BOUNDS
-static void error_of_watched(Run *run, double t, const double *y, const double *error, const Parameters *p, double *out)
+static void error_of_watched(
+    Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *out)
 {
-    error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->memory, p, out);
+    error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, out);
 }
 #else
 /* No bounds are known: errors of some signs are tried, neighbours with the same one and with another. */
-static void error_of_watched(Run *run, double t, const double *y, const double *error, const Parameters *p, double *out)
+static void error_of_watched(
+    Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *out)
 {
     double now[N_Y], dy[N_Y];
-    Aside aside, other;
-    const int failed = rates(run, t, y, p, dy, &aside);
+    RhsOutputs rhs, other;
+    const int failed = rates(run, t, y, p, dy, &rhs);
     memcpy(now, y, sizeof now);
     for (int i = 0; i < N_WATCHED; i++)
         out[i] = 0.0;
@@ -104,7 +106,7 @@ static void error_of_watched(Run *run, double t, const double *y, const double *
         if (rates(run, t, now, p, dy, &other))
             continue;
         for (int i = 0; i < N_WATCHED; i++) {
-            const double change = AS_SEEN * fabs(watched_value(&other, i) - watched_value(&aside, i));
+            const double change = AS_SEEN * fabs(watched_value(&other, i) - watched_value(&rhs, i));
             out[i] += isfinite(change) ? change : 0.0;
         }
     }
@@ -112,7 +114,7 @@ static void error_of_watched(Run *run, double t, const double *y, const double *
 #endif
 
 /* By how much rounding and what the state misses its constraints by may move each watched function at a state. */
-static void uncertainty(Run *run, double t, const double *y, const Parameters *p, double *out)
+static void uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *out)
 {
     double error[2 * N_X + 1];
     rounding_errors(run, t, y, p, error);
@@ -122,15 +124,16 @@ static void uncertainty(Run *run, double t, const double *y, const Parameters *p
 
 /*
  * Event functions at a state; 0 for those that are below their uncertainty. Only where a sign is another one than that
- * of `side` this is looked for.
+ * of `branch` this is looked for.
  */
-static void resolved_events(Run *run, double t, const double *y, const Aside *aside, const Parameters *p, double *value)
+static void resolved_events(
+    Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
 {
     double error[AT_LEAST_ONE(N_WATCHED)];
     int differs = 0;
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        value[i] = aside->event[i];
-        differs |= !(run->memory.event_side[i] * value[i] > 0.0);
+        value[i] = rhs->event[i];
+        differs |= !(run->discrete.event_sign[i] * value[i] > 0.0);
     }
     if (!differs)
         return;
@@ -142,13 +145,13 @@ static void resolved_events(Run *run, double t, const double *y, const Aside *as
 
 #else
 /* No switches of the user's expressions, and no events: nothing that has an uncertainty. */
-static inline void resolved_events(const Run *run, double t, const double *y, const Aside *aside, const Parameters *p,
-    double *value)
+static inline void resolved_events(
+    const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
 {
-    (void)run, (void)t, (void)y, (void)aside, (void)p, (void)value;
+    (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)value;
 }
 
-static inline void uncertainty(const Run *run, double t, const double *y, const Parameters *p, double *out)
+static inline void uncertainty(const Integrator *run, double t, const double *y, const Parameters *p, double *out)
 {
     (void)run, (void)t, (void)y, (void)p, (void)out;
 }

@@ -5,7 +5,7 @@
 #define RIGHT_AFTER 1e-11 /* s: what lies so near to an end or a begin of a run is there; more than steps tell apart */
 #define RIGHT_AFTER_SHARE 1e-9 /* of the time that a fast motion takes to cross the mechanism */
 
-static void list_event(Run *run, int i, double t)
+static void list_event(Integrator *run, int i, double t)
 {
     if (run->events.n < LISTED_EVENTS) {
         run->events.t[run->events.n] = t;
@@ -14,14 +14,14 @@ static void list_event(Run *run, int i, double t)
 }
 
 /* Whether the event that ends a step is not a zero but a pole. */
-static inline void set_pole(Run *run, int is_pole) { run->events.pole = is_pole; }
+static inline void set_pole(Integrator *run, int is_pole) { run->events.pole = is_pole; }
 
 /* User event i at time t with the state there; whether it ends the run. */
-static int note_event(Run *run, int i, double t, const double *now, const Parameters *p)
+static int note_event(Integrator *run, int i, double t, const double *now, const Parameters *p)
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
-    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->roots.tick; k--)
+    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->roots.time_resolution; k--)
         if (run->events.number[k] == i)
             return 0; /* steps do not tell these times apart: it is the same zero, which rounding leads across again */
     if (run->events.n < LISTED_EVENTS)
@@ -35,15 +35,15 @@ static int note_event(Run *run, int i, double t, const double *now, const Parame
 }
 
 /* User event i has crossed its zero here: its side is the other one; whether that is a direction that counts. */
-static int cross_zero(Run *run, int i)
+static int cross_zero(Integrator *run, int i)
 {
-    const int to = -run->memory.event_side[i];
-    run->memory.event_side[i] = (signed char)to;
+    const int to = -run->discrete.event_sign[i];
+    run->discrete.event_sign[i] = (signed char)to;
     return event_direction[i] * to >= 0;
 }
 
 /* User event i is no number at time t: told once a run, in the list of events behind all of them. */
-static void note_no_number(Run *run, int i, double t)
+static void note_no_number(Integrator *run, int i, double t)
 {
     if (!run->events.no_number[i])
         list_event(run, i + N_USER_EVENTS, t);
@@ -51,66 +51,66 @@ static void note_no_number(Run *run, int i, double t)
 }
 
 /* Sides of user events that began on a zero, or were held there: wherever they are at a state. */
-static void take_sides(Run *run, double t, const double *y, const Aside *aside, const Parameters *p)
+static void update_event_signs(Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int zeros = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] == 0;
+        zeros |= run->discrete.event_sign[i] == 0;
     if (!zeros)
         return;
-    resolved_events(run, t, y, aside, p, value);
+    resolved_events(run, t, y, rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if (run->memory.event_side[i] == 0)
-            event_crosses(i, &run->memory.event_side[i], value[i]);
+        if (run->discrete.event_sign[i] == 0)
+            event_crosses(i, &run->discrete.event_sign[i], value[i]);
 }
 
 /*
  * User events that something sudden led across their zeros, from what they were `before` (NULL: wherever they were);
  * whether one of them ends the run.
  */
-static int note_leaps(Run *run, const double *before, const Parameters *p)
+static int note_leaps(Integrator *run, const double *before, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int status = 0;
-    resolved_events(run, run->t, run->y, &run->aside, p, value);
+    resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if ((!before || !have_same_sign(before[i], value[i])) && event_crosses(i, &run->memory.event_side[i], value[i])
-            && note_event(run, i, run->t, run->y, p))
+        if ((!before || !have_same_sign(before[i], value[i]))
+            && event_crosses(i, &run->discrete.event_sign[i], value[i]) && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
 
 #if N_USER_EVENTS
 /* Event functions `ahead` s beyond a state, straight on; 0 for those that are below their uncertainty there. */
-static int events_ahead(Run *run, double t, double ahead, const double *y, const double *dy, const Parameters *p,
+static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy, const Parameters *p,
     double *value)
 {
     double there[N_Y], scrap[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         there[k] = y[k] + ahead * dy[k];
-    const int status = rates(run, t + ahead, there, p, scrap, &aside);
+    const int status = rates(run, t + ahead, there, p, scrap, &rhs);
     for (int i = 0; i < N_USER_EVENTS; i++)
         value[i] = 0.0;
     if (!status)
-        resolved_events(run, t + ahead, there, &aside, p, value);
+        resolved_events(run, t + ahead, there, &rhs, p, value);
     return status;
 }
 
 /* What lies `h` after run->t, on the sides of switches that hold there; they are held from now on. */
-static int look_beyond(Run *run, double h, const Parameters *p, Aside *beyond)
+static int look_beyond(Integrator *run, double h, const Parameters *p, RhsOutputs *beyond)
 {
     double y[N_Y], dy[N_Y];
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    if (!run->memory.held)
-        hold_sides(run);
-    return settle_at(run, run->t + h, y, dy, beyond, -1, p);
+    if (!run->discrete.held)
+        freeze_branches(run);
+    return update_branches_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
 /* How near in time is the same as a time where a run ends or begins, s; by the state alone, and a step of rk4. */
-static double same_time(const Run *run, double step)
+static double same_time(const Integrator *run, double step)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X && !(step > 0.0); k++) {
@@ -127,40 +127,40 @@ static double same_time(const Run *run, double step)
  * here begins with these sides. So each event of a run that is cut anywhere is listed once. The sides of switches are
  * those right after run->t from now on.
  */
-static int sides_beyond(Run *run, double step, const Parameters *p, signed char *side)
+static int event_signs_after(Integrator *run, double step, const Parameters *p, signed char *branch)
 {
     const double h = same_time(run, step);
     double error[N_WATCHED], value[N_USER_EVENTS];
     int unknown = 0;
-    Aside beyond;
+    RhsOutputs beyond;
     const int status = look_beyond(run, h, p, &beyond);
     if (status)
         return status;
     uncertainty(run, run->t, run->y, p, error);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double f = beyond.event[i];
-        side[i] = (signed char)(fabs(f) > error[N_WATCHED - N_USER_EVENTS + i] ? (f > 0.0) - (f < 0.0) : 0);
-        unknown |= !side[i];
+        branch[i] = (signed char)(fabs(f) > error[N_WATCHED - N_USER_EVENTS + i] ? (f > 0.0) - (f < 0.0) : 0);
+        unknown |= !branch[i];
     }
     for (double ahead = 1e3 * h; unknown && ahead < 1e10 * h; ahead *= 1e3) {
         const int known = !events_ahead(run, run->t, ahead, run->y, run->dy, p, value);
         for (int i = 0; i < N_USER_EVENTS; i++)
-            if (known && !side[i])
-                side[i] = (signed char)((value[i] > 0.0) - (value[i] < 0.0));
+            if (known && !branch[i])
+                branch[i] = (signed char)((value[i] > 0.0) - (value[i] < 0.0));
     }
     return 0;
 }
 
 /* Lists events whose zero, or jump across it, is the end of the run; `step` as below. ENDED: one of them ends it. */
-static int end_on_zeros(Run *run, double step, const Parameters *p)
+static int end_on_zeros(Integrator *run, double step, const Parameters *p)
 {
-    const Memory memory = run->memory;
-    signed char side[N_USER_EVENTS];
-    const int failed = sides_beyond(run, step, p, side);
+    const DiscreteState discrete = run->discrete;
+    signed char branch[N_USER_EVENTS];
+    const int failed = event_signs_after(run, step, p, branch);
     int status = 0;
-    run->memory = memory;
+    run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS && !failed; i++)
-        if (event_crosses(i, &run->memory.event_side[i], side[i]) && note_event(run, i, run->t, run->y, p))
+        if (event_crosses(i, &run->discrete.event_sign[i], branch[i]) && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
@@ -169,25 +169,25 @@ static int end_on_zeros(Run *run, double step, const Parameters *p)
  * Begins with the sides of event functions right after the start, and of switches, unless this is rk4, whose steps, of
  * length `step`, do not hold them; 0: another method.
  */
-static int begin_beyond(Run *run, double step, const Parameters *p)
+static int begin_beyond(Integrator *run, double step, const Parameters *p)
 {
-    signed char side[N_USER_EVENTS];
-    const Memory before = run->memory;
-    const int status = sides_beyond(run, step, p, side);
+    signed char branch[N_USER_EVENTS];
+    const DiscreteState before = run->discrete;
+    const int status = event_signs_after(run, step, p, branch);
     if (step > 0.0)
-        run->memory = before;
+        run->discrete = before;
     for (int i = 0; i < N_USER_EVENTS && !status; i++)
-        run->memory.event_side[i] = side[i] ? side[i] : run->memory.event_side[i];
-    if (status || !memcmp(before.side, run->memory.side, sizeof before.side))
+        run->discrete.event_sign[i] = branch[i] ? branch[i] : run->discrete.event_sign[i];
+    if (status || !memcmp(before.branch, run->discrete.branch, sizeof before.branch))
         return status;
-    return rates(run, run->t, run->y, p, run->dy, &run->aside);
+    return rates(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 #else
-static inline int end_on_zeros(Run *run, double step, const Parameters *p)
+static inline int end_on_zeros(Integrator *run, double step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, 0;
 }
-static inline int begin_beyond(Run *run, double step, const Parameters *p)
+static inline int begin_beyond(Integrator *run, double step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, 0;
 }
@@ -199,27 +199,27 @@ static inline int begin_beyond(Run *run, double step, const Parameters *p)
  */
 #if N_USER_EVENTS && (N_FRICTIONS || N_RIGID)
 typedef struct {
-    Memory memory;
+    DiscreteState discrete;
     double y[N_Y], dy[N_Y], event[N_USER_EVENTS];
 } Held;
 
-static Held held_before(const Run *run)
+static Held held_before(const Integrator *run)
 {
-    Held before = {.memory = run->memory};
+    Held before = {.discrete = run->discrete};
     memcpy(before.y, run->y, sizeof before.y);
     memcpy(before.dy, run->dy, sizeof before.dy);
-    memcpy(before.event, run->aside.event, sizeof before.event);
+    memcpy(before.event, run->rhs.event, sizeof before.event);
     return before;
 }
 
 /* Whether friction sticks that did not, or a contact is closed that was not. */
-static int holds_more(const Memory *before, const Memory *now)
+static int holds_more(const DiscreteState *before, const DiscreteState *now)
 {
     int more = 0;
     for (int i = 0; i < N_FRICTIONS; i++)
         more |= now->mode[i] == 0.0 && before->mode[i] != 0.0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        more |= !gives(i) && now->latch[i].closed && !before->latch[i].closed;
+        more |= !gives(i) && now->contact[i].closed && !before->contact[i].closed;
     return more;
 }
 
@@ -228,32 +228,32 @@ static int holds_more(const Memory *before, const Memory *now)
  * before, and from there they go to a side without crossing zero. Whether something is held is told by where it would
  * be `ahead` s later, and where it would have been as things were. Returns ENDED where one of them ends the run.
  */
-static int note_arrivals(Run *run, const Held *before, double ahead, const Parameters *p)
+static int note_arrivals(Integrator *run, const Held *before, double ahead, const Parameters *p)
 {
     double error[N_WATCHED], now[N_USER_EVENTS], then[N_USER_EVENTS];
-    const int more = holds_more(&before->memory, &run->memory);
+    const int more = holds_more(&before->discrete, &run->discrete);
     int zeros = 0, status = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] == 0;
+        zeros |= run->discrete.event_sign[i] == 0;
     if (!more && !zeros)
         return 0;
-    Memory memory = run->memory;
+    DiscreteState discrete = run->discrete;
     uncertainty(run, run->t, before->y, p, error); /* slips that have been stopped here are none */
     (void)events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
-    run->memory = before->memory;
+    run->discrete = before->discrete;
     (void)events_ahead(run, run->t, ahead, before->y, before->dy, p, then);
-    run->memory = memory;
+    run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        signed char *side = &run->memory.event_side[i];
+        signed char *branch = &run->discrete.event_sign[i];
         const double least = error[N_WATCHED - N_USER_EVENTS + i];
-        const int from = *side, moves = fabs(now[i]) > least + 0.01 * fabs(then[i]);
+        const int from = *branch, moves = fabs(now[i]) > least + 0.01 * fabs(then[i]);
         if (from == 0 && moves)
-            event_crosses(i, side, now[i]);
-        if (from == 0 || moves || !more || !(fabs(run->aside.event[i]) <= least))
+            event_crosses(i, branch, now[i]);
+        if (from == 0 || moves || !more || !(fabs(run->rhs.event[i]) <= least))
             continue;
         const int comes = from * before->event[i] > least || from * then[i] < -least;
         if (comes || from * then[i] > least)
-            *side = 0;
+            *branch = 0;
         if (comes && event_direction[i] * from <= 0 && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     }
@@ -264,23 +264,23 @@ typedef struct {
     int none;
 } Held;
 
-static Held held_before(const Run *run) { return (void)run, (Held){0}; }
-static int note_arrivals(Run *run, const Held *before, double ahead, const Parameters *p)
+static Held held_before(const Integrator *run) { return (void)run, (Held){0}; }
+static int note_arrivals(Integrator *run, const Held *before, double ahead, const Parameters *p)
 {
     return (void)run, (void)before, (void)ahead, (void)p, 0;
 }
 #endif
 
-void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->events.stop = stop; }
+void gudgeon_run_stop(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
 
 /*
  * Moves the oldest user events, at most `capacity`, from the list into these arrays, with the states there as rows of
  * samples; returns how many.
  */
-int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
+int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *latched,
     signed char *state)
 {
-    Run *run = memory;
+    Integrator *run = integrator;
     const int n = run->events.n < capacity ? run->events.n : capacity, left = run->events.n - n;
     for (int i = 0; i < n; i++) {
         t[i] = run->events.t[i];

@@ -3,23 +3,23 @@
  * (run/audit.c) takes from the equations of all bodies. It owns no state.
  */
 
-int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a,
+int absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p, double *a,
     double *force)
 {
     double rate[N_S];
-    Aside aside;
-    Memory now = *memory;
+    RhsOutputs rhs;
+    DiscreteState now = *discrete;
     now.held = 0; /* switching functions of all bodies have other numbers */
     now.least = NEARLY_SINGULAR;
     now.least_size = VANISHING;
-    const int status = rates_at(t, all, &now, p, rate, &aside);
+    const int status = rates_at(t, all, &now, p, rate, &rhs);
     for (int k = 0; k < N_Q; k++)
         a[k] = rate[N_Q + k];
     *force = 0.0;
     for (int r = 0; r < N_ROWS; r++)
-        *force = max_of(*force, row_is_length[kept_row[r]] ? fabs(aside.lambda[r]) : 0.0);
+        *force = max_of(*force, row_is_length[kept_row[r]] ? fabs(rhs.lambda[r]) : 0.0);
     for (int i = 0; i < N_FRICTIONS; i++)
-        *force = max_of(*force, fabs(aside.friction[i].force));
+        *force = max_of(*force, fabs(rhs.friction[i].force));
     return status;
 }
 
@@ -28,10 +28,10 @@ void velocity_residuals(double t, const double *q, const double *v, double h, co
 {
     double near[2][N_Q], phi[2][AT_LEAST_ONE(N_ALL_ROWS)];
     const double between = h > 0.0 ? 2.0 * h : INFINITY;
-    for (int side = 0; side < 2; side++) {
+    for (int branch = 0; branch < 2; branch++) {
         for (int k = 0; k < N_Q; k++)
-            near[side][k] = q[k] + (side ? h : -h) * v[k];
-        constraints(t, near[side], p, phi[side]);
+            near[branch][k] = q[k] + (branch ? h : -h) * v[k];
+        constraints(t, near[branch], p, phi[branch]);
     }
     velocity_rhs(t, q, p, nu);
     for (int r = 0; r < N_ALL_ROWS; r++)
@@ -66,15 +66,15 @@ int drives_jump(double t, const double *q, const double *v, const Parameters *p)
  * as a share of `size` (m); of Phi_q v - nu. dV/dt and Phi_q v are differences along v. A sample at a jump of a drive
  * has zeros.
  */
-void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *memory,
+void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *off)
 {
     const Parameters *p = (const Parameters *)parameters;
     double m[N_Q];
     mass_matrix(p, m);
-    for (long i = 0; i < n; i++, q += N_Q, v += N_Q, memory += N_MEMORY, off += 4) {
-        Memory now = {0};
-        Aside aside;
+    for (long i = 0; i < n; i++, q += N_Q, v += N_Q, discrete += N_DISCRETE, off += 4) {
+        DiscreteState now = {0};
+        RhsOutputs rhs;
         double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
         double reactions[3 * AT_LEAST_ONE(N_REACTIONS)], torques[AT_LEAST_ONE(N_DRIVES)];
         double series[AT_LEAST_ONE(N_SERIES)];
@@ -85,8 +85,8 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             y[k] = q[k];
             y[N_Q + k] = v[k];
         }
-        read_memory(memory, &now);
-        if (drives_jump(t[i], q, v, p) || rates_at(t[i], y, &now, p, dy, &aside))
+        read_discrete_state(discrete, &now);
+        if (drives_jump(t[i], q, v, p) || rates_at(t[i], y, &now, p, dy, &rhs))
             continue;
         for (int k = 0; k < N_Q; k++) {
             const int angle = k % 3 == 2;
@@ -97,12 +97,12 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             far[angle] = max_of(far[angle], fabs(q[k]));
         }
         const double h = rate > 0.0 ? 1e-5 / rate : 0.0;
-        for (int side = 0; side < 2; side++) {
+        for (int branch = 0; branch < 2; branch++) {
             for (int k = 0; k < N_Q; k++)
-                near[side][k] = q[k] + (side ? h : -h) * v[k];
-            outputs(t[i], near[side], v, p, aside.lambda, reactions, torques, series, stored[side]);
+                near[branch][k] = q[k] + (branch ? h : -h) * v[k];
+            outputs(t[i], near[branch], v, p, rhs.lambda, reactions, torques, series, stored[branch]);
         }
-        outputs(t[i], q, v, p, aside.lambda, reactions, torques, series, stored[2]);
+        outputs(t[i], q, v, p, rhs.lambda, reactions, torques, series, stored[2]);
         constraints(t[i], q, p, phi);
         velocity_residuals(t[i], q, v, h, p, missed, nu);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
@@ -110,14 +110,14 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         double terms = LEAST_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
         terms += 4e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
         for (int i = 0; i < N_FRICTIONS; i++) /* while it sticks the powers of all forces are rounding of its own */
-            terms += fabs(aside.friction[i].force) * (fast[0] + fabs(aside.friction[i].v));
+            terms += fabs(rhs.friction[i].force) * (fast[0] + fabs(rhs.friction[i].v));
         for (int k = 0; k < N_Q; k++)
             sum += v[k] * m[k] * dy[N_Q + k];
         for (int k = 0; k < N_WORK; k++) {
-            sum -= aside.power[k];
-            terms += fabs(aside.power[k]);
+            sum -= rhs.power[k];
+            terms += fabs(rhs.power[k]);
         }
-        double largest = fabs(aside.power[0]);
+        double largest = fabs(rhs.power[0]);
         for (int d = 0; d < N_DRIVES; d++) {
             driven += torques[d] * nu[drive_row[d]];
             largest += fabs(torques[d]) * (row_is_length[drive_row[d]] ? fast[0] : fast[1]);
@@ -131,11 +131,11 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             off[2] = max_of(off[2], fabs(phi[row]) / (unit + most));
             if (speed > 0.0)
                 off[3] = max_of(off[3], fabs(missed[row]) / speed);
-            const double lost = aside.lambda[r] * missed[row]; /* of a velocity off its constraint, as rounding is */
+            const double lost = rhs.lambda[r] * missed[row]; /* of a velocity off its constraint, as rounding is */
             sum += lost;
-            terms += fabs(lost) + 1e-2 * fabs(aside.lambda[r]) * speed; /* missed is known to 1e-8 of speed */
+            terms += fabs(lost) + 1e-2 * fabs(rhs.lambda[r]) * speed; /* missed is known to 1e-8 of speed */
         }
         off[0] = fabs(sum) / terms;
-        off[1] = fabs(driven - aside.power[0]) / largest;
+        off[1] = fabs(driven - rhs.power[0]) / largest;
     }
 }

@@ -1,60 +1,63 @@
 /*
  * The state equation y' = f(t, y) with y = (q, v, work), and everything that is computed from a state.
  */
-static int state_equation(double t, const double *y, const Memory *memory, const Parameters *p, double *dy,
-    Aside *aside)
+static int state_equation(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *dy,
+    RhsOutputs *rhs)
 {
-    const int status = dynamics(t, y, y + N_Q, memory, p, dy + N_Q, aside);
+    const int status = dynamics(t, y, y + N_Q, discrete, p, dy + N_Q, rhs);
     for (int k = 0; k < N_Q; k++)
         dy[k] = y[N_Q + k];
     for (int k = 0; k < N_WORK; k++)
-        dy[2 * N_Q + k] = aside->power[k];
+        dy[2 * N_Q + k] = rhs->power[k];
     return status;
 }
 
 #if N_RIGID
 #include "contact_forces.h"
 
-static int state_rates(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+static int state_rates(
+    double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return state_equation(t, y, memory, p, dy, aside);
+    return state_equation(t, y, discrete, p, dy, rhs);
 }
 
 /* At a sample: with the forces of its closed contacts. */
-static int rates_at(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+static int rates_at(
+    double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return rates_in_contact(state_rates, N_S, t, y, memory, p, dy, aside);
+    return rates_in_contact(state_rates, N_S, t, y, discrete, p, dy, rhs);
 }
 #else
-static int rates_at(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+static int rates_at(
+    double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return state_equation(t, y, memory, p, dy, aside);
+    return state_equation(t, y, discrete, p, dy, rhs);
 }
 #endif
 
 /* The memory of a sample: impact velocities, NaN where a joint is open; then the modes of friction. */
-void read_memory(const double *sample, Memory *memory)
+void read_discrete_state(const double *sample, DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
-        memory->latch[i].closed = !isnan(sample[i]);
-        memory->latch[i].deltadot_minus = sample[i];
+        discrete->contact[i].closed = !isnan(sample[i]);
+        discrete->contact[i].deltadot_minus = sample[i];
 #if N_RUBBED
-        memory->latch[i].smooth = 0;
+        discrete->contact[i].smooth = 0;
 #endif
     }
     for (int i = 0; i < N_FRICTIONS; i++)
-        memory->mode[i] = sample[N_CLEARANCES + i];
+        discrete->mode[i] = sample[N_CLEARANCES + i];
 #if LAW_STATES
     for (int k = 0; k < N_STATES; k++)
-        memory->latch[k / LAW_STATES].state[k % LAW_STATES] =
-            isnan(sample[N_MEMORY - N_STATES + k]) ? 0.0 : sample[N_MEMORY - N_STATES + k];
+        discrete->contact[k / LAW_STATES].state[k % LAW_STATES] =
+            isnan(sample[N_DISCRETE - N_STATES + k]) ? 0.0 : sample[N_DISCRETE - N_STATES + k];
 #endif
     for (int i = 0; i < N_USER_EVENTS; i++)
-        memory->event_side[i] = 0;
-    memory->held = 0;
-    memory->asked = NULL;
-    memory->least = NEARLY_SINGULAR;
-    memory->least_size = VANISHING;
+        discrete->event_sign[i] = 0;
+    discrete->held = 0;
+    discrete->cancellation = NULL;
+    discrete->least = NEARLY_SINGULAR;
+    discrete->least_size = VANISHING;
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
@@ -98,22 +101,22 @@ void gudgeon_start_values(const double *p, double *guess, double *set, double *r
     start_values((const Parameters *)p, guess, set, rates);
 }
 
-int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy)
+int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy)
 {
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
-    return rates_at(t, y, &now, (const Parameters *)p, dy, &aside);
+    DiscreteState now = {0};
+    RhsOutputs rhs;
+    read_discrete_state(discrete, &now);
+    return rates_at(t, y, &now, (const Parameters *)p, dy, &rhs);
 }
 
 /* The same right-hand side many times over, for benchmarks; the sum keeps the calls alive. */
-double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p)
+double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p)
 {
     double dy[N_S], moved[N_S], sum = 0.0;
     for (int k = 0; k < N_S; k++)
         moved[k] = y[k];
     for (long i = 0; i < count; i++) {
-        gudgeon_rhs(t, moved, memory, p, dy);
+        gudgeon_rhs(t, moved, discrete, p, dy);
         sum += dy[N_Q];
         moved[0] = y[0] + 1e-300 * sum; /* the next call waits for this one */
     }
@@ -148,21 +151,21 @@ static void sum_corners(const Clearance *clearance, double *reaction)
  * Everything at n samples, but for arrays that are NULL; reactions, torques, series and energy belong together.
  * Returns 0 or the pivot that vanished, with the sample in `failed`.
  */
-int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
+int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, double *drift, long *failed)
 {
     const Parameters *p = (const Parameters *)parameters;
     for (long i = 0; i < n; i++) {
-        Memory now = {0};
-        Aside aside;
+        DiscreteState now = {0};
+        RhsOutputs rhs;
         double y[N_S] = {0.0}, dy[N_S];
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[i * N_Q + k];
             y[N_Q + k] = v[i * N_Q + k];
         }
-        read_memory(memory + i * N_MEMORY, &now);
-        const int status = rates_at(t[i], y, &now, p, dy, &aside);
+        read_discrete_state(discrete + i * N_DISCRETE, &now);
+        const int status = rates_at(t[i], y, &now, p, dy, &rhs);
         if (status) {
             *failed = i;
             return status;
@@ -170,30 +173,30 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
         for (int k = 0; a && k < N_Q; k++)
             a[i * N_Q + k] = dy[N_Q + k];
         for (int k = 0; lambda && k < N_ROWS; k++)
-            lambda[i * N_ROWS + k] = aside.lambda[k];
+            lambda[i * N_ROWS + k] = rhs.lambda[k];
         for (int k = 0; power && k < N_WORK; k++)
-            power[i * N_WORK + k] = aside.power[k];
+            power[i * N_WORK + k] = rhs.power[k];
         for (int k = 0; drift && k < N_DRIFT; k++)
             drift[N_DRIFT * i + k] = 0.0;
         for (int k = 0; drift && k < N_ROWS; k++) {
             double *out = drift + N_DRIFT * i;
-            out[DRIFT_phi] = max_of(fabs(aside.phi[k]), out[DRIFT_phi]);
-            out[DRIFT_phi_dot] = max_of(fabs(aside.phi_dot[k]), out[DRIFT_phi_dot]);
+            out[DRIFT_phi] = max_of(fabs(rhs.phi[k]), out[DRIFT_phi]);
+            out[DRIFT_phi_dot] = max_of(fabs(rhs.phi_dot[k]), out[DRIFT_phi_dot]);
         }
         if (energy)
-            outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * N_REACTION_COLUMNS * N_REACTIONS,
+            outputs(t[i], y, y + N_Q, p, rhs.lambda, reactions + i * N_REACTION_COLUMNS * N_REACTIONS,
                 torques + i * N_DRIVES, series + i * N_SERIES, energy + N_ENERGY * i);
 #ifdef WALLS
         if (energy)
-            sum_corners(aside.clearance, reactions + N_REACTION_COLUMNS * (i * N_REACTIONS + N_JOINTS));
+            sum_corners(rhs.clearance, reactions + N_REACTION_COLUMNS * (i * N_REACTIONS + N_JOINTS));
 #endif
         for (int k = 0; friction && k < N_FRICTIONS; k++) {
             double *out = friction + (i * N_FRICTIONS + k) * N_FRICTION_COLUMNS;
-            out[FRICTION_force] = aside.friction[k].force;
-            out[FRICTION_slip] = aside.friction[k].v;
+            out[FRICTION_force] = rhs.friction[k].force;
+            out[FRICTION_slip] = rhs.friction[k].v;
         }
         for (int k = 0; clearance && k < N_CLEARANCES; k++) {
-            const Clearance *joint = &aside.clearance[k];
+            const Clearance *joint = &rhs.clearance[k];
             double *out = clearance + (i * N_CLEARANCES + k) * N_CLEARANCE_COLUMNS;
             out[CLEARANCE_Fx] = joint->Fx;
             out[CLEARANCE_Fy] = joint->Fy;
@@ -212,14 +215,14 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 
 /* The same at samples of several runs, one behind the other: counts[i] of run i, by its row of `numbers` numbers. */
 int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
-    const double *memory, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+    const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
     long *failed)
 {
 #define FROM(array, width) ((array) ? (array) + first * (width) : NULL)
     for (long i = 0, first = 0; i < runs; first += counts[i++]) {
         const int status = gudgeon_evaluate(counts[i], t + first, q + first * N_Q, v + first * N_Q,
-            memory + first * N_MEMORY, parameters + i * numbers, FROM(a, N_Q), FROM(lambda, N_ROWS),
+            discrete + first * N_DISCRETE, parameters + i * numbers, FROM(a, N_Q), FROM(lambda, N_ROWS),
             FROM(reactions, N_REACTION_COLUMNS * N_REACTIONS), FROM(torques, N_DRIVES),
             FROM(clearance, N_CLEARANCE_COLUMNS * N_CLEARANCES),
             FROM(series, N_SERIES), FROM(friction, N_FRICTION_COLUMNS * N_FRICTIONS), FROM(energy, N_ENERGY),

@@ -17,56 +17,56 @@ void gudgeon_nu(double t, const double *q, const double *p, double *nu);
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
 void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
-int gudgeon_follow(double t, const double *parameters, double size, double *q, double *v);
-int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy);
-double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
-int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
+int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v);
+int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy);
+double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p);
+int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, double *drift, long *failed);
-void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *memory,
+void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *off);
 int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
-    const double *memory, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+    const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
     long *failed);
 #if TREE
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v);
-int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power);
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot);
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x);
-double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory,
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p);
 #endif
 #if RESCUED
-int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p,
+int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *discrete, const double *p,
     double *a);
 #endif
 #if N_CHAIN
 int gudgeon_chains(double t, double *q, const double *p, double *v);
 #endif
 #if INTEGRATES
-int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t);
-int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+int gudgeon_jacobian(double t, const double *y, const double *discrete, const double *p, double *J, double *f_t);
+int gudgeon_newton(double t, const double *y, const double *discrete, const double *p, double eta, double s,
     const double *r, double *u);
 size_t gudgeon_run_size(void);
-void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
-void gudgeon_run_tape(void *memory, double *rows, long capacity);
-long gudgeon_run_taped(void *memory);
-void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
-void gudgeon_run_stop(void *memory, int stop);
-int gudgeon_run_full(const void *memory);
-int gudgeon_run_listed(const void *memory);
-int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
+void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *latched);
+void gudgeon_run_record(void *integrator, double *rows, long capacity);
+long gudgeon_run_recorded(void *integrator);
+void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *latched, signed char *state);
+void gudgeon_run_stop(void *integrator, int stop);
+int gudgeon_run_full(const void *integrator);
+int gudgeon_run_listed(const void *integrator);
+int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *latched,
     signed char *state);
-int gudgeon_run_impacts(void *memory, int last, int capacity, double *numbers, int *joints);
+int gudgeon_run_impacts(void *integrator, int last, int capacity, double *numbers, int *joints);
 int gudgeon_method(const char *name);
-void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
+void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
     double fixed);
-int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
-void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
+void gudgeon_run_report(const void *integrator, double *t, long *counts, double *numbers, double *peaks);
 
 /*
  * Arrays with a row for each run; `numbers` are the doubles of Parameters. Samples of run i begin at row
@@ -98,34 +98,34 @@ typedef struct {
     long *paced, *ended;
     double *trace;                        /* rows of a trace for each run, trace_rows of them; NULL: none */
     long trace_rows, *traced;             /* written rows */
-    int (*ask)(void *);                   /* called by runs with `whom` each `every` seconds: not 0: stop; or NULL */
-    void *whom;
+    int (*ask)(void *);                   /* called by runs with `caller` each `every` seconds: not 0: stop; or NULL */
+    void *caller;
     double every;
     const volatile int *ending;           /* not 0: all runs end where they are */
 } Batch;
 
-int gudgeon_many(const void *batch, void *memory, long *current, long end);
+int gudgeon_ensemble(const void *batch, void *integrator, long *current, long end);
 #endif
 #if HAS_LANES
 const void *gudgeon_single(void);
 #endif
 #if !INTEGRATES
-size_t gudgeon_course_size(void);
-void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
-    double every);
-void gudgeon_course_tape(void *memory, double *rows, long capacity);
-long gudgeon_course_taped(void *memory);
-void gudgeon_course_again(void *memory);
-void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps);
-long gudgeon_course_passed(const void *memory, double *t);
-int gudgeon_kinematic(void *memory, long n, const double *t, const double *p, double *q, double *v, double *a,
+size_t gudgeon_kinematic_size(void);
+void gudgeon_kinematic_begin(
+    void *integrator, double reach, double extent, double t_end, int (*ask)(void *), void *caller, double every);
+void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
+long gudgeon_kinematic_recorded(void *integrator);
+void gudgeon_kinematic_restart(void *integrator);
+void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps);
+long gudgeon_kinematic_interpolated(const void *integrator, double *t);
+int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p, double *q, double *v, double *a,
     double *phi_max, double *phi_dot_max, long *steps, long *done);
-int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *p, const double *q, const double *v,
-    double *work, long *done);
+int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *p, const double *q,
+    const double *v, double *work, long *done);
 #endif
 #if !INTEGRATES && N_USER_EVENTS
-int gudgeon_kinematic_events(void *memory, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *side, long capacity, double *at, int *event, long *found,
+int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
+    const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
     long *done);
 #endif
 

@@ -116,15 +116,15 @@ SELDOM static int close_rows(Closing *w, double t, const Parameters *p, double *
                 return 1;
         }
         step_of_rows(w, &w->all);
-        double share = 1.0, left = norm;
-        for (; share > (held ? 0.5 : 1e-4); share *= 0.5) {
+        double fraction = 1.0, left = norm;
+        for (; fraction > (held ? 0.5 : 1e-4); fraction *= 0.5) {
             for (int k = 0; k < N_Q; k++)
-                other[k] = q[k] + share * (w->step[k] * w->over_weight[k]);
+                other[k] = q[k] + fraction * (w->step[k] * w->over_weight[k]);
             left = open_rows(w, t, other, p);
-            if (left < (1.0 - 1e-4 * share) * norm)
+            if (left < (1.0 - 1e-4 * fraction) * norm)
                 break;
         }
-        if (!(share > (held ? 0.5 : 1e-4))) {
+        if (!(fraction > (held ? 0.5 : 1e-4))) {
             if (!held || norm < rounding)
                 break;
             held = 0;
@@ -132,7 +132,7 @@ SELDOM static int close_rows(Closing *w, double t, const Parameters *p, double *
         }
         for (int k = 0; k < N_Q; k++)
             q[k] = other[k];
-        if (share == 1.0 && is_no_nearer(w, q, left / norm))
+        if (fraction == 1.0 && is_no_nearer(w, q, left / norm))
             return 1;
         held = left < HELD_FROM && (left < 0.1 * norm || left < rounding);
         norm = left;

@@ -15,7 +15,8 @@ enum { RUBS = 1 };
 enum { RUBS = 0 };
 #endif
 
-typedef int RatesOf(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
+typedef int RatesOf(
+    double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 
 /* How contacts answer to a unit force in each of them. */
 typedef struct {
@@ -23,7 +24,7 @@ typedef struct {
     double r[N_RIGID];                /* delta'' without forces, m/s^2 */
     double D[N_RIGID][N_RIGID];       /* what a force in column j takes from that of row i, 1/kg */
     double way[N_RIGID][MOST_RATES];  /* rates that it adds, each unit a newton */
-} Answer;
+} Delassus;
 
 /* delta'' from e . e'' + e' . e' = e e'' + e'^2; of a corner at a wall it is known. */
 static double outward_rate(const Clearance *joint)
@@ -35,17 +36,17 @@ static double outward_rate(const Clearance *joint)
     return (joint->half_square_rate - joint->deltadot * joint->deltadot) / joint->e;
 }
 
-static int list_closed(const Memory *memory, int *joint)
+static int list_closed(const DiscreteState *discrete, int *joint)
 {
     int n = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!gives(i) && memory->latch[i].closed)
+        if (!gives(i) && discrete->contact[i].closed)
             joint[n++] = i;
     return n;
 }
 
 /* A force that bodies of these masses notice beside such accelerations, N: what is added is not lost in rounding. */
-static double unit_force(const Answer *contacts, const Parameters *p)
+static double unit_force(const Delassus *contacts, const Parameters *p)
 {
     double m[N_Q], mass = 0.0, most = 1.0;
     mass_matrix(p, m);
@@ -56,25 +57,25 @@ static double unit_force(const Answer *contacts, const Parameters *p)
     return mass * most;
 }
 
-/* Fills the answer of the listed contacts, which `memory` has closed; their forces are 0 then. */
-static int find_answer(RatesOf *rates_of, int size, double t, const double *y, Memory *memory, const Parameters *p,
-    Answer *contacts)
+/* Fills the answer of the listed contacts, which `discrete` has closed; their forces are 0 then. */
+static int compute_delassus(RatesOf *rates_of, int size, double t, const double *y, DiscreteState *discrete,
+    const Parameters *p, Delassus *contacts)
 {
     double base[MOST_RATES], pushed[MOST_RATES];
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < contacts->n; k++)
-        memory->latch[contacts->joint[k]].force = 0.0;
-    int status = rates_of(t, y, memory, p, base, &aside);
+        discrete->contact[contacts->joint[k]].force = 0.0;
+    int status = rates_of(t, y, discrete, p, base, &rhs);
     for (int k = 0; k < contacts->n; k++)
-        contacts->r[k] = outward_rate(&aside.clearance[contacts->joint[k]]);
+        contacts->r[k] = outward_rate(&rhs.clearance[contacts->joint[k]]);
     const double unit = unit_force(contacts, p);
     for (int j = 0; j < contacts->n && !status; j++) {
-        Latch *latch = &memory->latch[contacts->joint[j]];
-        latch->force = unit;
-        status = rates_of(t, y, memory, p, pushed, &aside);
-        latch->force = 0.0;
+        ContactState *contact = &discrete->contact[contacts->joint[j]];
+        contact->force = unit;
+        status = rates_of(t, y, discrete, p, pushed, &rhs);
+        contact->force = 0.0;
         for (int k = 0; k < contacts->n; k++)
-            contacts->D[k][j] = (contacts->r[k] - outward_rate(&aside.clearance[contacts->joint[k]])) / unit;
+            contacts->D[k][j] = (contacts->r[k] - outward_rate(&rhs.clearance[contacts->joint[k]])) / unit;
         for (int k = 0; k < size; k++)
             contacts->way[j][k] = (pushed[k] - base[k]) / unit;
     }
@@ -86,7 +87,7 @@ static int find_answer(RatesOf *rates_of, int size, double t, const double *y, M
  * before (Gauss's elimination, the largest diagonal first). Returns whether a pivot is negative beside rounding:
  * with friction only, for without it D is symmetric.
  */
-static int solve_part(const Answer *contacts, const unsigned char *part, const double *r, double *x)
+static int solve_part(const Delassus *contacts, const unsigned char *part, const double *r, double *x)
 {
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
@@ -109,9 +110,9 @@ static int solve_part(const Answer *contacts, const unsigned char *part, const d
         left[next] = 0;
         order[solved++] = next;
         for (int i = 0; i < n; i++) {
-            const double share = left[i] ? A[i][next] / A[next][next] : 0.0;
-            for (int j = 0; j <= n && share != 0.0; j++)
-                A[i][j] -= share * A[next][j];
+            const double fraction = left[i] ? A[i][next] / A[next][next] : 0.0;
+            for (int j = 0; j <= n && fraction != 0.0; j++)
+                A[i][j] -= fraction * A[next][j];
         }
     }
     for (int i = 0; i < n; i++)
@@ -129,9 +130,9 @@ static int solve_part(const Answer *contacts, const unsigned char *part, const d
 /*
  * x of the complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0: contacts are turned round one by one, the
  * least number first, until none pulls and none is violated (K. G. Murty, Linear Algebra Appl. 9 (1974) 65-108).
- * Contacts that wedge together (JAMMED, if nothing else is found) are none that push together.
+ * Contacts that wedge together (FRICTION_INCONSISTENT, if nothing else is found) are none that push together.
  */
-static inline int complementary(const Answer *contacts, const double *r, double *x)
+static inline int complementary(const Delassus *contacts, const double *r, double *x)
 {
     unsigned char pushes[N_RIGID] = {0};
     double size = 0.0;
@@ -153,7 +154,7 @@ static inline int complementary(const Answer *contacts, const double *r, double 
             return 0;
         pushes[turned] = !pushes[turned];
     }
-    return some ? JAMMED : CHATTERING;
+    return some ? FRICTION_INCONSISTENT : CHATTERING;
 }
 
 #if N_RUBBED
@@ -161,7 +162,7 @@ static inline int complementary(const Answer *contacts, const double *r, double 
  * A closed contact in which a normal force, by the friction that goes with it, brings the surfaces nearer (P. Painleve,
  * 1895); `needed`: only where it is needed. Without friction no diagonal is negative.
  */
-static int jams(const Answer *contacts, int needed, const Parameters *p)
+static int is_frictionally_inconsistent(const Delassus *contacts, int needed, const Parameters *p)
 {
     double m[N_Q], mass = 0.0;
     mass_matrix(p, m);
@@ -173,31 +174,31 @@ static int jams(const Answer *contacts, int needed, const Parameters *p)
     return 0;
 }
 #else
-static inline int jams(const Answer *contacts, int needed, const Parameters *p)
+static inline int is_frictionally_inconsistent(const Delassus *contacts, int needed, const Parameters *p)
 {
     return (void)contacts, (void)needed, (void)p, 0;
 }
 #endif
 
-/* The right-hand side with the forces that closed contacts need; they are left in `memory`. */
-static int rates_in_contact(RatesOf *rates_of, int size, double t, const double *y, Memory *memory,
-    const Parameters *p, double *dy, Aside *aside)
+/* The right-hand side with the forces that closed contacts need; they are left in `discrete`. */
+static int rates_in_contact(RatesOf *rates_of, int size, double t, const double *y, DiscreteState *discrete,
+    const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    Answer contacts;
-    contacts.n = list_closed(memory, contacts.joint);
+    Delassus contacts;
+    contacts.n = list_closed(discrete, contacts.joint);
     if (contacts.n) {
         double force[N_RIGID];
-        const int status = find_answer(rates_of, size, t, y, memory, p, &contacts);
+        const int status = compute_delassus(rates_of, size, t, y, discrete, p, &contacts);
         if (status)
             return status;
-        if (jams(&contacts, 0, p))
-            return JAMMED;
+        if (is_frictionally_inconsistent(&contacts, 0, p))
+            return FRICTION_INCONSISTENT;
         if (solve_part(&contacts, NULL, contacts.r, force) && RUBS)
-            return JAMMED; /* each of them alone is not, together they wedge */
+            return FRICTION_INCONSISTENT; /* each of them alone is not, together they wedge */
         for (int k = 0; k < contacts.n; k++)
-            memory->latch[contacts.joint[k]].force = force[k];
+            discrete->contact[contacts.joint[k]].force = force[k];
     }
-    return rates_of(t, y, memory, p, dy, aside);
+    return rates_of(t, y, discrete, p, dy, rhs);
 }
 
 #endif

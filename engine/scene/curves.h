@@ -50,24 +50,24 @@ static inline double curve_turned(const Curve *f, double x)
 }
 
 /* The side of a piece: neighbours have different ones. */
-static inline double curve_side(int piece) { return piece % 2 ? -1.0 : 1.0; }
+static inline double curve_branch(int piece) { return piece % 2 ? -1.0 : 1.0; }
 
 /*
  * A curve (order 0) or its first, second or third derivative. Where a side is held and x lies in a piece of the other
  * one, beyond a knot, the polynomial from before the knot goes on.
  */
-static inline double curve_at(const Curve *f, int order, double x, double side)
+static inline double curve_at(const Curve *f, int order, double x, double branch)
 {
-    const double first = f->x[0], last = f->x[f->pieces], margin = CURVE_MARGIN * (last - first);
+    const double first = f->x[0], last = f->x[f->pieces], event_function = CURVE_MARGIN * (last - first);
     x = curve_turned(f, x);
-    if (!(x >= first - margin && x <= last + margin))
+    if (!(x >= first - event_function && x <= last + event_function))
         return NAN;
     int k = curve_piece(f, x);
     double from = f->x[k];
-    if (side * curve_side(k) < 0.0 && x - from < f->x[k + 1] - x) {
+    if (branch * curve_branch(k) < 0.0 && x - from < f->x[k + 1] - x) {
         from = k > 0 ? f->x[k - 1] : f->repeats ? f->x[f->pieces - 1] - (last - first) : from;
         k = k > 0 ? k - 1 : f->repeats ? f->pieces - 1 : k;
-    } else if (side * curve_side(k) < 0.0 && (k + 1 < f->pieces || f->repeats)) {
+    } else if (branch * curve_branch(k) < 0.0 && (k + 1 < f->pieces || f->repeats)) {
         from = f->x[k + 1];
         k = k + 1 < f->pieces ? k + 1 : 0;
     }
@@ -80,19 +80,19 @@ static inline double knots_at(const Curve *f, double x)
     x = curve_turned(f, x);
     const int k = curve_piece(f, x), begins = k > 0 || f->repeats, ends = k + 1 < f->pieces || f->repeats;
     const double length = f->x[k + 1] - f->x[k];
-    return curve_side(k) * (begins ? (x - f->x[k]) / length : 1.0) * (ends ? (f->x[k + 1] - x) / length : 1.0);
+    return curve_branch(k) * (begins ? (x - f->x[k]) / length : 1.0) * (ends ? (f->x[k + 1] - x) / length : 1.0);
 }
 
 #define curve(which, order, x) curve_at(&curves[which], order, x, 0.0)
-#define curve_on(which, order, x, side) curve_at(&curves[which], order, x, side)
+#define curve_on(which, order, x, branch) curve_at(&curves[which], order, x, branch)
 #define knots(which, x) knots_at(&curves[which], x)
 
 #ifdef GUDGEON_LANES_H
-static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x, Lanes side)
+static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x, Lanes branch)
 {
     Lanes y = {0.0};
     for (int k = 0; k < LANES; k++)
-        y[k] = curve_at(f, order, x[k], side[k]);
+        y[k] = curve_at(f, order, x[k], branch[k]);
     return y;
 }
 
@@ -106,7 +106,7 @@ static inline Lanes lanes_knots_at(const Curve *f, Lanes x)
 
 #define lanes_knots(which, x) lanes_knots_at(&curves[which], x)
 #define lanes_curve(which, order, x) lanes_curve_at(&curves[which], order, x, all_of(0.0))
-#define lanes_curve_on(which, order, x, side) lanes_curve_at(&curves[which], order, x, side)
+#define lanes_curve_on(which, order, x, branch) lanes_curve_at(&curves[which], order, x, branch)
 #endif
 
 #ifdef GUDGEON_RANGES_H
@@ -138,14 +138,14 @@ static inline void curve_bounds_in(const double *c, int order, double from, doub
 
 /* From lo to hi within the range; of a held side its pieces alone, each to half of its neighbours. */
 static inline void curve_bounds(
-    const Curve *f, int order, double side, double lo, double hi, double *least, double *most)
+    const Curve *f, int order, double branch, double lo, double hi, double *least, double *most)
 {
-    const int end = f->pieces, middle = side != 0.0;
+    const int end = f->pieces, middle = branch != 0.0;
     const int first = curve_piece(f, lo) - middle, last = curve_piece(f, hi) + middle;
     for (int i = first; i <= last; i++) {
         const int k = i < 0 ? end - 1 : i >= end ? 0 : i;
         const double shift = i < 0 ? f->x[0] - f->x[end] : i >= end ? f->x[end] - f->x[0] : 0.0;
-        if ((k != i && !f->repeats) || side * curve_side(k) < 0.0)
+        if ((k != i && !f->repeats) || branch * curve_branch(k) < 0.0)
             continue;
         const double begin = f->x[k] + shift, finish = f->x[k + 1] + shift, width = middle ? finish - begin : 0.0;
         const double below = k > 0 ? f->x[k] - f->x[k - 1] : f->x[end] - f->x[end - 1];
@@ -160,40 +160,40 @@ static inline void curve_bounds(
 
 /* The same of a range that may go round; more than a turn is all of it. */
 static inline void curve_span(
-    const Curve *f, int order, double side, double lo, double hi, double *least, double *most)
+    const Curve *f, int order, double branch, double lo, double hi, double *least, double *most)
 {
     const double first = f->x[0], last = f->x[f->pieces], length = last - first;
     const double turns = f->repeats ? length * floor((lo - first) / length) : 0.0;
     *least = INFINITY;
     *most = -INFINITY;
     if (!f->repeats)
-        curve_bounds(f, order, side, lo, hi, least, most);
+        curve_bounds(f, order, branch, lo, hi, least, most);
     else if (!(hi - lo < length))
-        curve_bounds(f, order, side, first, last, least, most);
+        curve_bounds(f, order, branch, first, last, least, most);
     else {
-        curve_bounds(f, order, side, lo - turns, min_of(hi - turns, last), least, most);
+        curve_bounds(f, order, branch, lo - turns, min_of(hi - turns, last), least, most);
         if (hi - turns > last)
-            curve_bounds(f, order, side, first, hi - turns - length, least, most);
+            curve_bounds(f, order, branch, first, hi - turns - length, least, most);
     }
 }
 
 /* What is left of a range within that of a curve; empty: nothing. */
 static inline Range curve_range(const Curve *f, Range x)
 {
-    const double first = f->x[0], last = f->x[f->pieces], margin = CURVE_MARGIN * (last - first);
+    const double first = f->x[0], last = f->x[f->pieces], event_function = CURVE_MARGIN * (last - first);
     if (is_empty(x) || f->repeats)
         return x;
-    if (!(x.hi >= first - margin && x.lo <= last + margin))
+    if (!(x.hi >= first - event_function && x.lo <= last + event_function))
         return only(NAN);
-    x.partly |= x.lo < first - margin || x.hi > last + margin;
-    x.lo = max_of(x.lo, first - margin);
-    x.hi = min_of(x.hi, last + margin);
+    x.partly |= x.lo < first - event_function || x.hi > last + event_function;
+    x.lo = max_of(x.lo, first - event_function);
+    x.hi = min_of(x.hi, last + event_function);
     return x;
 }
 
-static inline Range range_curve_at(const Curve *f, int order, Range x, Range side)
+static inline Range range_curve_at(const Curve *f, int order, Range x, Range branch)
 {
-    const double held = side.lo == side.hi ? side.lo : 0.0;
+    const double held = branch.lo == branch.hi ? branch.lo : 0.0;
     double lo, hi, least, most;
     x = curve_range(f, x);
     if (is_empty(x))
@@ -225,7 +225,7 @@ static inline Range range_knots_at(const Curve *f, Range x)
         const double to = (highest ? x.hi - begin : min_of(x.hi - begin, length)) / length;
         const double c[4] = {begins ? 0.0 : 1.0, begins && ends ? 1.0 : begins ? 1.0 : ends ? -1.0 : 0.0,
             begins && ends ? -1.0 : 0.0, 0.0};
-        const double side = curve_side(k), piece[4] = {side * c[0], side * c[1], side * c[2], 0.0};
+        const double branch = curve_branch(k), piece[4] = {branch * c[0], branch * c[1], branch * c[2], 0.0};
         const double slope[4] = {piece[1] / length, 2.0 * piece[2] / length, 0.0, 0.0};
         if (from <= to) {
             curve_bounds_in(piece, 0, from, to, &lo, &hi);
@@ -238,7 +238,7 @@ static inline Range range_knots_at(const Curve *f, Range x)
 }
 
 #define range_curve(which, order, x) range_curve_at(&curves[which], order, x, only(0.0))
-#define range_curve_on(which, order, x, side) range_curve_at(&curves[which], order, x, side)
+#define range_curve_on(which, order, x, branch) range_curve_at(&curves[which], order, x, branch)
 #define range_knots(which, x) range_knots_at(&curves[which], x)
 #endif
 

@@ -59,30 +59,30 @@ static void jacobian_column(const Linear *lin, int column, const double *x, doub
 }
 
 /* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
-static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
+static int linearized(double t, const double *y, const double *discrete, const Parameters *p, double eta, Linear *lin)
 {
-    Memory now = {0};
-    Aside aside;
+    DiscreteState now = {0};
+    RhsOutputs rhs;
     double dy[N_Y];
-    read_memory(memory, &now);
+    read_discrete_state(discrete, &now);
 #if N_CHAIN
     seat_chains(t, y + FIRST_STATE, &now, p); /* what lies behind the works is where to look for them */
 #endif
-    int status = motion(t, y, &now, p, dy, &aside);
+    int status = motion(t, y, &now, p, dy, &rhs);
     if (!status)
-        status = linearize_state(t, y, &now, p, dy + N_X, &aside, lin);
+        status = linearize_state(t, y, &now, p, dy + N_X, &rhs, lin);
     return status ? status : -newton_factor(eta, lin);
 }
 
 /*
  * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
- * KKT matrix. Contacts, corners and modes of friction stay as they are. Inner states are read from `memory` alone.
+ * KKT matrix. Contacts, corners and modes of friction stay as they are. Inner states are read from `discrete` alone.
  */
-int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
+int gudgeon_jacobian(double t, const double *y, const double *discrete, const double *p, double *J, double *f_t)
 {
     Linear lin;
     const double gain[2] = {baumgarte_beta_squared((const Parameters *)p), baumgarte_two_alpha((const Parameters *)p)};
-    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
+    const int status = linearized(t, y, discrete, (const Parameters *)p, 0.0, &lin);
     if (status)
         return status;
     for (int column = 0; column <= N_Y; column++) {
@@ -95,11 +95,11 @@ int gudgeon_jacobian(double t, const double *y, const double *memory, const doub
 }
 
 /* (1/eta - J) u = r + s f_t at a state. */
-int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+int gudgeon_newton(double t, const double *y, const double *discrete, const double *p, double eta, double s,
     const double *r, double *u)
 {
     Linear lin;
-    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
+    const int status = linearized(t, y, discrete, (const Parameters *)p, eta, &lin);
     if (status)
         return status;
     newton_solve(&lin, eta, s, r, u);

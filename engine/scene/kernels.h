@@ -35,8 +35,8 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 int same_start(const Parameters *p, const Parameters *other);
 #endif
 /* Accelerations of all bodies and all that comes with them; results at a sample. */
-int dynamics(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside);
+int dynamics(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p, double *a,
+    RhsOutputs *rhs);
 void outputs(double t, const double *q, const double *v, const Parameters *p, const double *lambda, double *reactions,
     double *torques, double *series, double *energy);
 
@@ -47,8 +47,8 @@ void reduce_state(double t, const double *q, const double *v, const Parameters *
 void reduce_accelerations(double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a);
 /* The same motion in coordinates of the tree: closures are its rows. */
-int reduced_dynamics(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside);
+int reduced_dynamics(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs);
 void closures(double t, const double *q, const Parameters *p, double *out);
 void closure_rates(double t, const double *q, const double *v, const Parameters *p, double *out);
 int reduced_project(double t, const double *q, const double *r, const Parameters *p, double *x);
@@ -56,46 +56,47 @@ int reduced_project(double t, const double *q, const double *r, const Parameters
 void tree_multipliers(const double *lambda, double *closing);
 #endif
 #if N_CHAIN
-void chain_directions(double t, const double *q, const Memory *memory, const Parameters *p, double *out);
-int chain_step(double t, const double *q, const Memory *memory, const Parameters *p, double *step, double *bend,
-    int *row);
-int chain_rates(double t, const double *q, const Memory *memory, const Parameters *p, double *v);
-int chain_third(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *out);
-void chain_corners(double t, const double *q, const Memory *memory, const Parameters *p, double *g);
+void chain_directions(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *out);
+int chain_step(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *step,
+    double *bend, int *row);
+int chain_rates(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v);
+int chain_third(
+    double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p, double *out);
+void loop_switches(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *g);
 /* What a step of coordinate k is multiplied by to be a number; directions in q turned by a step of the coordinates. */
 double chain_share(const Parameters *p, int k);
 void turn_directions(double *q, const double *step, const Parameters *p);
 /* Positions of the chains from which they are looked for: `guess`, N_CHAIN. */
-void seat_chains(double t, const double *guess, Memory *memory, const Parameters *p);
+void seat_chains(double t, const double *guess, DiscreteState *discrete, const Parameters *p);
 #endif
 
 #if INTEGRATES
 /* What is integrated (motion/): its rates, the way from all bodies and to them, back onto its rows. */
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
-void to_absolute(double t, const double *y, const Memory *memory, const Parameters *p, double *all);
-void from_absolute(double t, const double *all, Memory *memory, const Parameters *p, double *y);
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
+void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all);
+void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y);
+int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
 /* The same as they are computed at a state itself (NEAR: not there, but from both sides). */
-int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
+int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 /* What joints with play tell of a state, and no more: gaps, their rates, forces of laws. */
-int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside);
-int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs);
+int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
-/* An accepted state, with `aside` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */
-int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
-    double *phi_dot_max);
+/* An accepted state, with `rhs` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */
+int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
+    double *phi_max, double *phi_dot_max);
 #if TAYLOR
 /* Coefficients c[0] ... c[order] of the motion's series in powers of time from a state on. */
 int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y]);
 #endif
 /* Newton's matrix: linearized at a state whose rates motion() told, factorized for a step, solved. */
-int linearize_state(double t, const double *y, Memory *memory, const Parameters *p, const double *a,
-    const Aside *aside, Linear *lin);
-void linearize(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, const double *a,
-    const Aside *aside, Linear *lin);
-int closing_step(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *dq,
-    double *dv, double *worst);
+int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
+    const RhsOutputs *rhs, Linear *lin);
+void linearize(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    const double *a, const RhsOutputs *rhs, Linear *lin);
+int closing_step(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *dq, double *dv, double *worst);
 int newton_factor(double eta, Linear *lin);
 void newton_substitute(const Linear *lin, double *x);
 void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u);
@@ -117,9 +118,9 @@ int project(double t, const double *q, const double *r, const Parameters *p, dou
 
 /* The rows where a pivot (nearly) vanishes: of the absolute formulation (singular.c), of the tree (motion/rescue.c). */
 int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs, double *a,
-    double *lambda, int pivot, const Memory *memory);
-int solve_by_absolute(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside);
+    double *lambda, int pivot, const DiscreteState *discrete);
+int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs);
 /* Rows that are solved together (block.c). */
 int factor_block(int n, double *A, int *order);
 void solve_block(int n, const double *A, const int *order, double *x);
@@ -129,7 +130,7 @@ void solve_block(int n, const double *A, const int *order, double *x);
  * Accelerations (N_Q) by the equations of all bodies, at a state `all` (q, v, work) of theirs, and the largest force of
  * constraints and of friction, N. Returns a status.
  */
-int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a,
+int absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p, double *a,
     double *force);
 /* Whether what a drive prescribes jumps, in its first or second rate, at a time. */
 int drives_jump(double t, const double *q, const double *v, const Parameters *p);
@@ -141,13 +142,14 @@ void velocity_residuals(double t, const double *q, const double *v, double h, co
 #include "../watch/ranges.h"
 
 /* What is watched along a step; bounds over ranges of time and state: of it, of terms of time. */
-void watched_functions(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    Aside *aside);
-void watched_ranges(Range t, const Range *q, const Range *v, const Memory *memory, const Parameters *p, Range *out);
+void watched_functions(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    RhsOutputs *rhs);
+void watched_ranges(
+    Range t, const Range *q, const Range *v, const DiscreteState *discrete, const Parameters *p, Range *out);
 void time_terms(Range t, const Parameters *p, Range *out);
 #endif
 
 /* The memory of a sample (calls.c). */
-void read_memory(const double *sample, Memory *memory);
+void read_discrete_state(const double *sample, DiscreteState *discrete);
 
 #endif

@@ -71,8 +71,9 @@ static inline double beyond_jump(double t) { return RATE_JUMPS ? ahead_of(t) : t
 
 /*
  * mod(a, b), from 0 to b; on a side, in the periods of even (1) or odd (-1) number, each as it goes on half a period
- * beyond its ends. period_side: above zero in those of even number, below it in the others, parabolas from 0 to 0. The
- * end at which mod begins anew belongs to the period that begins there, and what is rounded to its end to the one left.
+ * beyond its ends. period_branch: above zero in those of even number, below it in the others, parabolas from 0 to 0.
+ * The end at which mod begins anew belongs to the period that begins there, and what is rounded to its end to the one
+ * left.
  */
 static inline double mod_of(double a, double b)
 {
@@ -80,25 +81,25 @@ static inline double mod_of(double a, double b)
     return rest != 0.0 && (rest < 0.0) != (b < 0.0) ? rest + b : rest;
 }
 
-static inline double mod_on(double a, double b, double side)
+static inline double mod_on(double a, double b, double branch)
 {
     const double rest = mod_of(a, 2.0 * b), x = rest / b;
-    if (side == 0.0)
+    if (branch == 0.0)
         return mod_of(a, b);
-    return side > 0.0 ? (x < 1.5 ? rest : rest - 2.0 * b) : (x < 0.5 ? rest + b : rest - b);
+    return branch > 0.0 ? (x < 1.5 ? rest : rest - 2.0 * b) : (x < 0.5 ? rest + b : rest - b);
 }
 
-static inline double period_side(double a, double b)
+static inline double period_branch(double a, double b)
 {
     const double x = mod_of(a, 2.0 * b) / b;
     return x < 1.0 ? 4.0 * x * (1.0 - x) : min_of(4.0 * (x - 1.0) * (x - 2.0), -DBL_MIN);
 }
 
 /* The side of corner k: as it is held, or where g is. */
-static inline double side_of(const double *side, double *g, int k, double value)
+static inline double branch_of(const double *branch, double *g, int k, double value)
 {
     g[k] = value;
-    return side ? side[k] : sign_of(value);
+    return branch ? branch[k] : sign_of(value);
 }
 
 #define TURN_SMALL 0.01 /* rad: below it the series of turn_back are exact to rounding */

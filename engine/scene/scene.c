@@ -16,7 +16,7 @@
 #include "../motion/rescue.c"
 #endif
 #if N_CHAIN
-#include "../motion/chains.c"
+#include "../motion/driven_loops.c"
 #endif
 #if INTEGRATES && !TREE
 #include "../motion/full.c"
@@ -25,7 +25,7 @@
 #endif
 #if INTEGRATES
 #include "../motion/driven.c"
-#include "../motion/beside.c"
+#include "../motion/continuation.c"
 #endif
 #if N_CHAIN
 #include "../motion/driven_calls.c"

@@ -2,7 +2,7 @@
  * Steps that close linearized rows: the shortest one, by the normal matrix of rows that meet a few coordinates
  * each, and the one that leaves the least. Where anything is not 0 is known from the entries of Phi_q.
  */
-#include "../run/asked.h"
+#include "../run/cancellation.h"
 #include "calls.h"
 
 #ifndef N_APART /* few starts say where journals are: Phi of these joints is -e, behind set, its rate behind rates */
@@ -35,7 +35,7 @@ typedef struct {
     System first_step, all, some;
     double nearest; /* what is as far as this from the guess, squared, is not looked for */
     int dependent;  /* rows that depend on others are left out: they close with them, or the rest says so */
-    Asked *asked;
+    Cancellation *cancellation;
 } Closing;
 
 /* Where row r has something: a row of joints and drives meets a few coordinates of many, one of `set` its own. */
@@ -124,7 +124,7 @@ SELDOM static int factor_normal(Closing *w, const System *of)
         double *u = w->normal[k];
         const short *place = of->filled[k];
         const int many = of->n_filled[k], stands = u[k] > 1e-12 * whole[k];
-        if (given_up(w->asked))
+        if (given_up(w->cancellation))
             return 1;
         if (!isfinite(whole[k]) || (!stands && !w->dependent))
             return 1;

@@ -23,9 +23,9 @@ typedef struct {
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
     /* M over the measure, M^(-1/2) g, Z^T M Z and its solution */
-    double share[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q];
+    double fraction[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q];
     int order[AT_LEAST_ONE(N_ROWS)], light;
-    Asked *asked;
+    Cancellation *cancellation;
 } Workspace;
 
 /* Three sums, of x, y and theta, for an addition waits for the one before it. */
@@ -91,7 +91,7 @@ static int independent_rows(Workspace *w, double least)
 {
     int rank = 0;
     for (; rank < N_ROWS; rank++) {
-        if (w->asked && ask_now(w->asked))
+        if (w->cancellation && poll_cancellation(w->cancellation))
             return -1;
         int best = rank;
         double most = 0.0, square[N_BESIDE];
@@ -133,8 +133,8 @@ static void measure(Workspace *w)
         }
         if (k % 3 == 2)
             counts = max_of(counts, arm > 0.0 ? LEAST_INERTIA * w->free[0][k - 1] * arm : 1e-300);
-        w->share[k] = w->root[k] / counts;
-        w->light |= w->share[k] < 1.0;
+        w->fraction[k] = w->root[k] / counts;
+        w->light |= w->fraction[k] < 1.0;
         w->free[0][k] = counts;
     }
     for (int k = 0; k < N_Q; k++)
@@ -202,11 +202,11 @@ static int add_free_motion(Workspace *w, int rank)
         double *row = w->free[i];
         w->z[i] = dot(w->basis[i], w->force);
         for (int k = 0; k < N_Q; k++)
-            w->z[i] -= w->basis[i][k] * w->share[k] * w->y[k];
+            w->z[i] -= w->basis[i][k] * w->fraction[k] * w->y[k];
         for (int j = rank; j <= i; j++) {
             row[j] = 0.0;
             for (int k = 0; k < N_Q; k++)
-                row[j] += w->basis[i][k] * w->share[k] * w->basis[j][k];
+                row[j] += w->basis[i][k] * w->fraction[k] * w->basis[j][k];
         }
         const double whole = row[i];
         for (int j = rank; j <= i; j++) {
@@ -230,7 +230,7 @@ static int add_free_motion(Workspace *w, int rank)
     for (int i = 0; i < rank; i++) {
         double left = -dot(w->basis[i], w->force);
         for (int k = 0; k < N_Q; k++)
-            left += w->basis[i][k] * w->share[k] * w->y[k];
+            left += w->basis[i][k] * w->fraction[k] * w->y[k];
         w->rest[w->order[i]] = left;
     }
     return 1;
@@ -271,16 +271,16 @@ static int solve_independent(Workspace *w, double least, double tolerance, doubl
 
 /* a and lambda; `rhs` holds gamma - 2 alpha Phi_dot - beta^2 Phi, `force` is g. */
 int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
-    double *a, double *lambda, int pivot, const Memory *memory)
+    double *a, double *lambda, int pivot, const DiscreteState *discrete)
 {
     static const double least[] = {NEARLY_SINGULAR, SINGULAR}, tolerance[] = {1e-3, 1e-6};
-    if (memory->least > NEARLY_SINGULAR)
+    if (discrete->least > NEARLY_SINGULAR)
         return NEAR;
     Workspace *w = malloc(sizeof(Workspace));
     int status = pivot;
     for (int pass = 0; w && status && pass < 2; pass++) {
         fill_workspace(w, t, q, p, force, rhs);
-        w->asked = memory->asked;
+        w->cancellation = discrete->cancellation;
         status = solve_independent(w, least[pass], tolerance[pass], lambda);
         if (status == STOPPED)
             break;

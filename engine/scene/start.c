@@ -180,14 +180,15 @@ SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, co
 }
 
 /* `size` of the mechanism (m) scales lengths. 0: q and v are the start, |Phi| at most `residual`; 1: see above. */
-int close_start(double t, const double *parameters, double size, double *q, double *v, double *residual, Asked *asked)
+int close_start(
+    double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
 {
     const Parameters *p = (const Parameters *)parameters;
     Closing *w = GUESSED_POINTS ? NULL : calloc(1, sizeof(Closing));
     if (!w)
         return 1;
     w->size = size;
-    w->asked = asked;
+    w->cancellation = cancellation;
     int status = first_guess(w, t, p, q) || close_rows(w, t, p, q);
     if (!status && strayed(w, q) < 1.0)
         nearer(w, t, p, q);
@@ -205,7 +206,7 @@ int close_start(double t, const double *parameters, double size, double *q, doub
 
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
 {
-    Asked nobody = {0};
+    Cancellation nobody = {0};
     return close_start(t, parameters, size, q, v, residual, &nobody);
 }
 
@@ -213,15 +214,15 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
  * The start that a closed one with other numbers leads to: from its q by Newton's steps, then v. Rows may depend on
  * each other. 1: it does not close from there, 2: it does and has no velocities. Whoever calls sees that q stays near.
  */
-int gudgeon_follow(double t, const double *parameters, double size, double *q, double *v)
+int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v)
 {
     const Parameters *p = (const Parameters *)parameters;
-    Asked nobody = {0};
+    Cancellation nobody = {0};
     Closing *w = calloc(1, sizeof(Closing));
     if (!w)
         return 1;
     w->size = size;
-    w->asked = &nobody;
+    w->cancellation = &nobody;
     w->dependent = 1;
     begin_start(w, p);
     w->reach = farthest_place(w, t, p, q);

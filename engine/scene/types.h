@@ -14,7 +14,7 @@
 
 enum {
     N_STATES = N_CLEARANCES * LAW_STATES, /* inner states of laws, joint by joint, behind the works in y */
-    N_MEMORY = N_CLEARANCES + N_FRICTIONS + N_STATES,
+    N_DISCRETE = N_CLEARANCES + N_FRICTIONS + N_STATES,
     N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
     N_Y = 2 * N_X + N_WORK + N_STATES, /* state that is integrated */
     N_FELT = N_Y - N_WORK,             /* of it the motion feels these: all but the works */
@@ -26,20 +26,22 @@ enum {
     TAYLOR_Y = (N_Y + 7) / 8 * 8       /* numbers of an order: those of N_Y, in whole vectors */
 };
 
-enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is continued from both sides (beside.c) */
+enum {
+    NEAR = -20
+}; /* of functions: a pivot is so small that the motion is continued from both sides (continuation.c) */
 
 /*
- * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
- * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
- * Written by: run/asked.h, run/asked.c.
+ * Whom a long computation asks now and then whether it is still wanted (cancellation.c): `ask` each `every` seconds,
+ * NULL: nobody. The clock is read once in `poll_after` right-hand sides, and within a dense system. Written by:
+ * run/cancellation.h, run/cancellation.c.
  */
 typedef struct {
-    int (*ask)(void *whom); /* nonzero: stop */
-    void *whom;
+    int (*ask)(void *caller); /* nonzero: stop */
+    void *caller;
     double every, last, next; /* s; when the clock was read, when the next question is due */
-    long count, look;
+    long count, poll_after;
     int stop, hold; /* not wanted any more; what is under way comes to its end first */
-} Asked;
+} Cancellation;
 
 /* Whether the surfaces of joint i with play give: where they do not, velocities jump and a contact is a constraint. */
 #if N_RIGID
@@ -55,7 +57,7 @@ typedef struct {
 #define has_film(i) ((void)(i), 0)
 #endif
 
-int ask_now(Asked *x);
+int poll_cancellation(Cancellation *x);
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -71,7 +73,7 @@ typedef struct {
     int smooth;   /* no friction but `along`: what a blow, or what puts a contact back, asks for */
     double along; /* N, along t on the second body */
 #endif
-} Latch;
+} ContactState;
 
 #if N_CHAIN
 /* Coordinates that the drives determine through loops, and three rates of each, at a time. */
@@ -92,30 +94,30 @@ typedef struct {
  * sides of all corners stay as they are here, whatever the state says.
  */
 typedef struct {
-    Latch latch[AT_LEAST_ONE(N_CLEARANCES)];
+    ContactState contact[AT_LEAST_ONE(N_CLEARANCES)];
     double mode[AT_LEAST_ONE(N_FRICTIONS)];
-    double side[AT_LEAST_ONE(N_SWITCHES)];
-    signed char event_side[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each expression was; 0: nowhere yet */
+    double branch[AT_LEAST_ONE(N_SWITCHES)];
+    signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each expression was; 0: nowhere yet */
     int held;
-    Asked *asked; /* NULL: nobody */
-    int way;                  /* what is done beside a singular position, one of those below */
+    Cancellation *cancellation; /* NULL: nobody */
+    int singular_policy;                  /* what is done beside a singular position, one of those below */
     double least, least_size; /* share of a row, and of a joint's two, below which they are taken as dependent */
 #if N_CHAIN
     Chain chain, recent; /* at the last state that was accepted; where they were found last */
 #endif
-} Memory;
-/* Where rows do not come and go, a run continues its motion from both sides of a singular position (beside.c). */
+} DiscreteState;
+/* Where rows do not come and go, a run continues its motion from both sides of a singular position (continuation.c). */
 #if INTEGRATES && N_LOOPS && !N_FRICTIONS && !N_RIGID
 #define CONTINUES 1
 #else
 #define CONTINUES 0
 #endif
 enum {
-    AT_ONCE, /* continued */
-    TELLS,   /* told as NEAR */
-    CLOSES,  /* everywhere on the closed linkage, and continued; NEAR where that cannot be had */
-    CLOSED,  /* the same, but as ever where that cannot be had */
-    AS_EVER  /* none is looked for */
+    SINGULAR_CONTINUE, /* continued */
+    SINGULAR_DETECT,   /* told as NEAR */
+    SINGULAR_PROJECT,  /* everywhere on the closed linkage, and continued; NEAR where that cannot be had */
+    SINGULAR_PROJECT_OR_IGNORE,  /* the same, but as ever where that cannot be had */
+    SINGULAR_IGNORE  /* none is looked for */
 };
 #define NEARBY (TREE ? 1e-5 : 1e-4) /* `least` of such a run: the square of an angle to the position, or so */
 #define USUAL_SHARES .least = NEARLY_SINGULAR, .least_size = VANISHING
@@ -169,7 +171,7 @@ typedef struct {
     Friction friction[AT_LEAST_ONE(N_FRICTIONS)];
     double g[AT_LEAST_ONE(N_SWITCHES)]; /* switching functions; NaN: does not act */
     double event[AT_LEAST_ONE(N_USER_EVENTS)]; /* values of the expressions that are watched */
-} Aside;
+} RhsOutputs;
 
 /* The equations of motion linearized at a state, and Newton's matrix factorized. */
 typedef struct {

@@ -21,25 +21,25 @@ typedef struct {
 } Sampled;
 
 /* Whether margin k is one of these: a rigid contact that is closed, friction that no other one holds. */
-static int follows_from_force(const Run *run, int k)
+static int is_contact_force_function(const Integrator *run, int k)
 {
     const int friction = k - N_CLEARANCES - N_SWITCHES;
     if (k < N_CLEARANCES)
-        return !gives(k) && run->memory.latch[k].closed;
-    return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != MODE_HELD;
+        return !gives(k) && run->discrete.contact[k].closed;
+    return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != MODE_HELD;
 }
 
 #if N_FRICTIONS
 /* By how much the tolerance of the velocities lets slip i be wrong, m/s. */
-static double slip_tolerance(Run *run, int i, const Parameters *p)
+static double slip_tolerance(Integrator *run, int i, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], sum = 0.0;
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = N_X; k < 2 * N_X; k++) {
         memcpy(y, run->y, sizeof y);
         y[k] += 1.0 / run->norm.weight[k];
-        if (!rates(run, run->t, y, p, dy, &aside))
-            sum += fabs(aside.friction[i].v - run->aside.friction[i].v);
+        if (!rates(run, run->t, y, p, dy, &rhs))
+            sum += fabs(rhs.friction[i].v - run->rhs.friction[i].v);
     }
     return isfinite(sum) ? sum : 0.0;
 }
@@ -49,19 +49,19 @@ static double slip_tolerance(Run *run, int i, const Parameters *p)
  * How far below zero margin k means nothing at the begin of a step: of a velocity that leaves rest what it is rounded
  * to, and what the step may be wrong by: until it is larger than that.
  */
-static double rest_of(Run *run, int k, const Parameters *p)
+static double rounding_of_velocity(Integrator *run, int k, const Parameters *p)
 {
 #if N_FRICTIONS
     const int i = k - N_CLEARANCES - N_SWITCHES;
-    const double mode = i >= 0 ? run->memory.mode[i] : 0.0, v = i >= 0 ? run->aside.friction[i].v : 0.0;
-    if (mode != 0.0 && fabs(v) <= AT_REST && mode * run->aside.friction[i].rate > 0.0)
+    const double mode = i >= 0 ? run->discrete.mode[i] : 0.0, v = i >= 0 ? run->rhs.friction[i].v : 0.0;
+    if (mode != 0.0 && fabs(v) <= AT_REST && mode * run->rhs.friction[i].rate > 0.0)
         return max_of(AT_REST, slip_tolerance(run, i, p));
 #endif
     return (void)run, (void)k, (void)p, 0.0;
 }
 
 /* A value at both ends of a step and at its stages in the order of their nodes. Returns how many. */
-static int values_of_stages(const Step *step, Place begin, Place end, Seen seen, Place *all)
+static int values_of_stages(const Step *step, Place begin, Place end, StageValues seen, Place *all)
 {
     int n = 1;
     all[0] = begin;
@@ -71,7 +71,7 @@ static int values_of_stages(const Step *step, Place begin, Place end, Seen seen,
             continue;
         for (n++; all[at - 1].s > step->node[i]; at--)
             all[at] = all[at - 1];
-        all[at] = (Place){step->node[i], seen_at(seen, i), NAN};
+        all[at] = (Place){step->node[i], stage_value(seen, i), NAN};
     }
     all[n++] = end;
     return n;
@@ -82,7 +82,7 @@ static int values_of_stages(const Step *step, Place begin, Place end, Seen seen,
  * Whether a term of time alone may swing between samples at a part's ends and its middle: by its bounds its slope is
  * larger than that of the parabola through them, by what would lead it away from there by a share of its range.
  */
-static int swings_unseen(Step *step, double a, double b, const Parameters *p)
+static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
 {
     Range f[N_TERMS], low[N_TERMS], middle[N_TERMS], high[N_TERMS];
     const double w = b - a;
@@ -104,19 +104,19 @@ static int swings_unseen(Step *step, double a, double b, const Parameters *p)
     return 0;
 }
 #else
-static int swings_unseen(Step *step, double a, double b, const Parameters *p)
+static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
 {
     return (void)step, (void)a, (void)b, (void)p, 0;
 }
 #endif
 
 /* Whether one may between the stages. */
-static int swings_between(Step *step, const Place *all, int n, const Parameters *p)
+static int may_oscillate_between_stages(Step *step, const Place *all, int n, const Parameters *p)
 {
     if (step->swings < 0) {
-        step->swings = swings_unseen(step, 0.0, 1.0, p);
+        step->swings = may_oscillate_between(step, 0.0, 1.0, p);
         for (int i = 1, each = step->swings; i < n && each; i++) {
-            step->swings = swings_unseen(step, all[i - 1].s, all[i].s, p);
+            step->swings = may_oscillate_between(step, all[i - 1].s, all[i].s, p);
             each = !step->swings;
         }
     }
@@ -124,7 +124,7 @@ static int swings_between(Step *step, const Place *all, int n, const Parameters 
 }
 
 /* A bound of a second derivative: twice the largest that three neighbours show. */
-static double largest_bend(const Place *all, int n)
+static double max_second_derivative(const Place *all, int n)
 {
     double bend = 0.0;
     for (int i = 1; i + 1 < n; i++) {
@@ -140,10 +140,11 @@ static double largest_bend(const Place *all, int n)
  * min(f_a, f_b) - B w^2/8, B a bound of the second derivative, or than both where it only rises or only falls. No
  * value above -rest is below zero.
  */
-static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, const Parameters *p)
+static int is_clear_of_zero(const Integrator *run, Step *step, int k, double rest, const Parameters *p)
 {
     Place all[N_STAGES + 2];
-    const int n = values_of_stages(step, begin_of(run, step, k), end_of(run, step, k), seen_of(step, k), all);
+    const int n =
+        values_of_stages(step, bracket_begin(run, step, k), bracket_end(run, step, k), stage_values(step, k), all);
     const int friction = k - N_CLEARANCES - N_SWITCHES;
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < n; i++) {
@@ -151,8 +152,8 @@ static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, cons
         most = max_of(most, all[i].f);
     }
     if (step->method->stiff || n < LEAST_STAGES) /* stages that are inaccurate, or too far apart: velocities only */
-        return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != 0.0 && least > most - least;
-    const double bend = largest_bend(all, n);
+        return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != 0.0 && least > most - least;
+    const double bend = max_second_derivative(all, n);
     for (int i = 1; i < n; i++) {
         const double w = all[i].s - all[i - 1].s, curve = bend * w * w;
         const int monotone = fabs(all[i].f - all[i - 1].f) > 0.5 * curve;
@@ -160,7 +161,7 @@ static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, cons
         if (!(min_of(all[i - 1].f, all[i].f) - (monotone ? 0.0 : 0.125 * curve) > -rest))
             return 0;
     }
-    return (!(rest > 0.0) || all[n - 1].f >= -AT_REST) && !swings_between(step, all, n, p);
+    return (!(rest > 0.0) || all[n - 1].f >= -AT_REST) && !may_oscillate_between_stages(step, all, n, p);
 }
 
 /* The parabola through a part's ends and middle, at share s. */
@@ -189,16 +190,16 @@ static double error_of_halves(Place from, Sampled now, Place left, Place right)
 }
 
 /* Whether margin k has a zero in the step, and places that enclose the first one. */
-static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
+static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
-    const double close = 4.0 * root_width(run, step);
-    double rest = rest_of(run, k, p);
+    const double close = 4.0 * event_time_tolerance(run, step);
+    double rest = rounding_of_velocity(run, k, p);
     Sampled part[MAX_BISECTIONS + 1];
-    Place from = begin_of(run, step, k);
+    Place from = bracket_begin(run, step, k);
     double largest = fabs(from.f);
     if (is_clear_of_zero(run, step, k, rest, p) || make_dense(run, p, step))
         return 0;
-    part[0] = (Sampled){place_at(run, step, 0.5, k, p), end_of(run, step, k), INFINITY};
+    part[0] = (Sampled){bracket_point_at(run, step, 0.5, k, p), bracket_end(run, step, k), INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const Sampled now = part[n - 1];
         const double w = now.end.s - from.s;
@@ -213,19 +214,19 @@ static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Plac
             *high = now.middle.f < -rest ? now.middle : now.end;
             return 1;
         }
-        if (small || (least >= -rest - FORCE_ROUNDED * largest && !swings_unseen(step, from.s, now.end.s, p))) {
+        if (small || (least >= -rest - FORCE_ROUNDED * largest && !may_oscillate_between(step, from.s, now.end.s, p))) {
             from = now.end;
             n--;
             continue;
         }
-        const Place left = place_at(run, step, from.s + 0.25 * w, k, p);
-        const Place right = place_at(run, step, now.end.s - 0.25 * w, k, p);
+        const Place left = bracket_point_at(run, step, from.s + 0.25 * w, k, p);
+        const Place right = bracket_point_at(run, step, now.end.s - 0.25 * w, k, p);
         const double error = error_of_halves(from, now, left, right);
         part[n - 1] = (Sampled){right, now.end, error};
         part[n++] = (Sampled){left, now.middle, error};
         samples += 2;
     }
-    *low = begin_of(run, step, k);
+    *low = bracket_begin(run, step, k);
     *high = from; /* a velocity that has been no larger than its tolerance has turned round meanwhile */
     return rest > 0.0 && from.f < -AT_REST;
 }

@@ -28,9 +28,10 @@ enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, through which the margin f
  * A margin and its rate at a penetration: of a journal half the difference of squares of clearance and eccentricity
  * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle. per_c: 1/clearance.
  */
-static Place margin_of(const Run *run, const Step *step, int i, double s, double delta, double rate, double per_c)
+static Place gap_function(
+    const Integrator *run, const Step *step, int i, double s, double delta, double rate, double per_c)
 {
-    const double sign = run->memory.latch[i].closed ? 1.0 : -1.0;
+    const double sign = run->discrete.contact[i].closed ? 1.0 : -1.0;
 #if defined WALLS || defined CONTOURS
     (void)per_c;
     return (Place){s, sign * delta, sign * step->h * rate};
@@ -40,13 +41,13 @@ static Place margin_of(const Run *run, const Step *step, int i, double s, double
 }
 
 /* Margin i at the begin of a step, at its stages in the order of their nodes, at its end. Returns how many. */
-static int margins_of_stages(const Run *run, const Step *step, int i, const Parameters *p, Place *all)
+static int event_function_at_stages(const Integrator *run, const Step *step, int i, const Parameters *p, Place *all)
 {
-    const Seen margins = seen_of(step, i), rates = seen_of(step, SEEN_RATES + i);
-    const double per_c = 1.0 / radial_clearance(p, i), sign = run->memory.latch[i].closed ? 1.0 : -1.0;
-    const Clearance *begin = &run->aside.clearance[i], *end = &step->aside.clearance[i];
+    const StageValues event_functions = stage_values(step, i), rates = stage_values(step, SEEN_RATES + i);
+    const double per_c = 1.0 / radial_clearance(p, i), sign = run->discrete.contact[i].closed ? 1.0 : -1.0;
+    const Clearance *begin = &run->rhs.clearance[i], *end = &step->rhs.clearance[i];
     int n = 1;
-    all[0] = margin_of(run, step, i, 0.0, begin->delta, begin->deltadot, per_c);
+    all[0] = gap_function(run, step, i, 0.0, begin->delta, begin->deltadot, per_c);
     for (int k = 0; k < step->n_seen; k++) {
         const double node = step->node[k];
         int at = n;
@@ -54,24 +55,26 @@ static int margins_of_stages(const Run *run, const Step *step, int i, const Para
             continue;
         for (n++; all[at - 1].s > node; at--)
             all[at] = all[at - 1];
-        all[at] = margin_of(run, step, i, node, sign * seen_at(margins, k), seen_at(rates, k), per_c);
+        all[at] =
+            gap_function(run, step, i, node, sign * stage_value(event_functions, k), stage_value(rates, k), per_c);
     }
-    all[n++] = margin_of(run, step, i, 1.0, end->delta, end->deltadot, per_c);
+    all[n++] = gap_function(run, step, i, 1.0, end->delta, end->deltadot, per_c);
     return n;
 }
 
 /* By how much the dense output may lie beside the stages of a step, m: in its middle; at its ends by nothing. */
-static double error_of_dense(const Run *run, int i, const Parameters *p)
+static double error_of_dense(const Integrator *run, int i, const Parameters *p)
 {
     return DENSE_ERROR * tolerance_of(run) * radial_clearance(p, i);
 }
 
 /* Whether margin i is so far from zero at begin, stages and end that no change of its rate among them leads there. */
-static int is_far(const Run *run, const Step *step, int i, const Parameters *p)
+static int is_far(const Integrator *run, const Step *step, int i, const Parameters *p)
 {
-    const double a = run->aside.clearance[i].deltadot, b = step->aside.clearance[i].deltadot;
+    const double a = run->rhs.clearance[i].deltadot, b = step->rhs.clearance[i].deltadot;
     const double slowest = min_of(step->rate[i][0], min_of(a, b)), fastest = max_of(step->rate[i][1], max_of(a, b));
-    const double begin = margin(&run->memory, &run->aside, i), end = margin(&run->memory, &step->aside, i);
+    const double begin = event_function(&run->discrete, &run->rhs, i),
+                 end = event_function(&run->discrete, &step->rhs, i);
     const double nearest = min_of(step->lowest[i], min_of(begin, end));
     return nearest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0 > error_of_dense(run, i, p);
 }
@@ -94,11 +97,11 @@ static int is_above_parabolas(Place a, Place b, double bend, double least)
  * What the stages say of margin i. below: the node of the first stage where it is below zero by more than the dense
  * output may lie beside the stages, else the end.
  */
-static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p, double *below)
+static int bound_by_stages(const Integrator *run, const Step *step, int i, const Parameters *p, double *below)
 {
     Place all[N_STAGES + 2];
-    const int n = margins_of_stages(run, step, i, p, all);
-    const double least = shallow(p, i), error = 16.0 * error_of_dense(run, i, p);
+    const int n = event_function_at_stages(run, step, i, p, all);
+    const double least = penetration_rounding(p, i), error = 16.0 * error_of_dense(run, i, p);
     double bend = 0.0;
     int falls = 0, first = 1;
     while (first < n - 1 && all[first].f >= -error)
@@ -165,13 +168,13 @@ static double error_of_cubic(Place a, Place middle, Place b)
  * FALLS with the places between which margin k crosses zero for the first time, or CLEAR up to a share `until` of the
  * step. below: where it is probably below zero; the first part ends there if that is within the first half of the step.
  */
-static int first_zero(Run *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low,
-    Place *high)
+static int first_zero(
+    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low, Place *high)
 {
-    const double least = shallow(p, k), close = 4.0 * root_width(run, step);
-    Stretch part[MAX_BISECTIONS + 1] = {{end_of(run, step, k), INFINITY}};
-    Place from = begin_of(run, step, k);
-    const Place early = min_of(below, until) <= 0.5 ? gap_at(run, step, min_of(below, until), k, p)
+    const double least = penetration_rounding(p, k), close = 4.0 * event_time_tolerance(run, step);
+    Stretch part[MAX_BISECTIONS + 1] = {{bracket_end(run, step, k), INFINITY}};
+    Place from = bracket_begin(run, step, k);
+    const Place early = min_of(below, until) <= 0.5 ? gap_point_at(run, step, min_of(below, until), k, p)
         : (Place){0.0, NAN, NAN};
     int n = 1;
     if (isfinite(early.f))
@@ -182,7 +185,7 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, do
         int found = from.f >= least ? bound_by_cubic(from, now.end, now.error, least) : FALLS;
         if (found == UNKNOWN) {
             const Place middle = w > close && n <= MAX_BISECTIONS && samples++ < MAX_SAMPLES
-                ? gap_at(run, step, from.s + 0.5 * w, k, p) : (Place){0.0, NAN, NAN};
+                ? gap_point_at(run, step, from.s + 0.5 * w, k, p) : (Place){0.0, NAN, NAN};
             if (isfinite(middle.f)) {
                 const double error = w > 0.5 ? INFINITY : error_of_cubic(from, middle, now.end);
                 part[n - 1].error = error;
@@ -207,16 +210,16 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, do
  * Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. Zeros beyond the
  * share `until` may be left out.
  */
-static int has_zero(Run *run, Step *step, int k, const Parameters *p, double until, Place *low, Place *high)
+static int has_zero(Integrator *run, Step *step, int k, const Parameters *p, double until, Place *low, Place *high)
 {
     double below = 1.0;
     int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &below);
-    *low = begin_of(run, step, k);
-    *high = end_of(run, step, k);
+    *low = bracket_begin(run, step, k);
+    *high = bracket_end(run, step, k);
     if (found == UNKNOWN)
         found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR
             : first_zero(run, step, k, p, until, below, low, high);
-    if (low->f < 0.0 && low->f >= shallow(p, k) && low->slope > 0.0)
+    if (low->f < 0.0 && low->f >= penetration_rounding(p, k) && low->slope > 0.0)
         low->f = 0.0; /* rounded: it leaves zero */
     return found == FALLS;
 }

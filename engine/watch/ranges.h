@@ -199,10 +199,10 @@ static inline Range range_atan2(Range y, Range x)
  * mod(a, b): between the ends of a period a - k b; on a side the periods of that side alone, half of their neighbours
  * with them. Of more than one period what any of them may be.
  */
-static inline Range range_mod_on(Range a, Range b, Range side)
+static inline Range range_mod_on(Range a, Range b, Range branch)
 {
     const Range x = range_times(a, range_inverse(b));
-    const double held = side.lo == side.hi ? side.lo : 0.0, odd = held < 0.0 ? 1.0 : 0.0;
+    const double held = branch.lo == branch.hi ? branch.lo : 0.0, odd = held < 0.0 ? 1.0 : 0.0;
     const double every = held == 0.0 ? 1.0 : 2.0, before = held == 0.0 ? 0.0 : 0.5;
     const double first = every * floor((x.lo + before - odd) / every) + odd;
     const double last = every * floor((x.hi + before - odd) / every) + odd;
@@ -231,12 +231,12 @@ static inline double period_slope(double x)
     return rest < 1.0 ? 4.0 - 8.0 * rest : 8.0 * rest - 12.0;
 }
 
-static inline Range range_period_side(Range a, Range b)
+static inline Range range_period_branch(Range a, Range b)
 {
     const Range x = range_times(a, range_inverse(b));
     if (is_empty(x))
         return x;
-    const double from = period_side(x.lo, 1.0), to = period_side(x.hi, 1.0);
+    const double from = period_branch(x.lo, 1.0), to = period_branch(x.hi, 1.0);
     const double rise = period_slope(x.lo), fall = period_slope(x.hi);
     return through(x, has_place(x.lo, x.hi, 1.5) ? -1.0 : min_of(from, to),
         has_place(x.lo, x.hi, 0.5) ? 1.0 : max_of(from, to), has_place(x.lo, x.hi, 1.0) ? -4.0 : min_of(rise, fall),
@@ -244,17 +244,17 @@ static inline Range range_period_side(Range a, Range b)
 }
 
 /* The side of a corner: as it is held, or wherever its function may be. */
-static inline Range range_side(const double *side, int k, Range g)
+static inline Range range_branch(const double *branch, int k, Range g)
 {
     const double least = g.lo < 0.0 ? -1.0 : g.lo > 0.0 ? 1.0 : 0.0, most = g.hi > 0.0 ? 1.0 : g.hi < 0.0 ? -1.0 : 0.0;
     const double slope = least < most ? INFINITY : 0.0;
-    return side ? only(side[k]) : (Range){least, most, -slope, slope, g.partly};
+    return branch ? only(branch[k]) : (Range){least, most, -slope, slope, g.partly};
 }
 
 /* The second below the corner, else the first. */
-static inline Range range_pick(Range side, Range a, Range b)
+static inline Range range_pick(Range branch, Range a, Range b)
 {
-    return side.hi < 0.0 ? b : side.lo >= 0.0 ? a : range_union(a, b);
+    return branch.hi < 0.0 ? b : branch.lo >= 0.0 ? a : range_union(a, b);
 }
 
 static inline Range range_max_of(Range x, Range y)
@@ -269,7 +269,7 @@ static inline Range range_min_of(Range x, Range y)
 }
 
 static inline Range range_fabs(Range x) { return range_max_of(x, range_times(only(-1.0), x)); }
-static inline Range range_sign_of(Range x) { return range_side(NULL, 0, x); }
+static inline Range range_sign_of(Range x) { return range_branch(NULL, 0, x); }
 static inline Range range_magnitude(Range x) { return range_add(range_fabs(x), only(1e-150)); }
 static inline Range range_heaviside(Range x)
 {

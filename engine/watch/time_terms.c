@@ -15,7 +15,7 @@ enum { N_PLACES = 16, GAP_PARTS = 64, MAX_HARMLESS = 4 };
 #define UNSEEN 0.25 /* of what was seen of a term, that it may go beyond in a gap */
 
 /* Whether what happens at a share of the step is nothing to speak of; `sure`: it is more than bounds that are wide. */
-typedef int Harmless(void *context, double share, int sure);
+typedef int Harmless(void *context, double fraction, int sure);
 
 /* A part of a gap; how far terms may go in it beyond what was seen, and how far they do so in its middle. */
 typedef struct {
@@ -23,7 +23,7 @@ typedef struct {
 } GapPart;
 
 /* `low` and `high`: terms at both ends of the gap, `slack`: what they may go beyond these. */
-static GapPart gap_part(double t, double h, double from, double to, const Range *low, const Range *high,
+static GapPart interval_part(double t, double h, double from, double to, const Range *low, const Range *high,
     const double *slack, const Parameters *p)
 {
     GapPart part = {from, to, 0.0, 0.0};
@@ -54,13 +54,13 @@ static int is_monotone(double t, double h, double a, double b, const Parameters 
 
 /* A place between shares a and b where a term acts unseen, and not harmless; 0: none. The part that may hide most is
  * halved first. */
-static double unseen_in_gap(double t, double h, double a, double b, const Range *low, const Range *high,
+static double undersampled_in_interval(double t, double h, double a, double b, const Range *low, const Range *high,
     const double *slack, Harmless *harmless, void *context, const Parameters *p)
 {
     GapPart parts[GAP_PARTS + 1];
     int n = 0, looks = 0;
     if (!is_monotone(t, h, a, b, p))
-        parts[n++] = gap_part(t, h, a, b, low, high, slack, p);
+        parts[n++] = interval_part(t, h, a, b, low, high, slack, p);
     while (n > 0) {
         int k = 0;
         for (int i = 1; i < n; i++)
@@ -76,19 +76,19 @@ static double unseen_in_gap(double t, double h, double a, double b, const Range 
         if (told) {
             parts[k] = parts[--n];
         } else {
-            parts[k] = gap_part(t, h, part.from, middle, low, high, slack, p);
-            parts[n++] = gap_part(t, h, middle, part.to, low, high, slack, p);
+            parts[k] = interval_part(t, h, part.from, middle, low, high, slack, p);
+            parts[n++] = interval_part(t, h, middle, part.to, low, high, slack, p);
         }
     }
     return 0.0;
 }
 
 /* The first share of the time h from t on where a term acts unseen by looks at `place` (from 0 to 1); 0: none. */
-static double unseen_term(double t, double h, const double *place, int n, Harmless *harmless, void *context,
+static double undersampled_term(double t, double h, const double *place, int n, Harmless *harmless, void *context,
     const Parameters *p)
 {
     Range at[N_PLACES][N_TERMS];
-    double slack[N_PULSES], share = 0.0;
+    double slack[N_PULSES], fraction = 0.0;
     if (is_monotone(t, h, 0.0, 1.0, p))
         return 0.0; /* what it does shows at its ends */
     for (int i = 0; i < n; i++)
@@ -101,8 +101,9 @@ static double unseen_term(double t, double h, const double *place, int n, Harmle
         }
         slack[k] = UNSEEN * (most - least);
     }
-    for (int i = 1; i < n && share == 0.0; i++)
-        share = unseen_in_gap(t, h, place[i - 1], place[i], at[i - 1], at[i], slack, harmless, context, p);
-    return share;
+    for (int i = 1; i < n && fraction == 0.0; i++)
+        fraction =
+            undersampled_in_interval(t, h, place[i - 1], place[i], at[i - 1], at[i], slack, harmless, context, p);
+    return fraction;
 }
 #endif

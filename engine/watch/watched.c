@@ -22,7 +22,7 @@ typedef struct {
     double rounding[N_WATCHED], tolerance[N_WATCHED], lowest[N_WATCHED]; /* its lower bound over the whole step */
 } Noise;
 
-static void find_noise(Run *run, const Step *step, Noise *noise, const Parameters *p)
+static void estimate_uncertainties(Integrator *run, const Step *step, Noise *noise, const Parameters *p)
 {
     double error[2 * N_X + 1], at_end[N_WATCHED];
     if (noise->known)
@@ -41,7 +41,7 @@ static void find_noise(Run *run, const Step *step, Noise *noise, const Parameter
 }
 
 /* The state at share s of a step, on the constraints; that at its begin where the time alone is read. */
-static void watched_state(Run *run, const Step *step, double s, const Parameters *p, double *y)
+static void watched_state(Integrator *run, const Step *step, double s, const Parameters *p, double *y)
 {
     memcpy(y, s < 1.0 ? run->y : step->y, N_Y * sizeof *y);
 #if WATCHES_STATE
@@ -55,7 +55,7 @@ static void watched_state(Run *run, const Step *step, double s, const Parameters
 }
 
 /* Whether margin i, of this value at share s of a step, is below its uncertainty there. */
-static int is_noise(Run *run, const Step *step, double s, int i, double value, const Parameters *p)
+static int is_below_uncertainty(Integrator *run, const Step *step, double s, int i, double value, const Parameters *p)
 {
     double y[N_Y], error[N_WATCHED];
     watched_state(run, step, s, p, y);
@@ -74,21 +74,21 @@ static int is_held_at_zero(const Noise *noise, int i, Range f, double at_a, doub
         && (f.lo >= -noise->tolerance[i] || is_narrowing(f.lo, width, noise->lowest[i]));
 }
 
-static void margins_at(Run *run, const Step *step, double s, const Parameters *p, double *out)
+static void event_functions_at(Integrator *run, const Step *step, double s, const Parameters *p, double *out)
 {
-    Aside aside = s < 1.0 ? run->aside : step->aside;
+    RhsOutputs rhs = s < 1.0 ? run->rhs : step->rhs;
     if (s > 0.0 && s < 1.0) {
         double y[N_Y];
         watched_state(run, step, s, p, y);
-        watched_functions(step->t + s * step->h, y, y + N_X, &run->memory, p, &aside);
+        watched_functions(step->t + s * step->h, y, y + N_X, &run->discrete, p, &rhs);
     }
     for (int i = 0; i < N_WATCHED; i++)
-        out[i] = margin(&run->memory, &aside, watched[i]);
+        out[i] = event_function(&run->discrete, &rhs, watched[i]);
 }
 
 #if WATCHES_STATE
 /* y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), as all methods write it, multiplied out. */
-static void course_of(const Run *run, const Step *step, Course *course)
+static void course_of(const Integrator *run, const Step *step, Course *course)
 {
     const int degree = step->method->degree;
     course->t = step->t, course->h = step->h, course->degree = degree;
@@ -128,30 +128,32 @@ static void state_over(const Course *course, double a, double b, Range *y)
 
 #endif
 /* All margins over ranges of time and state. */
-static void margins_of_ranges(const Run *run, Range t, const Range *y, const Parameters *p, Range *out)
+static void event_functions_of_ranges(const Integrator *run, Range t, const Range *y, const Parameters *p, Range *out)
 {
-    watched_ranges(t, y, y + N_X, &run->memory, p, out);
+    watched_ranges(t, y, y + N_X, &run->discrete, p, out);
     for (int i = 0; i < N_WATCHED; i++) {
         const int k = watched[i] - N_CLEARANCES;
-        const double side = k < N_SWITCHES ? run->memory.side[k] : run->memory.event_side[k - N_SWITCHES - N_FRICTIONS];
-        out[i] = range_times(only(side), out[i]);
+        const double branch =
+            k < N_SWITCHES ? run->discrete.branch[k] : run->discrete.event_sign[k - N_SWITCHES - N_FRICTIONS];
+        out[i] = range_times(only(branch), out[i]);
     }
 }
 
 /* All margins over shares a to b of the step. */
-static void margins_over(const Run *run, const Course *course, double a, double b, const Parameters *p, Range *out)
+static void event_function_ranges(
+    const Integrator *run, const Course *course, double a, double b, const Parameters *p, Range *out)
 {
     const Range t = {course->t + a * course->h, course->t + b * course->h, course->h, course->h, 0};
     Range y[2 * N_X + 1] = { {0} };
 #if WATCHES_STATE
     state_over(course, a, b, y);
 #endif
-    margins_of_ranges(run, t, y, p, out);
+    event_functions_of_ranges(run, t, y, p, out);
 }
 
 /* The search along a step: its interpolant, all margins at the begin of the part that is judged. */
 typedef struct {
-    Run *run;
+    Integrator *run;
     Step *step;
     const Parameters *p;
     Course course;
@@ -160,37 +162,37 @@ typedef struct {
 } WatchedStep;
 
 /* zero_verdict of margin i over a part up to b; at_b is set to 0 where it means nothing. */
-static int judge_margin(WatchedStep *of, int i, Range f, double b, double width, int small, double *at_b)
+static int classify_event_function(WatchedStep *of, int i, Range f, double b, double width, int small, double *at_b)
 {
     const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
     int result = zero_verdict(f, of->at_a[i], *at_b, width, small);
     if (width == 1.0)
         of->noise.lowest[i] = f.lo;
-    if (result > 0 && is_noise(of->run, of->step, b, i, *at_b, of->p)) {
+    if (result > 0 && is_below_uncertainty(of->run, of->step, b, i, *at_b, of->p)) {
         *at_b = 0.0;
         result = zero_verdict(f, of->at_a[i], 0.0, width, small);
     }
     if (result < 0) {
-        find_noise(of->run, of->step, &of->noise, of->p);
+        estimate_uncertainties(of->run, of->step, &of->noise, of->p);
         result = -!is_held_at_zero(&of->noise, i, f, of->at_a[i], *at_b, width);
     }
     return f.partly && !small && event >= 0 && !of->run->events.no_number[event] ? -1 : result;
 }
 
 /* Judges a part of a step by the bounds of all margins over it: 1 where the first zero of some is found. */
-static int judge_margins(void *context, double a, double b, int small)
+static int classify_event_functions(void *context, double a, double b, int small)
 {
     WatchedStep *of = context;
-    Run *run = of->run;
+    Integrator *run = of->run;
     Step *step = of->step;
     Range f[N_WATCHED];
     double at_b[N_WATCHED];
     int found = 0;
-    margins_at(run, step, b, of->p, at_b);
-    margins_over(run, &of->course, a, b, of->p, f);
+    event_functions_at(run, step, b, of->p, at_b);
+    event_function_ranges(run, &of->course, a, b, of->p, f);
     for (int i = 0; i < N_WATCHED; i++) {
         const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-        const int result = judge_margin(of, i, f[i], b, b - a, small, &at_b[i]);
+        const int result = classify_event_function(of, i, f[i], b, b - a, small, &at_b[i]);
         if (result < 0)
             return -1;
         if (event >= 0 && isnan(at_b[i]))
@@ -198,7 +200,8 @@ static int judge_margins(void *context, double a, double b, int small)
         if (result) {
             step->from[i] = a;
             step->to[i] = b;
-            step->above[i] = of->at_a[i] < 0.0 && is_noise(run, step, a, i, of->at_a[i], of->p) ? 0.0 : of->at_a[i];
+            step->above[i] =
+                of->at_a[i] < 0.0 && is_below_uncertainty(run, step, a, i, of->at_a[i], of->p) ? 0.0 : of->at_a[i];
             step->below[i] = at_b[i];
             found = 1;
         }
@@ -210,7 +213,7 @@ static int judge_margins(void *context, double a, double b, int small)
 
 #if WATCHES_STATE
 /* Whether no margin may be below zero anywhere between the stages of an explicit step: most are done with this. */
-static int is_clear(Run *run, const Step *step, Noise *noise, const Parameters *p)
+static int is_clear(Integrator *run, const Step *step, Noise *noise, const Parameters *p)
 {
     Range f[N_WATCHED], y[2 * N_X + 1] = { {0} };
     const Range t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
@@ -219,13 +222,13 @@ static int is_clear(Run *run, const Step *step, Noise *noise, const Parameters *
         const double most = max_of(step->most[k], max_of(run->y[k], step->y[k])), beyond = 0.25 * (most - least);
         y[k] = (Range){least - beyond, most + beyond, -INFINITY, INFINITY, 0};
     }
-    margins_of_ranges(run, t, y, p, f);
+    event_functions_of_ranges(run, t, y, p, f);
     for (int i = 0; i < N_WATCHED; i++) {
-        const double from = margin(&run->memory, &run->aside, watched[i]);
-        const double to = margin(&run->memory, &step->aside, watched[i]);
+        const double from = event_function(&run->discrete, &run->rhs, watched[i]);
+        const double to = event_function(&run->discrete, &step->rhs, watched[i]);
         if (f[i].lo >= 0.0 && !f[i].partly && !(to < 0.0))
             continue;
-        find_noise(run, step, noise, p);
+        estimate_uncertainties(run, step, noise, p);
         if (!is_held_at_zero(noise, i, f[i], from, to, 1.0))
             return 0;
     }
@@ -234,7 +237,7 @@ static int is_clear(Run *run, const Step *step, Noise *noise, const Parameters *
 
 #endif
 /* The first zero of what is watched along an accepted step: `from` where it is not yet, `to` where it is over. */
-static void look_inside(Run *run, Step *step, const Parameters *p)
+static void search_step(Integrator *run, Step *step, const Parameters *p)
 {
     WatchedStep of = {.run = run, .step = step, .p = p, .course = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_WATCHED; i++)
@@ -244,18 +247,18 @@ static void look_inside(Run *run, Step *step, const Parameters *p)
         return;
     course_of(run, step, &of.course);
 #endif
-    margins_at(run, step, 0.0, p, of.at_a);
-    (void)first_part(0.0, 1.0, 4.0 * root_width(run, step), judge_margins, &of);
+    event_functions_at(run, step, 0.0, p, of.at_a);
+    (void)first_part(0.0, 1.0, 4.0 * event_time_tolerance(run, step), classify_event_functions, &of);
 }
 
-static int is_unresolved(const Run *run, const Step *step, const Parameters *p)
+static int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;
 }
 
 /* Where watched margin i is below zero for the first time; 0: nowhere. */
-static double first_look(const Run *run, const Step *step, int i, const Parameters *p, double *value)
+static double first_negative_sample(const Integrator *run, const Step *step, int i, const Parameters *p, double *value)
 {
     (void)run, (void)p;
     *value = step->below[i];

@@ -230,21 +230,21 @@ static inline int is_narrowing(double lo, double width, double whole)
 static inline int is_near_pole(double here, double further) { return isinf(here) || fabs(here) > 2.0 * fabs(further); }
 
 /*
- * Whether event i of the user, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value` in a
- * direction that counts; `side` is where it is then. A zero itself lies on neither side.
+ * Whether event i of the user, seen last on `branch` of zero (1 or -1; 0: nowhere yet), has crossed to `value` in a
+ * direction that counts; `branch` is where it is then. A zero itself lies on neither side.
  */
-static inline int event_crosses(int i, signed char *side, double value)
+static inline int event_crosses(int i, signed char *branch, double value)
 {
-    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    const int from = *branch, to = (value > 0.0) - (value < 0.0);
     if (to)
-        *side = (signed char)to;
+        *branch = (signed char)to;
     return from * to < 0 && event_direction[i] * to >= 0;
 }
 
 #if N_WATCHED && KNOWN_BOUNDS
 /* By how much errors of n positions and velocities change each watched function; 0 where they lead to a pole. */
 static inline void error_by_bounds(double t, const double *q, const double *v, const double *q_error,
-    const double *v_error, int n, const Memory *memory, const Parameters *p, double *out)
+    const double *v_error, int n, const DiscreteState *discrete, const Parameters *p, double *out)
 {
     Range at_q[N_Q + N_X], at_v[N_Q + N_X], f[N_WATCHED];
     const double rounded = 4.0 * DBL_EPSILON * fabs(t);
@@ -252,7 +252,7 @@ static inline void error_by_bounds(double t, const double *q, const double *v, c
         at_q[k] = (Range){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
         at_v[k] = (Range){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
     }
-    watched_ranges((Range){t - rounded, t + rounded, 0.0, 0.0, 0}, at_q, at_v, memory, p, f);
+    watched_ranges((Range){t - rounded, t + rounded, 0.0, 0.0, 0}, at_q, at_v, discrete, p, f);
     for (int i = 0; i < N_WATCHED; i++)
         out[i] = isfinite(f[i].hi - f[i].lo) ? 0.5 * (f[i].hi - f[i].lo) : 0.0;
 }

@@ -148,9 +148,9 @@ def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.E
 def after_dry(clearance: Clearance) -> list[Step]:
     """Moments about the centres of bearing i and journal j."""
     tangential = of_part(F_along_t, "dry")
-    aside = -worn_slope * _symbol("F_n") if clearance.contour else 0
+    rhs = -worn_slope * _symbol("F_n") if clearance.contour else 0
     return [
-        Step(of_part(M_i, "dry"), -a_i * tangential + aside),
+        Step(of_part(M_i, "dry"), -a_i * tangential + rhs),
         Step(of_part(M_j, "dry"), a_j * tangential),
     ]
 

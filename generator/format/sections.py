@@ -214,7 +214,7 @@ SHAPE = record(
 )
 
 _SIDE = (Bound(">", 0.0, "a side is positive"),)
-SIDES = record(
+BRANCHES = record(
     "sides",
     "three points P, Q and R of a body by their distances: P is the origin, Q on the x axis",
     number("PQ", "distance of P and Q", LENGTH, required=True, bounds=_SIDE),
@@ -250,7 +250,7 @@ BODY = record(
         otherwise="mid-length of a bar, else the origin",
     ),
     mapping("points", "points by name, in the body's frame: of a bar from its tail, x to its head", POINT),
-    SIDES,
+    BRANCHES,
     SHAPE,
 )
 

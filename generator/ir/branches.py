@@ -12,7 +12,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import NONE, Names
-from gudgeon.generator.symbols.corners import Pick, SideOf
+from gudgeon.generator.symbols.corners import BranchOf, Pick
 from gudgeon.generator.symbols.storage import Key, Place
 
 
@@ -82,7 +82,7 @@ class Branches:
             for expression in line.expressions:
                 found += self._branches(expression)
             found.append(line)
-            if isinstance(line, Statement) and isinstance(line.value, SideOf):
+            if isinstance(line, Statement) and isinstance(line.value, BranchOf):
                 self._told[sp.Symbol(line.defines, real=True)] = line.value.args[1]
         return found
 

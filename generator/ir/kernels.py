@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 
 from gudgeon.generator.ir.signatures import Argument
-from gudgeon.generator.ir.statements import Line, Rescue, Sides, Statement
+from gudgeon.generator.ir.statements import Branches, Line, Rescue, Statement
 from gudgeon.generator.ir.values import Value
-from gudgeon.generator.symbols.corners import SideOf, Switches
+from gudgeon.generator.symbols.corners import BranchOf, Switches
 from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
@@ -98,7 +98,7 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
         statements: list[Line] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
-                if isinstance(statement.value, SideOf):  # told by the author of the kernel: once is enough
+                if isinstance(statement.value, BranchOf):  # told by the author of the kernel: once is enough
                     if (told := sp.Symbol(statement.defines, real=True)) not in known:
                         known[told] = statement.value
                         statements.append(statement)
@@ -134,16 +134,16 @@ LINEARIZATION = "lin"  # the argument that holds the linearized equations of mot
 HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides
 
 
-def with_sides(kernel: Kernel, told: str = "nobody") -> Kernel:
+def with_branches(kernel: Kernel, told: str = "nobody") -> Kernel:
     """The kernel behind the line that says which sides are held and where the others are told, if it reads any."""
     if not _reads_sides(kernel):
         return kernel
-    return replace(kernel, sections=(Section(HELD, (Sides(told),)), *kernel.sections))
+    return replace(kernel, sections=(Section(HELD, (Branches(told),)), *kernel.sections))
 
 
 def _reads_sides(kernel: Kernel) -> bool:
     lines = (s for section in kernel.sections if section.title != HELD for s in section.statements)
-    return any("side" in line.reads for line in lines)
+    return any("branch" in line.reads for line in lines)
 
 
 class KernelBuilder:
@@ -187,7 +187,7 @@ class KernelBuilder:
         """The kernel, with its inputs and definitions in front.
 
         With an `owner` ("": the scene) corners are sides of switches, or only_known ones: the function then reads
-        `side` and writes `g` (switches.py). `prune`: locals that nothing reads are left out.
+        `branch` and writes `g` (switches.py). `prune`: locals that nothing reads are left out.
         """
         if prune:
             self._sections = _pruned(self._sections)

@@ -55,17 +55,17 @@ def result(name: str, type: Type = Number.REAL) -> Argument:
 
 
 # Corners: the sides that are held over a step (or none), and where the switching functions go.
-SIDES = (source("side"), result("g"))
+BRANCHES = (source("branch"), result("g"))
 
 TIME = Argument("t", access=Access.CONSTANT)
 STATE = (TIME, source("q"), source("v"))
-MEMORY = source("memory", "Memory")
+DISCRETE = source("discrete", "DiscreteState")
 PARAMETERS = source(storage.PARAMETERS, "Parameters")
-ASIDE = result("aside", "Aside")
-LATCH = source("latch", "Latch")  # of one contact
+RHS = result("rhs", "RhsOutputs")
+CONTACT = source("contact", "ContactState")  # of one contact
 ZERO = sp.Integer(0)
 
 
 def acting_on(index: int) -> tuple[Place, ...]:
     """Return what the function of a joint with play is given after its motion."""
-    return (MEMORY["latch"][index], *(Place(argument.name) for argument in (PARAMETERS, *SIDES)))
+    return (DISCRETE["contact"][index], *(Place(argument.name) for argument in (PARAMETERS, *BRANCHES)))

@@ -203,7 +203,7 @@ class Rescue(Line):
     def names(self) -> Names:
         """What the solution is told."""
         own = () if self.force else ("v",)
-        return frozenset(["t", "q", "memory", PARAMETERS, "a", "aside", *own])
+        return frozenset(["t", "q", "discrete", PARAMETERS, "a", "rhs", *own])
 
 
 @dataclass(frozen=True)
@@ -250,8 +250,8 @@ class Unread(Line):
 
 
 @dataclass(frozen=True)
-class Sides(Line):
-    """Which sides of corners are held (or none), and where they are told: "" nowhere, "nobody", "aside"."""
+class Branches(Line):
+    """Which sides of corners are held (or none), and where they are told: "" nowhere, "nobody", "rhs"."""
 
     told: str
     held: bool = True
@@ -259,8 +259,8 @@ class Sides(Line):
     @property
     def names(self) -> Names:
         """Where sides are held, and told."""
-        told = {"": [], "nobody": ["g"], "aside": ["g", "aside"]}[self.told]
-        return frozenset(["side", *told, *(["memory"] if self.held else [])])
+        told = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.told]
+        return frozenset(["branch", *told, *(["discrete"] if self.held else [])])
 
 
 @dataclass(frozen=True)

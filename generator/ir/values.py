@@ -12,7 +12,7 @@ from typing import ClassVar, TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.symbols.corners import SideOf, Size
+from gudgeon.generator.symbols.corners import BranchOf, Size
 from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
@@ -24,7 +24,7 @@ NONE: Names = frozenset()
 def names_in(value: sp.Basic) -> Names:
     """What an expression reads: locals, bases of places; of a side what holds it and is told it."""
     names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in symbols_of(value))
-    return names | ({"side", "g"} if value.has(SideOf) else NONE)
+    return names | ({"branch", "g"} if value.has(BranchOf) else NONE)
 
 
 class Threshold(float):

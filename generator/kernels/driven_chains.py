@@ -21,18 +21,18 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import HELD, Kernel, KernelBuilder, Section, with_sides, without_unused
-from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, Number, result
+from gudgeon.generator.ir.kernels import HELD, Kernel, KernelBuilder, Section, with_branches, without_unused
+from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, result
 from gudgeon.generator.ir.sine_pairs import side_by_side
-from gudgeon.generator.ir.statements import LargestRow, Return, Sides, Statement, Unread
+from gudgeon.generator.ir.statements import Branches, LargestRow, Return, Statement, Unread
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.square_rows import SquareRows
-from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.corners import BranchOf
 from gudgeon.generator.symbols.storage import Place
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
-TOLD_SIDES = Section(HELD, (Sides(""),))
+TOLD_SIDES = Section(HELD, (Branches(""),))
 
 
 class ChainKernels:
@@ -51,10 +51,10 @@ class ChainKernels:
             for kernel in raw
             for section in kernel.sections
             for s in section.statements
-            if isinstance(s, Statement) and isinstance(s.value, SideOf)
+            if isinstance(s, Statement) and isinstance(s.value, BranchOf)
         ]
         self.corners = self._corners(sides) if sides else None
-        self.kernels = [*map(with_sides, raw), *([self.corners] if self.corners else [])]
+        self.kernels = [*map(with_branches, raw), *([self.corners] if self.corners else [])]
         self.size = self._extent() if any("." in name for name in chain.names) else ZERO
 
     def _all(self) -> list[Kernel]:
@@ -74,7 +74,7 @@ class ChainKernels:
         symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
             build.out(Place("out")[first + k], self.symbols.definitions[symbol], symbol.name)
-        return build.build((*STATE[:2], MEMORY, PARAMETERS, result("out")), owner="")
+        return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("out")), owner="")
 
     def _extent(self) -> sp.Expr:
         """The size that a step of a slide is measured by: of all points together."""
@@ -111,7 +111,7 @@ class ChainKernels:
             build.out(Place("bend")[k], more)
         build.line(Return())
         outs = (result("step"), result("bend"), result("row", Number.INTEGER))
-        return build.build((*STATE[:2], MEMORY, PARAMETERS, *outs), status=True, owner="", prune=True)
+        return build.build((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
     def _curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
         """Φ_cc[x, x]."""
@@ -146,7 +146,7 @@ class ChainKernels:
             build.out(Place("v")[at], x.rate)
             build.out(Place("v")[at + len(known)], value)
         build.line(Return())
-        return build.build((*STATE[:2], MEMORY, PARAMETERS, result("v")), status=True, owner="", prune=True)
+        return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("v")), status=True, owner="", prune=True)
 
     def _third(self) -> Kernel:
         """Third rates, forwards: d/dt of γ − Φ_c c̈ at the same c̈."""
@@ -170,7 +170,7 @@ class ChainKernels:
         for at, value in enumerate(self.square.solve(build, solvers, slopes, "third")):
             build.out(Place("out")[at], value)
         build.line(Return())
-        return build.build((*STATE, MEMORY, PARAMETERS, result("out")), status=True, owner="", prune=True)
+        return build.build((*STATE, DISCRETE, PARAMETERS, result("out")), status=True, owner="", prune=True)
 
     def _moving(self) -> list[sp.Symbol]:
         """Definitions in the chains' rates: they come after these, not in front of the kernel."""
@@ -187,13 +187,13 @@ class ChainKernels:
                 found.append(symbol)
         return [symbol for symbol in found if symbol not in others]
 
-    def _corners(self, sides: Sequence[SideOf]) -> Kernel:
+    def _corners(self, sides: Sequence[BranchOf]) -> Kernel:
         """Switching functions of the drives, which nobody else may look at."""
-        build = KernelBuilder(self.symbols, "chain_corners", ["Switching functions of what drives the chains."])
+        build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of what drives the chains."])
         build.section("corners")
         for side in dict.fromkeys(sides):
             name = f"side_{side.args[0]}"
             build.line(Statement(name, side))
             build.line(Unread(name))
-        kernel = build.build((*STATE[:2], MEMORY, PARAMETERS, result("g")), owner="")
+        kernel = build.build((*STATE[:2], DISCRETE, PARAMETERS, result("g")), owner="")
         return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))

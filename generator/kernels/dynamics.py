@@ -12,8 +12,8 @@ from gudgeon.generator.equations.places import Wall
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.branches import JointsAlone
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_sides
-from gudgeon.generator.ir.signatures import ASIDE, MEMORY, PARAMETERS, STATE, ZERO, acting_on, result
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_branches
+from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, RHS, STATE, ZERO, acting_on, result
 from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
 from gudgeon.generator.ir.values import Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
@@ -21,7 +21,7 @@ from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 _DOC = (
-    "Accelerations a (n) and multipliers in `aside` at a state:",
+    "Accelerations a (n) and multipliers in `rhs` at a state:",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
     "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
 )
@@ -66,16 +66,16 @@ def dynamics_kernel(
     for k, _ in enumerate(system.q):
         build.out(Place("a")[k], x[k])
     for r, _ in enumerate(kkt.rows):
-        build.out(ASIDE["lambda"][r], x[kkt.n + r])
+        build.out(RHS["lambda"][r], x[kkt.n + r])
     _friction_forces(build, kkt, x)
     _half_squares(build, kkt.system, x)
     if kkt.rows and not model.rows_change:
         (rescue or _dependent_rows)(build, kkt, b)
     _powers(build, kkt, on_given)
     build.line(Return(pivot=bool(kkt.rows and not model.rows_change)))
-    arguments = (*STATE, MEMORY, PARAMETERS, result("a"), ASIDE)
+    arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
     kernel = build.build(arguments, status=True, owner="")
-    return with_sides(kernel, "aside")
+    return with_branches(kernel, "rhs")
 
 
 def _events(model: Model, build: KernelBuilder) -> None:
@@ -83,12 +83,12 @@ def _events(model: Model, build: KernelBuilder) -> None:
     if model.events:
         build.section("events")
     for index, event in enumerate(model.events):
-        build.out(ASIDE["event"][index], event.expression, event.name)
+        build.out(RHS["event"][index], event.expression, event.name)
 
 
 def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
     """Calls the joint's force function; its result acts on both bodies."""
-    name, out = clearance.label, ASIDE["clearance"][index]
+    name, out = clearance.label, RHS["clearance"][index]
     build.section(f"clearance {clearance.kind} {clearance.name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
     edot = [
@@ -106,7 +106,7 @@ def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> l
 
 
 def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
-    """γ − 2αΦ̇ − β²Φ a row; the residuals are kept in `aside` for the diagnostics."""
+    """γ − 2αΦ̇ − β²Φ a row; the residuals are kept in `rhs` for the diagnostics."""
     if not stabilised:
         if kkt.rows:
             build.section("constraints: gamma")
@@ -123,8 +123,8 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
         phi = build.local(f"phi_{name}", row.phi)
         phi_dot = build.local(f"phi_dot_{name}", row.phi_q_v - row.nu)
         rhs[kkt.n + r] = build.local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
-        build.out(ASIDE["phi"][r], phi)
-        build.out(ASIDE["phi_dot"][r], phi_dot)
+        build.out(RHS["phi"][r], phi)
+        build.out(RHS["phi_dot"][r], phi_dot)
     return rhs
 
 
@@ -144,8 +144,8 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
             forces[place[q]] += entry * force
         rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
         for key, value in (("v", v), ("static_limit", friction.slip.static), ("speed", friction.slip.speed)):
-            build.out(ASIDE["friction"][r][key], value)
-        build.out(ASIDE["friction"][r]["force"], force)
+            build.out(RHS["friction"][r][key], value)
+        build.out(RHS["friction"][r]["force"], force)
     return rhs
 
 
@@ -154,9 +154,9 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
     place = {q: k for k, q in enumerate(kkt.system.q)}
     for r, friction in enumerate(kkt.frictions):
         rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
-        build.out(ASIDE["friction"][r]["rate"], rate)
+        build.out(RHS["friction"][r]["rate"], rate)
         stick = kkt.sticks[kkt.first_friction + r]
-        target = ASIDE["friction"][r]["force"]
+        target = RHS["friction"][r]["force"]
         force = Statement(target, -x[kkt.first_friction + r], f"stick of {friction.name}")
         build.line(When(Test(stick, "!=", (0.0,)), force))
 
@@ -166,12 +166,12 @@ def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
             outward = _outward_rate(system, clearance, clearance.wall, x)
-            build.out(ASIDE["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
+            build.out(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
         elif clearance.rigid:
             second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
             e, edot = clearance.eccentricity, clearance.eccentricity_rate
             half = sp.Add(*(e[i] * (second[i] - first[i]) + edot[i] ** 2 for i in range(2)))
-            build.out(ASIDE["clearance"][index]["half_square_rate"], half, "e . e'' + e' . e'")
+            build.out(RHS["clearance"][index]["half_square_rate"], half, "e . e'' + e' . e'")
 
 
 def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[int, sp.Expr]) -> sp.Expr:
@@ -200,19 +200,19 @@ def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> 
     A drive does −λᵀν, and what inertia and loads need at a coordinate that it prescribes.
     """
     model = kkt.system.model
-    multipliers = {r: PlaceSymbol(ASIDE["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
+    multipliers = {r: PlaceSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}
     drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     for given in kkt.system.given:
         needed = sp.Add(*(m * PlaceSymbol(Place("a")[k]) for k, m in given.mass.items())) - given.applied
         for r, friction in enumerate(kkt.frictions):
-            force = PlaceSymbol(ASIDE["friction"][r]["force"])
+            force = PlaceSymbol(RHS["friction"][r]["force"])
             needed -= model.symbols.written_out(friction.slip.v, given.rate) * force
         drives += given.rate * (needed - on_given.get(given.name, ZERO))
-    clearances = tuple(ASIDE["clearance"][i]["power"] for i in range(len(model.clearances)))
-    build.out(ASIDE["power"][0], drives)
+    clearances = tuple(RHS["clearance"][i]["power"] for i in range(len(model.clearances)))
+    build.out(RHS["power"][0], drives)
     rubs = [
-        [PlaceSymbol(ASIDE["friction"][r][what]) for what in ("force", "v", "speed")] for r in range(len(kkt.frictions))
+        [PlaceSymbol(RHS["friction"][r][what]) for what in ("force", "v", "speed")] for r in range(len(kkt.frictions))
     ]
     friction = sp.Add(*(force * (v + speed) for force, v, speed in rubs))
-    build.out(ASIDE["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
-    build.out(ASIDE["power"][2], Sum(clearances) if clearances else ZERO)
+    build.out(RHS["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
+    build.out(RHS["power"][2], Sum(clearances) if clearances else ZERO)

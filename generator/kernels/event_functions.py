@@ -21,30 +21,28 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import as_written
-from gudgeon.generator.ir.kernels import Kernel, Section, with_sides
-from gudgeon.generator.ir.signatures import ASIDE, PARAMETERS, TIME
-from gudgeon.generator.ir.statements import Line, Sides, Statement
-from gudgeon.generator.symbols.corners import ModOn, PeriodsOf, Pick, SideOf
+from gudgeon.generator.ir.kernels import Kernel, Section, with_branches
+from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
+from gudgeon.generator.ir.statements import Branches, Line, Statement
+from gudgeon.generator.symbols.corners import BranchOf, ModOn, PeriodsOf, Pick
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.wholes import Whole
 
 WATCHED, _RANGES = "watched_functions", "watched_ranges"
-_WATCHED_DOC = (
-    "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
-)
+_WATCHED_DOC = ("Switching functions of the scene's own corners, in rhs->g, and what the user watches, in rhs->event.",)
 _RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
-_KNOWN_LATE = ASIDE.name  # what reads this is known only once forces or accelerations are
+_KNOWN_LATE = RHS.name  # what reads this is known only once forces or accelerations are
 
 
-def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None = None) -> Kernel | None:
+def watched_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
     """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces.
 
-    `chain_corners`: the function that evaluates the switches of driven chains, which `dynamics` does not evaluate.
+    `loop_switches`: the function that evaluates the switches of driven chains, which `dynamics` does not evaluate.
     """
     corners = {switch.index for switch in model.symbols.switches.of("")}
     if not corners and not model.events:
         return None
-    every = _merge_sections(chain_corners, dynamics)
+    every = _merge_sections(loop_switches, dynamics)
     outs = {
         s: out
         for section in every
@@ -73,7 +71,7 @@ def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None 
     arguments = tuple(a for a in dynamics.arguments if a.name != "a")
     named = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
     watched = replace(named, arguments=arguments, sections=tuple(sections), status=False)
-    return with_sides(watched, "aside")
+    return with_branches(watched, "rhs")
 
 
 def _merge_sections(*kernels: Kernel | None) -> list[Section]:
@@ -90,15 +88,15 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
 
 def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:
     """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
-    place: dict[Place, int] = {ASIDE["g"][k]: i for i, k in enumerate(corners)}
-    place |= {ASIDE["event"][k]: i for k, i in enumerate(range(len(corners), len(corners) + events))}
+    place: dict[Place, int] = {RHS["g"][k]: i for i, k in enumerate(corners)}
+    place |= {RHS["event"][k]: i for k, i in enumerate(range(len(corners), len(corners) + events))}
     sections = []
     for section in watched.sections:
         kept: list[Line] = []
         for s in section.statements:
             if isinstance(s, Statement) and isinstance(s.target, Place):
                 s = replace(s, target=Place("out")[place[s.target]])
-            kept.append(Sides("") if isinstance(s, Sides) else s)
+            kept.append(Branches("") if isinstance(s, Branches) else s)
         sections.append(Section(section.title, tuple(kept)))
     return replace(watched, name=_RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
 
@@ -118,8 +116,8 @@ def reads_beyond(kernel: Kernel, count: int) -> bool:
 def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
     """What is written of a statement that tells a corner or an event."""
     value = statement.value
-    if isinstance(value, SideOf) and int(value.args[0]) in corners:
-        return Statement(ASIDE["g"][int(value.args[0])], value.args[1])
+    if isinstance(value, BranchOf) and int(value.args[0]) in corners:
+        return Statement(RHS["g"][int(value.args[0])], value.args[1])
     target = statement.target
     return statement if isinstance(target, Place) and target.path[:1] == ("event",) else None
 
@@ -168,7 +166,7 @@ def _read(dynamics: Kernel, rests: bool) -> _Terms:
 def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
     outs = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
-    arguments = (TIME, PARAMETERS, ASIDE)
+    arguments = (TIME, PARAMETERS, RHS)
     named = replace(dynamics, name=_TIME_TERMS, doc=_TIME_TERMS_DOC)
     return replace(named, arguments=arguments, sections=sections, status=False)
 
@@ -232,7 +230,7 @@ class _Terms:
         """The terms of a value, and those within them."""
         if not self.is_timed(value) or self.is_tame(value):
             return
-        if isinstance(value, SideOf):
+        if isinstance(value, BranchOf):
             return self.collect(value.args[1])
         parts = [part for part in value.args if self.is_timed(part) and not self.is_tame(part)]
         if isinstance(value, (sp.Add, sp.Mul, Pick, Whole)):
@@ -256,7 +254,7 @@ class _Terms:
         match value:
             case sp.Symbol():
                 return True
-            case SideOf():
+            case BranchOf():
                 return self.is_tame(value.args[1])
             case sp.Add() | sp.Mul() | Pick() | Whole() | ModOn():
                 return all(map(self.is_tame, value.args))
@@ -286,7 +284,7 @@ class _Terms:
 
 def _unheld(statement: Statement) -> Statement:
     """A side as its function has it over a range: nothing is held where time alone is looked at."""
-    if isinstance(statement.value, SideOf):
+    if isinstance(statement.value, BranchOf):
         return replace(statement, value=sp.sign(statement.value.args[1]))
     return statement
 

@@ -13,7 +13,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section, hold_sides
 from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
-from gudgeon.generator.ir.signatures import LATCH, PARAMETERS, SIDES, Argument, result
+from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, result
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
@@ -63,7 +63,7 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
             build.line(Statement(name, value))
     variables = (Argument(symbol.name) for symbol in equations.variables)
     outs = (result(f"{name}_out") for name in results)
-    kernel = build.build((*variables, PARAMETERS, *SIDES, *outs), inline=True, owner=clearance.name)
+    kernel = build.build((*variables, PARAMETERS, *BRANCHES, *outs), inline=True, owner=clearance.name)
     return with_reciprocals(kernel)
 
 
@@ -125,8 +125,8 @@ class Pin:
 
     @property
     def given(self) -> tuple[Place, ...]:
-        """The same as what a joint has it under: a force that is held is one of the latch."""
-        return (LATCH["force"],) if self.clearance.rigid else tuple(map(Place, self.further))
+        """The same as what a joint has it under: a force that is held is one of the contact."""
+        return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further))
 
     @property
     def has_transition(self) -> bool:

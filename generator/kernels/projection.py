@@ -8,8 +8,8 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_sides
-from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, result, source
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_branches
+from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, result, source
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST_SIZE
@@ -118,5 +118,5 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     build.line(Return())
     outs = (result(name) for name in ("dq", "dv", "worst"))
     # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
-    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), status=True, owner="", only_known=True)
-    return with_sides(kernel)
+    kernel = build.build((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
+    return with_branches(kernel)

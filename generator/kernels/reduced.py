@@ -23,7 +23,7 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
-    "Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:",
+    "Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.",
     "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
 )

@@ -15,10 +15,10 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, Argument, Number
+from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import Chosen
-from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.corners import BranchOf
 from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
 
 CORNER = Argument("corner", Number.INTEGER)
@@ -137,15 +137,15 @@ def _arguments(kernel: Kernel, numbers: list[str], corners: bool) -> tuple[Argum
     for argument in kernel.arguments:
         if argument == PARAMETERS:
             found += [Argument(name) for name in numbers]
-        elif argument not in SIDES or corners:
+        elif argument not in BRANCHES or corners:
             found.append(argument)
-        if argument == SIDES[-1] and corners:
+        if argument == BRANCHES[-1] and corners:
             found.append(CORNER)
     return tuple(found)
 
 
 def _corners(kernel: Kernel) -> set[int]:
-    return {int(part.args[0]) for line in _lines(kernel) for x in line.expressions for part in x.atoms(SideOf)}
+    return {int(part.args[0]) for line in _lines(kernel) for x in line.expressions for part in x.atoms(BranchOf)}
 
 
 def _contents(kernel: Kernel) -> Iterator[object]:
@@ -155,7 +155,7 @@ def _contents(kernel: Kernel) -> Iterator[object]:
     def named(value: sp.Basic) -> sp.Basic:
         known = {s: kernel.names[key] for s in value.free_symbols if (key := key_of(s)) in kernel.names}
         symbols = {s: sp.Symbol(str(name), real=True) for s, name in known.items()}
-        sides = {part: SideOf(part.args[0] - first, part.args[1]) for part in value.atoms(SideOf)}
+        sides = {part: BranchOf(part.args[0] - first, part.args[1]) for part in value.atoms(BranchOf)}
         return value.xreplace(sides).xreplace(symbols)
 
     for line in _lines(kernel):

@@ -12,7 +12,7 @@ from gudgeon.generator.equations.notes import jumping_drives
 from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
 from gudgeon.generator.ir.series import Linear, Series, series_of
 from gudgeon.generator.ir.series_rules import NoSeries
-from gudgeon.generator.ir.signatures import ASIDE
+from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.values import Threshold
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
@@ -70,7 +70,7 @@ class _Told(KKT):
     def factorize(
         self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
     ) -> Factor:
-        """The same, by thresholds that no run changes: no memory is at hand."""
+        """The same, by thresholds that no run changes: no discrete is at hand."""
         share, size = (Threshold(one.name, one) for one in (share, size))
         return super().factorize(build, jumps, share, size)
 
@@ -95,6 +95,6 @@ def _place(target: Place) -> Place | None:
     match target:
         case Place("a"):
             return target
-        case Place(ASIDE.name, ("power", int() as k)):
+        case Place(RHS.name, ("power", int() as k)):
             return Place("power")[k]
     return None

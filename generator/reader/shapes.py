@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.field import Kind
-from gudgeon.generator.format.sections import SHAPE, SIDES
+from gudgeon.generator.format.sections import BRANCHES, SHAPE
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.mechanism import Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
@@ -59,7 +59,7 @@ def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
     if "sides" not in node:
         return {}
     address, where = f"{address}.sides", node.key("sides").where
-    own = read_fields(reader, node.part("sides"), SIDES.fields, Around(address))
+    own = read_fields(reader, node.part("sides"), BRANCHES.fields, Around(address))
     a, b, c = sides = [own.quantities[name] for name in ("PQ", "QR", "PR")]
     for k, side in enumerate(sides):
         others = " + ".join(other.address for other in (sides[k - 1], sides[k - 2]))

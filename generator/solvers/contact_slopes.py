@@ -19,7 +19,7 @@ from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted
-from gudgeon.generator.ir.signatures import LATCH, PARAMETERS, SIDES, ZERO, Argument, result
+from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, ZERO, Argument, result
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
@@ -37,9 +37,9 @@ OF_CONTOUR = (
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
 DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
-_CLOSED = Test(PlaceSymbol(LATCH["closed"]))
-_STORED = PlaceSymbol(LATCH["deltadot_minus"])
-_FORCE = PlaceSymbol(LATCH["force"])  # of surfaces that do not give
+_CLOSED = Test(PlaceSymbol(CONTACT["closed"]))
+_STORED = PlaceSymbol(CONTACT["deltadot_minus"])
+_FORCE = PlaceSymbol(CONTACT["force"])  # of surfaces that do not give
 
 
 def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
@@ -50,7 +50,7 @@ def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
 def _arguments(clearance: Clearance) -> tuple[Argument, ...]:
     given = (Argument(symbol.name) for symbol in inputs(clearance))
     out = result("out", "ContourSlopes" if clearance.contour else "PinSlopes")
-    return (*given, LATCH, PARAMETERS, *SIDES, out)
+    return (*given, CONTACT, PARAMETERS, *BRANCHES, out)
 
 
 class _Slopes:
@@ -149,7 +149,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     pressed = contact.F_N if clearance.contour else F_n
     rubbed: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        own = [build.local("bent", PlaceSymbol(LATCH["state"][k])) for k in range(len(clearance.states))]
+        own = [build.local("bent", PlaceSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
         for state, base in zip(own, slopes.states, strict=False):
             tangents.know(state, {base: sp.Integer(1)})
         rubbed = slopes.law(clearance.friction, (pressed, contact.v_t, *own))
@@ -196,5 +196,5 @@ def share_slope(model: Model, clearance: Clearance) -> Kernel:
     value = in_place(model, last.value)
     build.out(Place("out")[0], tangents.held(value))
     build.out(Place("out")[1], tangents.gradient(value).get(contact.delta, ZERO))
-    arguments = (Argument(contact.delta.name), PARAMETERS, *SIDES, result("out"))
+    arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, result("out"))
     return build.build(arguments, inline=True)

@@ -27,7 +27,7 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.ir.signatures import ASIDE, MEMORY, Number, acting_on
+from gudgeon.generator.ir.signatures import DISCRETE, RHS, Number, acting_on
 from gudgeon.generator.ir.statements import Call, Declare
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.solvers.pivots import friction_mode
@@ -66,7 +66,7 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.states = self.model.law_states  # of each joint with play, as in C
         self.z = {
-            self._held(f"{c.label}_{state.name}", MEMORY["latch"][i]["state"][k]): i * self.states + k
+            self._held(f"{c.label}_{state.name}", DISCRETE["contact"][i]["state"][k]): i * self.states + k
             for i, c in enumerate(self.model.clearances)
             for k, state in enumerate(c.states)
         }
@@ -76,9 +76,7 @@ class Linearization:
                 self.tangents.know(symbol, {self.t: rate})
         self.parts = Parts()
         self.a = [self._held(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
-        self.multiplier = [
-            self._held(f"held_lambda_{row.name}", ASIDE["lambda"][r]) for r, row in enumerate(system.rows)
-        ]
+        self.multiplier = [self._held(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.rates: list[sp.Expr] = []  # of the inner states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
@@ -108,7 +106,7 @@ class Linearization:
 
     def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """The joint's force as symbols, with their tangents from its own function."""
-        name, build, out = clearance.label, self.build, ASIDE["clearance"][index]
+        name, build, out = clearance.label, self.build, RHS["clearance"][index]
         build.section(f"clearance {clearance.kind} {clearance.name}")
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
@@ -189,7 +187,7 @@ class Linearization:
         for r, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + r, friction.name, self.build
             stick, sign = friction_mode(build, name, r)
-            held = Chosen(Test(stick, "!=", (0.0,)), PlaceSymbol(ASIDE["friction"][r]["force"]), ZERO)
+            held = Chosen(Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][r]["force"]), ZERO)
             force = build.local(f"held_force_{name}", held)
             self.sticks.append(stick)
             self._phi_q(node, friction.jacobian)

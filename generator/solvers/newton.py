@@ -35,8 +35,8 @@ from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Pool, Section, with_sides
-from gudgeon.generator.ir.signatures import ASIDE, MEMORY, PARAMETERS, STATE, Access, Argument, Number, result, source
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Pool, Section, with_branches
+from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, RHS, STATE, Access, Argument, Number, result, source
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Return, RunNumbers, Statement
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
@@ -93,13 +93,13 @@ class Newton:
         build.out(self.lin[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
             *STATE,
-            MEMORY,
+            DISCRETE,
             PARAMETERS,
             source("a"),
-            source(ASIDE.name, ASIDE.type),
+            source(RHS.name, RHS.type),
             self._own_lin(),
         )
-        return with_sides(build.build(arguments, owner="", prune=True))
+        return with_branches(build.build(arguments, owner="", prune=True))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
         """The parts with each value in the pool, once up to its sign."""

@@ -10,7 +10,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.ir.signatures import MEMORY
+from gudgeon.generator.ir.signatures import DISCRETE
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Chosen, Test, Threshold
 
@@ -31,9 +31,9 @@ EARLY = Threshold("EARLY", 1e-5)
 # Share of what turns with an angle that elimination must leave of its entry of M: rounding of accelerations grows by
 # the inverse of its square, 5e-16 for a share of 1.
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
-# The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
-LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, MEMORY["least"])
-LEAST_SIZE = Threshold(VANISHING.name, VANISHING, MEMORY["least_size"])
+# The same two where a run may ask for more: the discrete of a state says how much (engine/motion/continuation.c).
+LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["least"])
+LEAST_SIZE = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Factor:
 
 def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
     """1 in stick and 0 else, and the sign of a slip (0: none)."""
-    place = MEMORY["mode"][index]
+    place = DISCRETE["mode"][index]
     mode = build.local(f"mode_{name}", place, "0 stick, 1 or -1 the sign of the slip, 2 held")
     stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
     return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))

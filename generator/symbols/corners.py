@@ -57,8 +57,8 @@ class PeriodsOf(sp.Function):
     is_real = True
 
 
-class SideOf(sp.Function):
-    """SideOf(k, g): the side of switch k, −1 or 1 (0 only where g is 0 and nothing is held)."""
+class BranchOf(sp.Function):
+    """BranchOf(k, g): the side of switch k, −1 or 1 (0 only where g is 0 and nothing is held)."""
 
     nargs = 2
     is_real = True
@@ -223,7 +223,7 @@ class Switches(Freezable):
                 return sp.sign(g)
             switch, sign = self.side(owner, g)
             symbol = sp.Symbol(f"side_{switch.index}", real=True)
-            sides.setdefault(symbol, SideOf(sp.Integer(switch.index), switch.g))
+            sides.setdefault(symbol, BranchOf(sp.Integer(switch.index), switch.g))
             return sign * symbol
 
         match expression:

@@ -17,10 +17,10 @@ PARAMETERS = "p"  # the argument that holds the parameters of a run
 
 @dataclass(frozen=True)
 class Place:
-    """An argument or local, or a part of it: `Place("aside")["clearance"][0]["Fx"]`.
+    """An argument or local, or a part of it: `Place("rhs")["clearance"][0]["Fx"]`.
 
     `path` has the name of a field, or the number of an element, a step. As a string, by which terms are put in order,
-    the place is `aside.clearance[0].Fx`.
+    the place is `rhs.clearance[0].Fx`.
     """
 
     base: str

@@ -9,7 +9,7 @@ AT_REST: Final = 1e-9
 # enum Status
 AUDITED: Final = -15
 NOT_FOUND: Final = -14
-JAMMED: Final = -13
+FRICTION_INCONSISTENT: Final = -13
 UNBOUNDED: Final = -12
 STALLED: Final = -11
 STOPPED: Final = -10

@@ -275,7 +275,7 @@ class Runs(StoredRuns):
         compiled.lib.newest()
         run = compiled.pointer(memory, "void *")
         while current[0] < end:  # what has begun is handed over even where the batch is ending
-            status = compiled.lib.gudgeon_many(self.struct, run, current, end)
+            status = compiled.lib.gudgeon_ensemble(self.struct, run, current, end)
             if status in (LISTS, RUN_OVER):
                 self.fetch(int(current[0]), run, status == RUN_OVER)
                 if tape:
@@ -303,7 +303,7 @@ class Runs(StoredRuns):
         if tape:
             tape.lay(run)
         asker = Asker(compiled, lambda: self._poll(problem, run))
-        self.struct.ask, self.struct.whom, self.struct.every = asker.arguments
+        self.struct.ask, self.struct.caller, self.struct.every = asker.arguments
 
         def poll() -> None:
             asker.check(False)

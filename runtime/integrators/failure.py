@@ -16,7 +16,7 @@ from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.boundary import (
     AT_REST,
     CHATTERING,
-    JAMMED,
+    FRICTION_INCONSISTENT,
     LOST,
     NOT_FINITE,
     NOT_FOUND,
@@ -37,8 +37,8 @@ from gudgeon.model.contours import widest
 from gudgeon.model.written import of_time, rate_reason, reason, steep_force, trees, unbounded_drive, undefined_here
 
 TOLD = {
-    JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
-    "nearer, or grow beyond all bounds (Painlevé)\n  less friction, or surfaces that give: another normal law",
+    FRICTION_INCONSISTENT: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring "
+    "the surfaces nearer, or grow beyond all bounds (Painlevé)\n  less friction, or surfaces that give: another normal law",
     NOT_FOUND: "the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
     "  a shorter step, or none: then it chooses its own",
 }

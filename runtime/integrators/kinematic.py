@@ -62,9 +62,9 @@ class _Way:
 
     def _course(self) -> NDArray[Any]:
         """A struct of C that follows the motion, or its works."""
-        course = np.zeros(self.compiled.lib.gudgeon_course_size(), dtype=np.uint8)
+        course = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
         size = mechanism_size(self.compiled, self.problem.p)
-        self.compiled.lib.gudgeon_course_begin(
+        self.compiled.lib.gudgeon_kinematic_begin(
             self.pointer(course, "void *"), REACH, size, float(self.t[-1]), *self.asker.arguments
         )
         return course
@@ -162,7 +162,7 @@ class _Way:
         if self.steps:
             self.steps.lay(self.pointer(self.course, "void *"), 0)
         if last > first:
-            self.compiled.lib.gudgeon_course_again(self.pointer(self.course, "void *"))
+            self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.course, "void *"))
             _, failed = self._motion(last - 1, last)
             if failed:
                 raise self._failure(failed)
@@ -196,7 +196,7 @@ class _Way:
     def _pace(self) -> tuple[Array, float, int, int]:
         """Where motion and works are (s); what the last steps gained (s), how many they are, whether they crawl."""
         t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
-        self.compiled.lib.gudgeon_course_pace(
+        self.compiled.lib.gudgeon_kinematic_progress(
             self.pointer(self.course, "void *"), self.pointer(t), self.pointer(gained), self.pointer(steps, "long *")
         )
         return t, float(gained[0]), int(steps[0]), int(steps[1])
@@ -206,7 +206,9 @@ class _Way:
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         rows, first = slice(self.reached + 1), np.zeros(1)
-        passed = self.compiled.lib.gudgeon_course_passed(self.pointer(self.course, "void *"), self.pointer(first))
+        passed = self.compiled.lib.gudgeon_kinematic_interpolated(
+            self.pointer(self.course, "void *"), self.pointer(first)
+        )
         empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
         events, lost = (no_events(), no_events()) if self.events is None else self.events.in_order()
         counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
@@ -251,12 +253,16 @@ def run(problem: Problem) -> Trajectory:
 def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
     """q and q̇ (T, n) at times t (T,), the first of which has the state q, v (n,); NaN where they cannot be found."""
     T, pointer, done = len(t), compiled.pointer, np.zeros(2, dtype=np.int_)
-    course, maxima, a = np.zeros(compiled.lib.gudgeon_course_size(), dtype=np.uint8), np.zeros(2), np.zeros((T, len(q)))
+    course, maxima, a = (
+        np.zeros(compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8),
+        np.zeros(2),
+        np.zeros((T, len(q))),
+    )
     every_q, every_v = np.full((T, len(q)), np.nan), np.full((T, len(q)), np.nan)
     every_q[0], every_v[0] = q, v
     where, null = pointer(course, "void *", True), compiled.ffi.NULL
     size = mechanism_size(compiled, p)
-    compiled.lib.gudgeon_course_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
+    compiled.lib.gudgeon_kinematic_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
     compiled.lib.gudgeon_kinematic(
         where,
         T - 1,

@@ -1,7 +1,7 @@
 """States along a run, for whoever looks at every step: the ends of steps and places between them, block by block.
 
-The time loops in C write them into rows (engine/run/tape.c) and come back where these are full; whoever looks has them
-before the loop goes on, and nothing is kept. A run at which nobody looks has no rows.
+The time loops in C write the states into rows (engine/run/step_record.c) and return when the rows are full. An observer
+reads the rows before the loop continues. A run without observers has no rows.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ class Tape:
 
     def lay(self, run: Any) -> None:
         """A run that is about to begin writes here."""
-        self.compiled.lib.gudgeon_run_tape(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
+        self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
 
     def fetch(self, run: Any) -> None:
         """Hands on what the run has written since the last time."""
-        count = int(self.compiled.lib.gudgeon_run_taped(run))
+        count = int(self.compiled.lib.gudgeon_run_recorded(run))
         if count and self.look:
             self.look(self._steps(self.rows[:count].copy()))
 
@@ -115,11 +115,11 @@ class Course:
     def lay(self, course: Any, rows: int = ROWS) -> None:
         """The motion writes here from now on; 0 rows: no longer."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
-        lib.gudgeon_course_tape(course, where if rows else self.compiled.ffi.NULL, rows)
+        lib.gudgeon_kinematic_record(course, where if rows else self.compiled.ffi.NULL, rows)
 
     def fetch(self, course: Any) -> None:
         """Takes what was written since the last time."""
-        count = int(self.compiled.lib.gudgeon_course_taped(course))
+        count = int(self.compiled.lib.gudgeon_kinematic_recorded(course))
         if count:
             self.waiting.append(self.rows[:count].copy())
 

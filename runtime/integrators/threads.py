@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
 
 PORTION = 16  # runs handed out at once, at most
-GLANCE = 0.05  # s between two looks of the waiting thread
+POLL_INTERVAL_S = 0.05  # s between two looks of the waiting thread
 
 
 def available_threads() -> int:
@@ -32,7 +32,7 @@ def wait_for(
 ) -> None:
     """Wait for all; raise Ctrl-C and what one of them raises. `fraction` of the work done, if so many still wait."""
     while waiting:
-        ended, waiting = wait(waiting, GLANCE)
+        ended, waiting = wait(waiting, POLL_INTERVAL_S)
         ctrl_c.take()
         for future in ended:
             future.result()

@@ -1,4 +1,4 @@
-"""Whether a run is still wanted: Ctrl-C and progress while its loop is in C (engine/run/asked.c).
+"""Whether a run is still wanted: Ctrl-C and progress while its loop is in C (engine/run/cancellation.c).
 
 C asks each EVERY seconds, wherever it is, and gives up what it is at when told so.
 

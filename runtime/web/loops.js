@@ -196,13 +196,13 @@ class Way {
         this.maxima = memory.numbers(2);
         this.longs = memory.bytes(8);
         this.side = memory.bytes(sim.about.events.length);
-        this.course = memory.bytes(lib.gudgeon_course_size());
+        this.course = memory.bytes(lib.gudgeon_kinematic_size());
         this.row_size = 1 + 2 * n;
         this.tape = memory.numbers(AT_ONCE * this.row_size);
         const {q, v} = run.begin();
         memory.view(this.q, n).set(q);
         memory.view(this.v, n).set(v);
-        lib.gudgeon_course_begin(this.course, sim.about.reach, sim.size, this.t_end, 0, 0, 1);
+        lib.gudgeon_kinematic_begin(this.course, sim.about.reach, sim.size, this.t_end, 0, 0, 1);
     }
 
     /* Places of a row: time, q, v. */
@@ -211,11 +211,11 @@ class Way {
     /* Rows up to `last`: the last one that was reached, and why no further; not one where the next is far away. */
     motion(first, last, room = AT_ONCE) {
         const [t, q, v] = this.row(first), a = this.a + 8 * first * this.n, {lib, course} = this;
-        lib.gudgeon_course_tape(course, room && this.tape, room);
+        lib.gudgeon_kinematic_record(course, room && this.tape, room);
         const status = lib.gudgeon_kinematic(course, last - first, t, this.p, q, v, a, this.maxima, this.maxima + 8,
             this.longs, this.longs + 4);
         const moved = first + this.memory.longs(this.longs, 2)[1], full = status === EVENTS_FULL;
-        if (full && moved > first) lib.gudgeon_course_again(course); // from there, as if it had gone no further
+        if (full && moved > first) lib.gudgeon_kinematic_restart(course); // from there, as if it had gone no further
         return [moved, full ? 0 : status];
     }
 
@@ -297,7 +297,7 @@ class Way {
         this.t = Float64Array.of(...this.t.subarray(0, last), t_end);
         this.memory.view(this.times, last + 1)[last] = t_end;
         if (last === first) return last;
-        this.lib.gudgeon_course_again(this.course);
+        this.lib.gudgeon_kinematic_restart(this.course);
         const [, status] = this.motion(last - 1, last, 0);
         if (status) throw failure(this.run, status, KINEMATIC_TOLD, this.sim.about.start_pivots, t_end);
         return last;
@@ -307,7 +307,7 @@ class Way {
     reached(which) {
         return within(this.lib, (memory) => {
             const t = memory.numbers(2);
-            this.lib.gudgeon_course_pace(this.course, t, memory.numbers(1), memory.bytes(8));
+            this.lib.gudgeon_kinematic_progress(this.course, t, memory.numbers(1), memory.bytes(8));
             return memory.view(t, 2)[which];
         });
     }

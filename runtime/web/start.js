@@ -76,7 +76,7 @@ class Start {
         const {lib, n} = this, size = this.sim.sizeOf(numbers);
         return within(lib, (memory) => {
             const [q, v] = [memory.numbers(n, from), memory.numbers(n)];
-            const status = lib.gudgeon_follow(0, memory.numbers(numbers.length, numbers), size, q, v);
+            const status = lib.gudgeon_continuation(0, memory.numbers(numbers.length, numbers), size, q, v);
             const found = {q: memory.copy(q, n), v: memory.copy(v, n), moving: status === 0};
             const near = found.q.every((x, k) => Math.abs(x - from[k]) < NEAR * (k % 3 === 2 ? 1 : size));
             return status !== 1 && near ? found : null;

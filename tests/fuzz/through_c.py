@@ -44,9 +44,9 @@ int fuzz_both(double t, const double *s, const double *rate, const double *memor
     double *tree_a, double *q, double *v, double *all_a, double *tree_event, double *all_event, double *rescued)
 {
     const Parameters *p = (const Parameters *)parameters;
-    Memory now = {0};
-    Aside tree, all;
-    read_memory(memory, &now);
+    DiscreteState now = {0};
+    RhsOutputs tree, all;
+    read_discrete_state(memory, &now);
     %s
     expand(t, %s, p, q, v);
     int failed = reduced_dynamics(t, %s, &now, p, tree_a, &tree);

@@ -70,7 +70,7 @@ def test_declarations_that_are_being_edited_are_parsed(monkeypatch: pytest.Monke
         monkeypatch.undo()
         library._engines.cache_clear()
     assert parsed.ffi is not declared.ffi and compiled.ffi is declared.ffi
-    for name in ("gudgeon_many", "gudgeon_evaluate"):
+    for name in ("gudgeon_ensemble", "gudgeon_evaluate"):
         kept, told = (each.ffi.typeof(getattr(each.lib, name)).cname for each in (compiled, parsed))
         assert kept == told
 

@@ -94,17 +94,17 @@ static void joint_with_play(const Press *p, const double *q, const double *v, in
     const double n[2] = { e > 1e-12 ? ex / e : 1.0, e > 1e-12 ? ey / e : 0.0 }, t[2] = { -n[1], n[0] };
     const double vn = ux * n[0] + uy * n[1], vt = ux * t[0] + uy * t[1], delta = e - p->clearance;
     double fr = 0.0, ft = 0.0;               /* film: acts at the journal's centre on both bodies */
-    double fn = 0.0, fs = 0.0, ri = 0.0, rj = 0.0, ratio = 1.0, share = 0.0;
+    double fn = 0.0, fs = 0.0, ri = 0.0, rj = 0.0, ratio = 1.0, fraction = 0.0;
     if (delta > 0.0) dry_force(p, e, n, t, vn, vt, wi, wj, stored, &fn, &fs, &ri, &rj, &ratio);
     if (p->film != 0.0) {
-        share = delta <= 0.0 ? 0.0 : delta >= p->transition ? 1.0 : delta / p->transition;
+        fraction = delta <= 0.0 ? 0.0 : delta >= p->transition ? 1.0 : delta / p->transition;
         if (e > 1e-12) film_force(p, e, vn, vt, wi, wj, &fr, &ft);
         else {
             const double c = p->clearance, R = p->radius - c;
             const double B = M_PI * 6.0 * p->viscosity * R * R * R * p->width / (c * c * c);
             fr = -B * vn; ft = -B * vt;
         }
-        fr *= 1.0 - share; ft *= 1.0 - share; fn *= share; fs *= share;
+        fr *= 1.0 - fraction; ft *= 1.0 - fraction; fn *= fraction; fs *= fraction;
     }
     const double filmx = fr * n[0] + ft * t[0], filmy = fr * n[1] + ft * t[1];
     const double dryx = -fn * n[0] + fs * t[0], dryy = -fn * n[1] + fs * t[1];

@@ -24,7 +24,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import lanes
-from gudgeon.integrators.threads import GLANCE
+from gudgeon.integrators.threads import POLL_INTERVAL_S
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.model import evaluation
@@ -344,4 +344,4 @@ def test_an_end_that_nobody_lives_to_see(simulation: str) -> None:
 
 def test_glances_are_short() -> None:
     """Ctrl-C is answered within half a second: these are the longest waits that are built in."""
-    assert max(asking.EVERY, GLANCE) <= 0.1
+    assert max(asking.EVERY, POLL_INTERVAL_S) <= 0.1

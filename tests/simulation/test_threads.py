@@ -79,11 +79,11 @@ def many(options: dict[str, Any]) -> Callable[[Simulation], object]:
 
 
 CASES = [
-    ("dry", simulate({"method": "rk4", "step": 2e-6}), "gudgeon_many"),
-    ("dry", simulate({"method": "dop853", "rtol": 1e-9}), "gudgeon_many"),
+    ("dry", simulate({"method": "rk4", "step": 2e-6}), "gudgeon_ensemble"),
+    ("dry", simulate({"method": "dop853", "rtol": 1e-9}), "gudgeon_ensemble"),
     ("ideal", simulate({}), "gudgeon_kinematic"),
     ("dry", simulate({}), "gudgeon_evaluate"),
-    ("dry", many({"rtol": 1e-9}), "gudgeon_many"),
+    ("dry", many({"rtol": 1e-9}), "gudgeon_ensemble"),
     ("dry", many({"rtol": 1e-9}), "gudgeon_evaluate"),
     ("dry", many({"rtol": 1e-9, "keep": ["S9.ay", "energy.kinetic"]}), "gudgeon_evaluate"),
 ]

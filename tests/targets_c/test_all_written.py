@@ -25,18 +25,18 @@ MECHANISMS = Path(gudgeon.__file__).resolve().parents[1] / "mechanisms"
 FILES = (*sorted(MECHANISMS.glob("*.yaml")), *sorted((MECHANISMS / "gallery").glob("*.yaml")))
 OWN = Path(__file__).parent / "watched"
 DEFINED = re.compile(r"^[\w ()]*?(?:int|void|double)\s+(\w+)\([^{;]*?\)\n\{\n(.*?)^\}", re.MULTILINE | re.DOTALL)
-ASSIGNED = re.compile(r"(?<![\w.>])((?:aside->|lin->)?\w+)\[(\d+)\](?:\.\w+)* =(?!=)")
-RESULT = re.compile(r"&(aside->\w+)\[(\d+)\]")  # of a call
+ASSIGNED = re.compile(r"(?<![\w.>])((?:rhs->|lin->)?\w+)\[(\d+)\](?:\.\w+)* =(?!=)")
+RESULT = re.compile(r"&(rhs->\w+)\[(\d+)\]")  # of a call
 SWITCH, JOINT = (
-    re.compile(r"side_of\(side,\s+g,\s+(\d+),"),
+    re.compile(r"branch_of\(branch,\s+g,\s+(\d+),"),
     re.compile(r"for \(int k = (\d+); k < (\d+); k\+\+\)\s+g\[k\]"),
 )
 RIGHT_HAND_SIDE = {
     "a": "N_Q",
-    "aside->power": "3",
-    "aside->event": "N_USER_EVENTS",
-    "aside->clearance": "N_CLEARANCES",
-    "aside->friction": "N_FRICTIONS",
+    "rhs->power": "3",
+    "rhs->event": "N_USER_EVENTS",
+    "rhs->clearance": "N_CLEARANCES",
+    "rhs->friction": "N_FRICTIONS",
 }
 ABSOLUTE = {"all_q": "N_Q", "all_v": "N_Q"}
 FILLED: Mapping[str, Mapping[str, str]] = {
@@ -46,8 +46,8 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "acceleration_rhs": {"gamma_rows": "N_ALL_ROWS"},
     "start_values": {"guess": "N_GUESS", "set": "N_SET", "rates": "N_RATES + N_APART"},
     "outputs": {"torques": "N_DRIVES", "series": "N_SERIES"},
-    "dynamics": RIGHT_HAND_SIDE | {"aside->lambda": "N_ROWS", "aside->phi": "N_ROWS", "aside->phi_dot": "N_ROWS"},
-    "reduced_dynamics": RIGHT_HAND_SIDE | {"a": "N_X", "aside->lambda": "N_LOOPS"},
+    "dynamics": RIGHT_HAND_SIDE | {"rhs->lambda": "N_ROWS", "rhs->phi": "N_ROWS", "rhs->phi_dot": "N_ROWS"},
+    "reduced_dynamics": RIGHT_HAND_SIDE | {"a": "N_X", "rhs->lambda": "N_LOOPS"},
     "expand": ABSOLUTE,
     "reduce_state": {"s": "N_X + N_CHAIN", "s_rate": "N_X + N_CHAIN"},
     "reduce_accelerations": {"a": "N_X"},
@@ -65,7 +65,7 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "arrive": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
     "project": {"x": "N_Q"},
     "time_terms": {"out": "N_TERMS"},
-    "watched_functions": {"aside->event": "N_USER_EVENTS"},
+    "watched_functions": {"rhs->event": "N_USER_EVENTS"},
     "watched_ranges": {"out": "N_WATCHED"},
 }
 
@@ -116,15 +116,15 @@ class Emitted:
         idle = re.search(r"short idle\[\] = \{([^}]*)\}", self.header)
         joints |= {int(k) for k in idle[1].split(",")} if idle else set()  # NaN in motion()
         told = joints | {
-            int(k) for name in (main, "chain_corners") if name in self.bodies for k in SWITCH.findall(self.body(name))
+            int(k) for name in (main, "loop_switches") if name in self.bodies for k in SWITCH.findall(self.body(name))
         }
         if left := sorted(set(range(count)) - told):
-            yield f"{main}: aside->g{left} of N_SWITCHES"
+            yield f"{main}: rhs->g{left} of N_SWITCHES"
         own = {k - first for k in self.watched if first <= k < first + count} if self.sizes["N_WATCHED"] else set()
         if "watched_functions" in self.bodies:
-            assigned = {int(k) for array, k in ASSIGNED.findall(self.body("watched_functions")) if array == "aside->g"}
+            assigned = {int(k) for array, k in ASSIGNED.findall(self.body("watched_functions")) if array == "rhs->g"}
             if left := sorted(own - assigned):
-                yield f"watched_functions: aside->g{left} of N_WATCHED"
+                yield f"watched_functions: rhs->g{left} of N_WATCHED"
 
 
 def check(data: bytes, name: str, scene: str, formulation: str) -> None:

@@ -75,7 +75,7 @@ static int go(const double *p, const double *y)
         q[k] = y[k];
         v[k] = y[N_Q + k];
     }
-    gudgeon_course_begin(&course, 0.05, 0.1, t[100], NULL, NULL, 0.0);
+    gudgeon_kinematic_begin(&course, 0.05, 0.1, t[100], NULL, NULL, 0.0);
     const int status = gudgeon_kinematic(&course, 100, t, p, q, v, a, &phi, &phi_dot, &steps, &done);
     return status ? status : gudgeon_kinematic_works(&course, 100, t, p, q, v, work, &done);
 }

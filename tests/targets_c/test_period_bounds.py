@@ -17,11 +17,11 @@ _TEXT = """#include <float.h>
 enum { RATE_JUMPS = 0 };
 #include "engine/scene/numbers.h"
 #include "engine/watch/ranges.h"
-double value(double a, double b, double side) { return side == 2.0 ? period_side(a, b) : mod_on(a, b, side); }
+double value(double a, double b, double side) { return side == 2.0 ? period_branch(a, b) : mod_on(a, b, side); }
 void bounds(double lo, double hi, double b, double side, double *out)
 {
     const Range a = {lo, hi, 1.0, 1.0, 0};
-    const Range y = side == 2.0 ? range_period_side(a, only(b)) : range_mod_on(a, only(b), only(side));
+    const Range y = side == 2.0 ? range_period_branch(a, only(b)) : range_mod_on(a, only(b), only(side));
     out[0] = y.lo, out[1] = y.hi, out[2] = y.down, out[3] = y.up;
 }
 """

@@ -68,7 +68,7 @@ def test_a_row_lights_its_lines_with_the_run_s_values(typed: tuple[Opened, Resul
         stored = [(file, text, value) for file, text, value in lines if STORES.match(text)]
         assert len(stored) > 10 and all(value for _, _, value in stored), row
         of = {text.split(" = ")[0].split()[-1]: number(value) for _, text, value in stored if value}
-        assert of[f"aside->lambda[{k}]"] == pytest.approx(run[f"lambda.{row.name}"][SAMPLE], rel=1e-4)
+        assert of[f"rhs->lambda[{k}]"] == pytest.approx(run[f"lambda.{row.name}"][SAMPLE], rel=1e-4)
         entries = [of[name] for name in of if name.startswith("phi_q[")]
         assert sorted(entries) == pytest.approx(sorted(phi_q[k][np.flatnonzero(phi_q[k])]), rel=1e-4)
         assert any(x == pytest.approx(gamma[k], rel=1e-4) for name, x in of.items() if name.startswith("gamma_rows["))

@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double OF_x_ = q[0];
@@ -109,122 +109,122 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_O_x_ = OF_omega_*arm_OF_O_y_ - OF_vx_;
     const double rhs_O_x_ = -(OF_omega_ * OF_omega_)*arm_OF_O_x_ - p->beta_squared_*phi_O_x_
         - phi_dot_O_x_*p->two_alpha_;
-    aside->phi[0] = phi_O_x_;
-    aside->phi_dot[0] = phi_dot_O_x_;
+    rhs->phi[0] = phi_O_x_;
+    rhs->phi_dot[0] = phi_dot_O_x_;
     const double phi_O_y_ = -OF_y_ - arm_OF_O_y_;
     const double phi_dot_O_y_ = -OF_omega_*arm_OF_O_x_ - OF_vy_;
     const double rhs_O_y_ = -(OF_omega_ * OF_omega_)*arm_OF_O_y_ - p->beta_squared_*phi_O_y_
         - phi_dot_O_y_*p->two_alpha_;
-    aside->phi[1] = phi_O_y_;
-    aside->phi_dot[1] = phi_dot_O_y_;
+    rhs->phi[1] = phi_O_y_;
+    rhs->phi_dot[1] = phi_dot_O_y_;
     const double phi_B_x_ = -BDE_x_ + p->B_x_ - arm_BDE_B_x_;
     const double phi_dot_B_x_ = BDE_omega_*arm_BDE_B_y_ - BDE_vx_;
     const double rhs_B_x_ = -(BDE_omega_ * BDE_omega_)*arm_BDE_B_x_ - p->beta_squared_*phi_B_x_
         - phi_dot_B_x_*p->two_alpha_;
-    aside->phi[2] = phi_B_x_;
-    aside->phi_dot[2] = phi_dot_B_x_;
+    rhs->phi[2] = phi_B_x_;
+    rhs->phi_dot[2] = phi_dot_B_x_;
     const double phi_B_y_ = -BDE_y_ + p->B_y_ - arm_BDE_B_y_;
     const double phi_dot_B_y_ = -BDE_omega_*arm_BDE_B_x_ - BDE_vy_;
     const double rhs_B_y_ = -(BDE_omega_ * BDE_omega_)*arm_BDE_B_y_ - p->beta_squared_*phi_B_y_
         - phi_dot_B_y_*p->two_alpha_;
-    aside->phi[3] = phi_B_y_;
-    aside->phi_dot[3] = phi_dot_B_y_;
+    rhs->phi[3] = phi_B_y_;
+    rhs->phi_dot[3] = phi_dot_B_y_;
     const double phi_A5_x_ = -AG_x_ + p->A_x_ - arm_AG_A_x_;
     const double phi_dot_A5_x_ = AG_omega_*arm_AG_A_y_ - AG_vx_;
     const double rhs_A5_x_ = -(AG_omega_ * AG_omega_)*arm_AG_A_x_ - p->beta_squared_*phi_A5_x_
         - phi_dot_A5_x_*p->two_alpha_;
-    aside->phi[4] = phi_A5_x_;
-    aside->phi_dot[4] = phi_dot_A5_x_;
+    rhs->phi[4] = phi_A5_x_;
+    rhs->phi_dot[4] = phi_dot_A5_x_;
     const double phi_A5_y_ = -AG_y_ + p->A_y_ - arm_AG_A_y_;
     const double phi_dot_A5_y_ = -AG_omega_*arm_AG_A_x_ - AG_vy_;
     const double rhs_A5_y_ = -(AG_omega_ * AG_omega_)*arm_AG_A_y_ - p->beta_squared_*phi_A5_y_
         - phi_dot_A5_y_*p->two_alpha_;
-    aside->phi[5] = phi_A5_y_;
-    aside->phi_dot[5] = phi_dot_A5_y_;
+    rhs->phi[5] = phi_A5_y_;
+    rhs->phi_dot[5] = phi_dot_A5_y_;
     const double phi_A7_x_ = -AH_x_ + p->A_x_ - arm_AH_A_x_;
     const double phi_dot_A7_x_ = AH_omega_*arm_AH_A_y_ - AH_vx_;
     const double rhs_A7_x_ = -(AH_omega_ * AH_omega_)*arm_AH_A_x_ - p->beta_squared_*phi_A7_x_
         - phi_dot_A7_x_*p->two_alpha_;
-    aside->phi[6] = phi_A7_x_;
-    aside->phi_dot[6] = phi_dot_A7_x_;
+    rhs->phi[6] = phi_A7_x_;
+    rhs->phi_dot[6] = phi_dot_A7_x_;
     const double phi_A7_y_ = -AH_y_ + p->A_y_ - arm_AH_A_y_;
     const double phi_dot_A7_y_ = -AH_omega_*arm_AH_A_x_ - AH_vy_;
     const double rhs_A7_y_ = -(AH_omega_ * AH_omega_)*arm_AH_A_y_ - p->beta_squared_*phi_A7_y_
         - phi_dot_A7_y_*p->two_alpha_;
-    aside->phi[7] = phi_A7_y_;
-    aside->phi_dot[7] = phi_dot_A7_y_;
+    rhs->phi[7] = phi_A7_y_;
+    rhs->phi_dot[7] = phi_dot_A7_y_;
     const double phi_F_x_ = -FE_x_ + OF_x_ - arm_FE_F_x_ + arm_OF_F_x_;
     const double phi_dot_F_x_ = FE_omega_*arm_FE_F_y_ - FE_vx_ - OF_omega_*arm_OF_F_y_ + OF_vx_;
     const double rhs_F_x_ = -(FE_omega_ * FE_omega_)*arm_FE_F_x_ + (OF_omega_ * OF_omega_)*arm_OF_F_x_
         - p->beta_squared_*phi_F_x_ - phi_dot_F_x_*p->two_alpha_;
-    aside->phi[8] = phi_F_x_;
-    aside->phi_dot[8] = phi_dot_F_x_;
+    rhs->phi[8] = phi_F_x_;
+    rhs->phi_dot[8] = phi_dot_F_x_;
     const double phi_F_y_ = -FE_y_ + OF_y_ - arm_FE_F_y_ + arm_OF_F_y_;
     const double phi_dot_F_y_ = -FE_omega_*arm_FE_F_x_ - FE_vy_ + OF_omega_*arm_OF_F_x_ + OF_vy_;
     const double rhs_F_y_ = -(FE_omega_ * FE_omega_)*arm_FE_F_y_ + (OF_omega_ * OF_omega_)*arm_OF_F_y_
         - p->beta_squared_*phi_F_y_ - phi_dot_F_y_*p->two_alpha_;
-    aside->phi[9] = phi_F_y_;
-    aside->phi_dot[9] = phi_dot_F_y_;
+    rhs->phi[9] = phi_F_y_;
+    rhs->phi_dot[9] = phi_dot_F_y_;
     const double phi_E3_x_ = -BDE_x_ + FE_x_ - arm_BDE_E_x_ + arm_FE_E_x_;
     const double phi_dot_E3_x_ = BDE_omega_*arm_BDE_E_y_ - BDE_vx_ - FE_omega_*arm_FE_E_y_ + FE_vx_;
     const double rhs_E3_x_ = -(BDE_omega_ * BDE_omega_)*arm_BDE_E_x_ + (FE_omega_ * FE_omega_)*arm_FE_E_x_
         - p->beta_squared_*phi_E3_x_ - phi_dot_E3_x_*p->two_alpha_;
-    aside->phi[10] = phi_E3_x_;
-    aside->phi_dot[10] = phi_dot_E3_x_;
+    rhs->phi[10] = phi_E3_x_;
+    rhs->phi_dot[10] = phi_dot_E3_x_;
     const double phi_E3_y_ = -BDE_y_ + FE_y_ - arm_BDE_E_y_ + arm_FE_E_y_;
     const double phi_dot_E3_y_ = -BDE_omega_*arm_BDE_E_x_ - BDE_vy_ + FE_omega_*arm_FE_E_x_ + FE_vy_;
     const double rhs_E3_y_ = -(BDE_omega_ * BDE_omega_)*arm_BDE_E_y_ + (FE_omega_ * FE_omega_)*arm_FE_E_y_
         - p->beta_squared_*phi_E3_y_ - phi_dot_E3_y_*p->two_alpha_;
-    aside->phi[11] = phi_E3_y_;
-    aside->phi_dot[11] = phi_dot_E3_y_;
+    rhs->phi[11] = phi_E3_y_;
+    rhs->phi_dot[11] = phi_dot_E3_y_;
     const double phi_E4_x_ = -EG_x_ + FE_x_ - arm_EG_E_x_ + arm_FE_E_x_;
     const double phi_dot_E4_x_ = EG_omega_*arm_EG_E_y_ - EG_vx_ - FE_omega_*arm_FE_E_y_ + FE_vx_;
     const double rhs_E4_x_ = -(EG_omega_ * EG_omega_)*arm_EG_E_x_ + (FE_omega_ * FE_omega_)*arm_FE_E_x_
         - p->beta_squared_*phi_E4_x_ - phi_dot_E4_x_*p->two_alpha_;
-    aside->phi[12] = phi_E4_x_;
-    aside->phi_dot[12] = phi_dot_E4_x_;
+    rhs->phi[12] = phi_E4_x_;
+    rhs->phi_dot[12] = phi_dot_E4_x_;
     const double phi_E4_y_ = -EG_y_ + FE_y_ - arm_EG_E_y_ + arm_FE_E_y_;
     const double phi_dot_E4_y_ = -EG_omega_*arm_EG_E_x_ - EG_vy_ + FE_omega_*arm_FE_E_x_ + FE_vy_;
     const double rhs_E4_y_ = -(EG_omega_ * EG_omega_)*arm_EG_E_y_ + (FE_omega_ * FE_omega_)*arm_FE_E_y_
         - p->beta_squared_*phi_E4_y_ - phi_dot_E4_y_*p->two_alpha_;
-    aside->phi[13] = phi_E4_y_;
-    aside->phi_dot[13] = phi_dot_E4_y_;
+    rhs->phi[13] = phi_E4_y_;
+    rhs->phi_dot[13] = phi_dot_E4_y_;
     const double phi_E6_x_ = FE_x_ - HE_x_ + arm_FE_E_x_ - arm_HE_E_x_;
     const double phi_dot_E6_x_ = -FE_omega_*arm_FE_E_y_ + FE_vx_ + HE_omega_*arm_HE_E_y_ - HE_vx_;
     const double rhs_E6_x_ = (FE_omega_ * FE_omega_)*arm_FE_E_x_ - (HE_omega_ * HE_omega_)*arm_HE_E_x_
         - p->beta_squared_*phi_E6_x_ - phi_dot_E6_x_*p->two_alpha_;
-    aside->phi[14] = phi_E6_x_;
-    aside->phi_dot[14] = phi_dot_E6_x_;
+    rhs->phi[14] = phi_E6_x_;
+    rhs->phi_dot[14] = phi_dot_E6_x_;
     const double phi_E6_y_ = FE_y_ - HE_y_ + arm_FE_E_y_ - arm_HE_E_y_;
     const double phi_dot_E6_y_ = FE_omega_*arm_FE_E_x_ + FE_vy_ - HE_omega_*arm_HE_E_x_ - HE_vy_;
     const double rhs_E6_y_ = (FE_omega_ * FE_omega_)*arm_FE_E_y_ - (HE_omega_ * HE_omega_)*arm_HE_E_y_
         - p->beta_squared_*phi_E6_y_ - phi_dot_E6_y_*p->two_alpha_;
-    aside->phi[15] = phi_E6_y_;
-    aside->phi_dot[15] = phi_dot_E6_y_;
+    rhs->phi[15] = phi_E6_y_;
+    rhs->phi_dot[15] = phi_dot_E6_y_;
     const double phi_G_x_ = -AG_x_ + EG_x_ - arm_AG_G_x_ + arm_EG_G_x_;
     const double phi_dot_G_x_ = AG_omega_*arm_AG_G_y_ - AG_vx_ - EG_omega_*arm_EG_G_y_ + EG_vx_;
     const double rhs_G_x_ = -(AG_omega_ * AG_omega_)*arm_AG_G_x_ + (EG_omega_ * EG_omega_)*arm_EG_G_x_
         - p->beta_squared_*phi_G_x_ - phi_dot_G_x_*p->two_alpha_;
-    aside->phi[16] = phi_G_x_;
-    aside->phi_dot[16] = phi_dot_G_x_;
+    rhs->phi[16] = phi_G_x_;
+    rhs->phi_dot[16] = phi_dot_G_x_;
     const double phi_G_y_ = -AG_y_ + EG_y_ - arm_AG_G_y_ + arm_EG_G_y_;
     const double phi_dot_G_y_ = -AG_omega_*arm_AG_G_x_ - AG_vy_ + EG_omega_*arm_EG_G_x_ + EG_vy_;
     const double rhs_G_y_ = -(AG_omega_ * AG_omega_)*arm_AG_G_y_ + (EG_omega_ * EG_omega_)*arm_EG_G_y_
         - p->beta_squared_*phi_G_y_ - phi_dot_G_y_*p->two_alpha_;
-    aside->phi[17] = phi_G_y_;
-    aside->phi_dot[17] = phi_dot_G_y_;
+    rhs->phi[17] = phi_G_y_;
+    rhs->phi_dot[17] = phi_dot_G_y_;
     const double phi_H_x_ = -AH_x_ + HE_x_ - arm_AH_H_x_ + arm_HE_H_x_;
     const double phi_dot_H_x_ = AH_omega_*arm_AH_H_y_ - AH_vx_ - HE_omega_*arm_HE_H_y_ + HE_vx_;
     const double rhs_H_x_ = -(AH_omega_ * AH_omega_)*arm_AH_H_x_ + (HE_omega_ * HE_omega_)*arm_HE_H_x_
         - p->beta_squared_*phi_H_x_ - phi_dot_H_x_*p->two_alpha_;
-    aside->phi[18] = phi_H_x_;
-    aside->phi_dot[18] = phi_dot_H_x_;
+    rhs->phi[18] = phi_H_x_;
+    rhs->phi_dot[18] = phi_dot_H_x_;
     const double phi_H_y_ = -AH_y_ + HE_y_ - arm_AH_H_y_ + arm_HE_H_y_;
     const double phi_dot_H_y_ = -AH_omega_*arm_AH_H_x_ - AH_vy_ + HE_omega_*arm_HE_H_x_ + HE_vy_;
     const double rhs_H_y_ = -(AH_omega_ * AH_omega_)*arm_AH_H_y_ + (HE_omega_ * HE_omega_)*arm_HE_H_y_
         - p->beta_squared_*phi_H_y_ - phi_dot_H_y_*p->two_alpha_;
-    aside->phi[19] = phi_H_y_;
-    aside->phi_dot[19] = phi_dot_H_y_;
+    rhs->phi[19] = phi_H_y_;
+    rhs->phi_dot[19] = phi_dot_H_y_;
 
     /* L D L^T of the KKT matrix */
     const double l_HE_theta_H_y_ = -p->HE_mass_*arm_HE_H_x_;
@@ -392,11 +392,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_E3_x_E3_y_ = l_E3_y_BDE_theta_*w_E3_x_BDE_theta_ + l_E3_y_FE_theta_*w_E3_x_FE_theta_
         + l_E3_y_OF_theta_*w_E3_x_OF_theta_;
     const double determinant_E3_x_E3_y_ = -(pivot_E3_x_E3_y_ * pivot_E3_x_E3_y_) + scale_E3_x_*scale_E3_y_;
-    if (!(scale_E3_x_ > memory->least * size_E3_x_)) {
+    if (!(scale_E3_x_ > discrete->least * size_E3_x_)) {
         pivot = 15;
         goto dependent;
     }
-    if (!(determinant_E3_x_E3_y_ > memory->least * size_E3_y_ * scale_E3_x_)) {
+    if (!(determinant_E3_x_E3_y_ > discrete->least * size_E3_y_ * scale_E3_x_)) {
         pivot = 16;
         goto dependent;
     }
@@ -432,11 +432,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_E4_y_E3_y_*w_E4_x_E3_y_ + l_E4_y_EG_theta_*w_E4_x_EG_theta_ + l_E4_y_FE_theta_*w_E4_x_FE_theta_
         + l_E4_y_OF_theta_*w_E4_x_OF_theta_;
     const double determinant_E4_x_E4_y_ = pivot_E4_x_*pivot_E4_y_ - (pivot_E4_x_E4_y_ * pivot_E4_x_E4_y_);
-    if (!(pivot_E4_x_ > memory->least * size_E4_x_)) {
+    if (!(pivot_E4_x_ > discrete->least * size_E4_x_)) {
         pivot = 17;
         goto dependent;
     }
-    if (!(determinant_E4_x_E4_y_ > memory->least * size_E4_y_ * pivot_E4_x_)) {
+    if (!(determinant_E4_x_E4_y_ > discrete->least * size_E4_y_ * pivot_E4_x_)) {
         pivot = 18;
         goto dependent;
     }
@@ -470,11 +470,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_E6_y_E3_y_*w_E6_x_E3_y_ + l_E6_y_E4_x_*w_E6_x_E4_x_ + l_E6_y_E4_y_*w_E6_x_E4_y_
         + l_E6_y_FE_theta_*w_E6_x_FE_theta_ + l_E6_y_HE_theta_*w_E6_x_HE_theta_ + l_E6_y_OF_theta_*w_E6_x_OF_theta_;
     const double determinant_E6_x_E6_y_ = pivot_E6_x_*pivot_E6_y_ - (pivot_E6_x_E6_y_ * pivot_E6_x_E6_y_);
-    if (!(pivot_E6_x_ > memory->least * size_E6_x_)) {
+    if (!(pivot_E6_x_ > discrete->least * size_E6_x_)) {
         pivot = 19;
         goto dependent;
     }
-    if (!(determinant_E6_x_E6_y_ > memory->least * size_E6_y_ * pivot_E6_x_)) {
+    if (!(determinant_E6_x_E6_y_ > discrete->least * size_E6_y_ * pivot_E6_x_)) {
         pivot = 20;
         goto dependent;
     }
@@ -626,31 +626,31 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[18] = acceleration_AH_x_;
     a[19] = acceleration_AH_y_;
     a[20] = acceleration_AH_theta_;
-    aside->lambda[0] = lambda_O_x_;
-    aside->lambda[1] = lambda_O_y_;
-    aside->lambda[2] = lambda_B_x_;
-    aside->lambda[3] = lambda_B_y_;
-    aside->lambda[4] = lambda_A5_x_;
-    aside->lambda[5] = lambda_A5_y_;
-    aside->lambda[6] = lambda_A7_x_;
-    aside->lambda[7] = lambda_A7_y_;
-    aside->lambda[8] = lambda_F_x_;
-    aside->lambda[9] = lambda_F_y_;
-    aside->lambda[10] = lambda_E3_x_;
-    aside->lambda[11] = lambda_E3_y_;
-    aside->lambda[12] = lambda_E4_x_;
-    aside->lambda[13] = lambda_E4_y_;
-    aside->lambda[14] = lambda_E6_x_;
-    aside->lambda[15] = lambda_E6_y_;
-    aside->lambda[16] = lambda_G_x_;
-    aside->lambda[17] = lambda_G_y_;
-    aside->lambda[18] = lambda_H_x_;
-    aside->lambda[19] = lambda_H_y_;
+    rhs->lambda[0] = lambda_O_x_;
+    rhs->lambda[1] = lambda_O_y_;
+    rhs->lambda[2] = lambda_B_x_;
+    rhs->lambda[3] = lambda_B_y_;
+    rhs->lambda[4] = lambda_A5_x_;
+    rhs->lambda[5] = lambda_A5_y_;
+    rhs->lambda[6] = lambda_A7_x_;
+    rhs->lambda[7] = lambda_A7_y_;
+    rhs->lambda[8] = lambda_F_x_;
+    rhs->lambda[9] = lambda_F_y_;
+    rhs->lambda[10] = lambda_E3_x_;
+    rhs->lambda[11] = lambda_E3_y_;
+    rhs->lambda[12] = lambda_E4_x_;
+    rhs->lambda[13] = lambda_E4_y_;
+    rhs->lambda[14] = lambda_E6_x_;
+    rhs->lambda[15] = lambda_E6_y_;
+    rhs->lambda[16] = lambda_G_x_;
+    rhs->lambda[17] = lambda_G_y_;
+    rhs->lambda[18] = lambda_H_x_;
+    rhs->lambda[19] = lambda_H_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = 0.0;
         force[2] = p->motor_value_;
@@ -672,31 +672,31 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[18] = 0.0;
         force[19] = 0.0;
         force[20] = 0.0;
-        rhs[0] = rhs_O_x_;
-        rhs[1] = rhs_O_y_;
-        rhs[2] = rhs_B_x_;
-        rhs[3] = rhs_B_y_;
-        rhs[4] = rhs_A5_x_;
-        rhs[5] = rhs_A5_y_;
-        rhs[6] = rhs_A7_x_;
-        rhs[7] = rhs_A7_y_;
-        rhs[8] = rhs_F_x_;
-        rhs[9] = rhs_F_y_;
-        rhs[10] = rhs_E3_x_;
-        rhs[11] = rhs_E3_y_;
-        rhs[12] = rhs_E4_x_;
-        rhs[13] = rhs_E4_y_;
-        rhs[14] = rhs_E6_x_;
-        rhs[15] = rhs_E6_y_;
-        rhs[16] = rhs_G_x_;
-        rhs[17] = rhs_G_y_;
-        rhs[18] = rhs_H_x_;
-        rhs[19] = rhs_H_y_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_O_x_;
+        gamma_stab[1] = rhs_O_y_;
+        gamma_stab[2] = rhs_B_x_;
+        gamma_stab[3] = rhs_B_y_;
+        gamma_stab[4] = rhs_A5_x_;
+        gamma_stab[5] = rhs_A5_y_;
+        gamma_stab[6] = rhs_A7_x_;
+        gamma_stab[7] = rhs_A7_y_;
+        gamma_stab[8] = rhs_F_x_;
+        gamma_stab[9] = rhs_F_y_;
+        gamma_stab[10] = rhs_E3_x_;
+        gamma_stab[11] = rhs_E3_y_;
+        gamma_stab[12] = rhs_E4_x_;
+        gamma_stab[13] = rhs_E4_y_;
+        gamma_stab[14] = rhs_E6_x_;
+        gamma_stab[15] = rhs_E6_y_;
+        gamma_stab[16] = rhs_G_x_;
+        gamma_stab[17] = rhs_G_y_;
+        gamma_stab[18] = rhs_H_x_;
+        gamma_stab[19] = rhs_H_y_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = OF_omega_*p->motor_value_;
-    aside->power[2] = 0.0;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = OF_omega_*p->motor_value_;
+    rhs->power[2] = 0.0;
     return pivot;
 }

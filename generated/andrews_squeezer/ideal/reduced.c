@@ -329,12 +329,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double OF_theta_ = q[0];
@@ -463,11 +463,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         goto dependent;
     }
     const double size_H_x_ = scale_H_x_ + scale_H_y_;
-    if (!(scale_H_x_ > memory->least_size * size_H_x_)) {
+    if (!(scale_H_x_ > discrete->least_size * size_H_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_H_x_H_y_ > memory->least_size * size_H_x_ * scale_H_x_)) {
+    if (!(determinant_H_x_H_y_ > discrete->least_size * size_H_x_ * scale_H_x_)) {
         pivot = 2;
         goto dependent;
     }
@@ -509,11 +509,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         goto dependent;
     }
     const double size_G_x_ = scale_G_x_ + scale_G_y_;
-    if (!(scale_G_x_ > memory->least_size * size_G_x_)) {
+    if (!(scale_G_x_ > discrete->least_size * size_G_x_)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_G_x_G_y_ > memory->least_size * size_G_x_ * scale_G_x_)) {
+    if (!(determinant_G_x_G_y_ > discrete->least_size * size_G_x_ * scale_G_x_)) {
         pivot = 4;
         goto dependent;
     }
@@ -568,16 +568,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x_E3_y_ > memory->least * scale_E3_y_ * scale_E3_x_)) {
+    if (!(determinant_E3_x_E3_y_ > discrete->least * scale_E3_y_ * scale_E3_x_)) {
         pivot = 6;
         goto dependent;
     }
     const double size_E3_x_ = scale_E3_x_ + scale_E3_y_;
-    if (!(scale_E3_x_ > memory->least_size * size_E3_x_)) {
+    if (!(scale_E3_x_ > discrete->least_size * size_E3_x_)) {
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x_E3_y_ > memory->least_size * size_E3_x_ * scale_E3_x_)) {
+    if (!(determinant_E3_x_E3_y_ > discrete->least_size * size_E3_x_ * scale_E3_x_)) {
         pivot = 6;
         goto dependent;
     }
@@ -638,21 +638,21 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[4] = acceleration_FE_theta_;
     a[5] = acceleration_HE_theta_;
     a[6] = acceleration_EG_theta_;
-    aside->lambda[0] = lambda_G_x_;
-    aside->lambda[1] = lambda_G_y_;
-    aside->lambda[2] = lambda_H_x_;
-    aside->lambda[3] = lambda_H_y_;
-    aside->lambda[4] = lambda_E3_x_;
-    aside->lambda[5] = lambda_E3_y_;
+    rhs->lambda[0] = lambda_G_x_;
+    rhs->lambda[1] = lambda_G_y_;
+    rhs->lambda[2] = lambda_H_x_;
+    rhs->lambda[3] = lambda_H_y_;
+    rhs->lambda[4] = lambda_E3_x_;
+    rhs->lambda[5] = lambda_E3_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = OF_omega_*p->motor_value_;
-    aside->power[2] = 0.0;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = OF_omega_*p->motor_value_;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

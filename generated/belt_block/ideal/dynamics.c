@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -23,27 +23,27 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
 
     /* friction: slip, or stick as a row */
     const double slip_rub_ = block_vx_ - p->rub_speed_;
-    const double mode_rub_ = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double mode_rub_ = discrete->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
     const double sign_rub_ = fabs(mode_rub_) > 1.0 ? 0.0 : mode_rub_;
     const double kinetic_rub_ = -p->rub_kinetic_*sign_rub_;
     const double rhs_rub_ = -slip_rub_*p->two_alpha_stick_;
-    aside->friction[0].v = slip_rub_;
-    aside->friction[0].static_limit = p->rub_static_;
-    aside->friction[0].speed = p->rub_speed_;
-    aside->friction[0].force = kinetic_rub_;
+    rhs->friction[0].v = slip_rub_;
+    rhs->friction[0].static_limit = p->rub_static_;
+    rhs->friction[0].speed = p->rub_speed_;
+    rhs->friction[0].force = kinetic_rub_;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_guide_offset_ = block_y_;
     const double phi_dot_guide_offset_ = block_vy_;
     const double rhs_guide_offset_ = -p->beta_squared_*phi_guide_offset_ - phi_dot_guide_offset_*p->two_alpha_;
-    aside->phi[0] = phi_guide_offset_;
-    aside->phi_dot[0] = phi_dot_guide_offset_;
+    rhs->phi[0] = phi_guide_offset_;
+    rhs->phi_dot[0] = phi_dot_guide_offset_;
     const double phi_guide_angle_ = block_theta_;
     const double phi_dot_guide_angle_ = block_omega_;
     const double rhs_guide_angle_ = -p->beta_squared_*phi_guide_angle_ - phi_dot_guide_angle_*p->two_alpha_;
-    aside->phi[1] = phi_guide_angle_;
-    aside->phi_dot[1] = phi_dot_guide_angle_;
+    rhs->phi[1] = phi_guide_angle_;
+    rhs->phi_dot[1] = phi_dot_guide_angle_;
 
     /* L D L^T of the KKT matrix */
     const double scale_rub_ = p->inverse_block_mass_;
@@ -68,13 +68,13 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[0] = acceleration_block_x_;
     a[1] = acceleration_block_y_;
     a[2] = acceleration_block_theta_;
-    aside->lambda[0] = lambda_guide_offset_;
-    aside->lambda[1] = lambda_guide_angle_;
-    aside->friction[0].rate = acceleration_block_x_;
+    rhs->lambda[0] = lambda_guide_offset_;
+    rhs->lambda[1] = lambda_guide_angle_;
+    rhs->friction[0].rate = acceleration_block_x_;
     if (stick_rub_ != 0.0)
-        aside->friction[0].force = -lambda_rub_;  /* stick of rub */
-    aside->power[0] = 0.0;
-    aside->power[1] = aside->friction[0].force*(aside->friction[0].speed + aside->friction[0].v);
-    aside->power[2] = 0.0;
+        rhs->friction[0].force = -lambda_rub_;  /* stick of rub */
+    rhs->power[0] = 0.0;
+    rhs->power[1] = rhs->friction[0].force*(rhs->friction[0].speed + rhs->friction[0].v);
+    rhs->power[2] = 0.0;
     return 0;
 }

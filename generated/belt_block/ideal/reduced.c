@@ -57,17 +57,17 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     (void)t;
     /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double *const g = aside->g;
+    const double *const branch = discrete->held ? discrete->branch : NULL;
+    double *const g = rhs->g;
 
     /* coordinates, velocities, time */
     const double guide_slide_ = q[0];
@@ -75,22 +75,22 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 
     /* directions, arms, drives */
     const double spring_span_x_ = guide_slide_ - p->wall_x_;
-    const double side_0 = side_of(side, g, 0, spring_span_x_);
+    const double side_0 = branch_of(branch, g, 0, spring_span_x_);
     const double spring_length_ = side_0*spring_span_x_;
     const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
     const double spring_pull_ = spring_force_/spring_length_;
 
     /* friction: slip, or stick as a row */
     const double slip_rub_ = guide_slide_rate_ - p->rub_speed_;
-    const double mode_rub_ = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double mode_rub_ = discrete->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
     const double sign_rub_ = fabs(mode_rub_) > 1.0 ? 0.0 : mode_rub_;
     const double kinetic_rub_ = -p->rub_kinetic_*sign_rub_;
     const double rhs_rub_ = -slip_rub_*p->two_alpha_stick_;
-    aside->friction[0].v = slip_rub_;
-    aside->friction[0].static_limit = p->rub_static_;
-    aside->friction[0].speed = p->rub_speed_;
-    aside->friction[0].force = kinetic_rub_;
+    rhs->friction[0].v = slip_rub_;
+    rhs->friction[0].static_limit = p->rub_static_;
+    rhs->friction[0].speed = p->rub_speed_;
+    rhs->friction[0].force = kinetic_rub_;
 
     /* L D L^T of the KKT matrix */
     const double scale_rub_ = p->inverse_block_mass_;
@@ -109,28 +109,28 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 
     /* results */
     a[0] = acceleration_guide_slide_;
-    aside->friction[0].rate = acceleration_guide_slide_;
+    rhs->friction[0].rate = acceleration_guide_slide_;
     if (stick_rub_ != 0.0)
-        aside->friction[0].force = -lambda_rub_;  /* stick of rub */
-    aside->power[0] = 0.0;
-    aside->power[1] = aside->friction[0].force*(aside->friction[0].speed + aside->friction[0].v);
-    aside->power[2] = 0.0;
+        rhs->friction[0].force = -lambda_rub_;  /* stick of rub */
+    rhs->power[0] = 0.0;
+    rhs->power[1] = rhs->friction[0].force*(rhs->friction[0].speed + rhs->friction[0].v);
+    rhs->power[2] = 0.0;
     return 0;
 }
 
 /*
- * Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.
+ * Switching functions of the scene's own corners, in rhs->g, and what the user watches, in rhs->event.
  */
-void watched_functions(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    Aside *aside)
+void watched_functions(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, RhsOutputs *rhs)
 {
-    (void)t, (void)v, (void)memory;
+    (void)t, (void)v, (void)discrete;
     /* coordinates, velocities, time */
     const double guide_slide_ = q[0];
 
     /* directions, arms, drives */
     const double spring_span_x_ = guide_slide_ - p->wall_x_;
-    aside->g[0] = spring_span_x_;
+    rhs->g[0] = spring_span_x_;
 }
 
 /*

@@ -8,9 +8,9 @@
  * damping factor a.
  */
 static inline void hertz(double delta, double ratio, double stiffness, double exponent, double hysteresis,
-    const double *side, double *g, int corner, double *F_n_out)
+    const double *branch, double *g, int corner, double *F_n_out)
 {
-    const double side_1 = side_of(side, g, corner, hysteresis*ratio + 1.0);
+    const double side_1 = branch_of(branch, g, corner, hysteresis*ratio + 1.0);
     double larger_1;
     if (side_1 < 0.0)
         larger_1 = 0.0;
@@ -26,16 +26,16 @@ static inline void hertz(double delta, double ratio, double stiffness, double ex
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_fall_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g)
+    const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
+    const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->floor_radius_;
     const double a_j = -0.5*delta + p->R_j_floor_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
     hertz(max_of(delta, 0.0), ratio, p->damped_normal_stiffness_, p->damped_normal_exponent_,
-        p->damped_floor_hysteresis_, side, g, 0, &F_n);
+        p->damped_floor_hysteresis_, branch, g, 0, &F_n);
     const double F_along_t_dry = 0.0; /* no friction */
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -44,7 +44,7 @@ static inline PinForce dry_fall_(double delta, double deltadot, double de_t, dou
 
 /* Joint fall: free while delta < 0, dry contact beyond; a step holds what it began with. */
 static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
+    const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
@@ -56,8 +56,8 @@ static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, do
     PinForce F = {0};
     for (int k = 0; k < 1; k++)
         g[k] = NAN; /* without contact nothing switches */
-    if (side ? latch->closed : delta > 0.0)
-        F = dry_fall_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+    if (branch ? contact->closed : delta > 0.0)
+        F = dry_fall_(delta, deltadot, de_t, omega_i, omega_j, contact, p, branch, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

@@ -19,12 +19,12 @@ static inline void hertz_none(double delta, double ratio, double stiffness, doub
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_fall_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g)
+    const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    (void)side;
+    (void)branch;
     (void)g;
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
+    const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->floor_radius_;
     const double a_j = -0.5*delta + p->R_j_floor_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
@@ -38,7 +38,7 @@ static inline PinForce dry_fall_(double delta, double deltadot, double de_t, dou
 
 /* Joint fall: free while delta < 0, dry contact beyond; a step holds what it began with. */
 static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
+    const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
@@ -48,8 +48,8 @@ static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, do
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
-    if (side ? latch->closed : delta > 0.0)
-        F = dry_fall_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+    if (branch ? contact->closed : delta > 0.0)
+        F = dry_fall_(delta, deltadot, de_t, omega_i, omega_j, contact, p, branch, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

@@ -1,15 +1,15 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     (void)t;
     /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double *const g = aside->g;
+    const double *const branch = discrete->held ? discrete->branch : NULL;
+    double *const g = rhs->g;
 
     /* coordinates, velocities, time */
     const double ball_x_ = q[0];
@@ -23,12 +23,12 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double e_fall_y_ = ball_y_;
     const double edot_fall_x_ = ball_vx_;
     const double edot_fall_y_ = ball_vy_;
-    clearance_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, 0, ball_omega_, &memory->latch[0], p, side, g,
-        &aside->clearance[0]);
-    const double F_fall_x_ = aside->clearance[0].Fx;
-    const double F_fall_y_ = aside->clearance[0].Fy;
-    const double M_fall_second_ = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
+    clearance_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, 0, ball_omega_, &discrete->contact[0], p, branch,
+        g, &rhs->clearance[0]);
+    const double F_fall_x_ = rhs->clearance[0].Fx;
+    const double F_fall_y_ = rhs->clearance[0].Fy;
+    const double M_fall_second_ = rhs->clearance[0].moment_second;
+    rhs->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
 
     /* forward substitution */
     const double z_ball_y_ = F_fall_y_ + p->weight_ball_y_;
@@ -42,8 +42,8 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[0] = acceleration_ball_x_;
     a[1] = acceleration_ball_y_;
     a[2] = acceleration_ball_theta_;
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = aside->clearance[0].power;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = rhs->clearance[0].power;
     return 0;
 }

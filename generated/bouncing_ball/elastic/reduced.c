@@ -63,17 +63,17 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     (void)t;
     /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double *const g = aside->g;
+    const double *const branch = discrete->held ? discrete->branch : NULL;
+    double *const g = rhs->g;
 
     /* coordinates, velocities, time */
     const double ball_x_ = q[0];
@@ -87,12 +87,12 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double e_fall_y_ = ball_y_;
     const double edot_fall_x_ = ball_x_rate_;
     const double edot_fall_y_ = ball_y_rate_;
-    clearance_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, 0, ball_omega_, &memory->latch[0], p, side, g,
-        &aside->clearance[0]);
-    const double F_fall_x_ = aside->clearance[0].Fx;
-    const double F_fall_y_ = aside->clearance[0].Fy;
-    const double M_fall_second_ = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
+    clearance_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, 0, ball_omega_, &discrete->contact[0], p, branch,
+        g, &rhs->clearance[0]);
+    const double F_fall_x_ = rhs->clearance[0].Fx;
+    const double F_fall_y_ = rhs->clearance[0].Fy;
+    const double M_fall_second_ = rhs->clearance[0].moment_second;
+    rhs->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
 
     /* without a (NULL) joints with play alone are asked for */
     if (!a)
@@ -110,9 +110,9 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[0] = acceleration_ball_x_;
     a[1] = acceleration_ball_y_;
     a[2] = acceleration_ball_theta_;
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = aside->clearance[0].power;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = rhs->clearance[0].power;
     return 0;
 }
 

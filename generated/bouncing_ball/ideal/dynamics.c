@@ -1,12 +1,12 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
-    (void)t, (void)memory;
+    (void)t, (void)discrete;
     /* coordinates, velocities, time */
     const double ball_x_ = q[0];
     const double ball_y_ = q[1];
@@ -20,13 +20,13 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_fall_x_ = -ball_x_;
     const double phi_dot_fall_x_ = -ball_vx_;
     const double rhs_fall_x_ = -p->beta_squared_*phi_fall_x_ - phi_dot_fall_x_*p->two_alpha_;
-    aside->phi[0] = phi_fall_x_;
-    aside->phi_dot[0] = phi_dot_fall_x_;
+    rhs->phi[0] = phi_fall_x_;
+    rhs->phi_dot[0] = phi_dot_fall_x_;
     const double phi_fall_y_ = -ball_y_;
     const double phi_dot_fall_y_ = -ball_vy_;
     const double rhs_fall_y_ = -p->beta_squared_*phi_fall_y_ - phi_dot_fall_y_*p->two_alpha_;
-    aside->phi[1] = phi_fall_y_;
-    aside->phi_dot[1] = phi_dot_fall_y_;
+    rhs->phi[1] = phi_fall_y_;
+    rhs->phi_dot[1] = phi_dot_fall_y_;
 
     /* backward substitution */
     const double acceleration_ball_theta_ = 0.0;
@@ -39,10 +39,10 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[0] = acceleration_ball_x_;
     a[1] = acceleration_ball_y_;
     a[2] = acceleration_ball_theta_;
-    aside->lambda[0] = lambda_fall_x_;
-    aside->lambda[1] = lambda_fall_y_;
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->lambda[0] = lambda_fall_x_;
+    rhs->lambda[1] = lambda_fall_y_;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

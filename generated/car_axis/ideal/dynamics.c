@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double axle_x_ = q[0];
@@ -56,14 +56,14 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_foot_x_ = -arm_road_head_y_*road_omega_ - road_vx_;
     const double rhs_foot_x_ = arm_road_head_x_*(road_omega_ * road_omega_) - p->beta_squared_*phi_foot_x_
         - phi_dot_foot_x_*p->two_alpha_;
-    aside->phi[0] = phi_foot_x_;
-    aside->phi_dot[0] = phi_dot_foot_x_;
+    rhs->phi[0] = phi_foot_x_;
+    rhs->phi_dot[0] = phi_dot_foot_x_;
     const double phi_foot_y_ = arm_road_head_y_ - road_y_;
     const double phi_dot_foot_y_ = arm_road_head_x_*road_omega_ - road_vy_;
     const double rhs_foot_y_ = arm_road_head_y_*(road_omega_ * road_omega_) - p->beta_squared_*phi_foot_y_
         - phi_dot_foot_y_*p->two_alpha_;
-    aside->phi[1] = phi_foot_y_;
-    aside->phi_dot[1] = phi_dot_foot_y_;
+    rhs->phi[1] = phi_foot_y_;
+    rhs->phi_dot[1] = phi_dot_foot_y_;
     const double phi_slot_offset_ = arm_axle_head_x_*cos_theta_road_ + arm_axle_head_y_*sin_theta_road_
         - arm_road_head_x_*cos_theta_road_ - arm_road_head_y_*sin_theta_road_ - axle_x_*cos_theta_road_
         - axle_y_*sin_theta_road_ + cos_theta_road_*road_x_ + road_y_*sin_theta_road_;
@@ -80,13 +80,13 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + road_omega_*(-arm_axle_head_x_ + axle_x_ - road_x_) + road_vy_)
         - sin_theta_road_*(-arm_axle_head_y_*axle_omega_ - axle_vx_
         + road_omega_*(arm_axle_head_y_ - axle_y_ + road_y_) + road_vx_));
-    aside->phi[2] = phi_slot_offset_;
-    aside->phi_dot[2] = phi_dot_slot_offset_;
+    rhs->phi[2] = phi_slot_offset_;
+    rhs->phi_dot[2] = phi_dot_slot_offset_;
     const double phi_bump_ = -bump_value_ + road_theta_;
     const double phi_dot_bump_ = -bump_rate_ + road_omega_;
     const double rhs_bump_ = -p->beta_squared_*phi_bump_ + bump_acceleration_ - phi_dot_bump_*p->two_alpha_;
-    aside->phi[3] = phi_bump_;
-    aside->phi_dot[3] = phi_dot_bump_;
+    rhs->phi[3] = phi_bump_;
+    rhs->phi_dot[3] = phi_dot_bump_;
 
     /* L D L^T of the KKT matrix */
     const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_axle_mass_;
@@ -162,15 +162,15 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[3] = acceleration_road_x_;
     a[4] = acceleration_road_y_;
     a[5] = acceleration_road_theta_;
-    aside->lambda[0] = lambda_foot_x_;
-    aside->lambda[1] = lambda_foot_y_;
-    aside->lambda[2] = lambda_slot_offset_;
-    aside->lambda[3] = lambda_bump_;
+    rhs->lambda[0] = lambda_foot_x_;
+    rhs->lambda[1] = lambda_foot_y_;
+    rhs->lambda[2] = lambda_slot_offset_;
+    rhs->lambda[3] = lambda_bump_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = -left_pull_*left_span_x_ - right_pull_*right_span_x_;
         force[1] = -left_pull_*left_span_y_ - right_pull_*right_span_y_ + p->weight_axle_y_;
         force[2] = arm_axle_head_x_*left_pull_*left_span_y_ - arm_axle_head_x_*right_pull_*right_span_y_
@@ -178,15 +178,15 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[3] = right_pull_*right_span_x_;
         force[4] = right_pull_*right_span_y_ + p->weight_road_y_;
         force[5] = arm_road_head_x_*right_pull_*right_span_y_ - arm_road_head_y_*right_pull_*right_span_x_;
-        rhs[0] = rhs_foot_x_;
-        rhs[1] = rhs_foot_y_;
-        rhs[2] = rhs_slot_offset_;
-        rhs[3] = rhs_bump_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_foot_x_;
+        gamma_stab[1] = rhs_foot_y_;
+        gamma_stab[2] = rhs_slot_offset_;
+        gamma_stab[3] = rhs_bump_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = -aside->lambda[3]*bump_rate_;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = -bump_rate_*rhs->lambda[3];
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

@@ -140,12 +140,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double axle_x_ = q[0];
@@ -236,19 +236,19 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[0] = acceleration_axle_x_;
     a[1] = acceleration_axle_y_;
     a[2] = acceleration_axle_theta_;
-    aside->lambda[0] = lambda_slot_offset_;
+    rhs->lambda[0] = lambda_slot_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = -aside->lambda[0]*(-bump_rate_*cos_theta_road_*(-axle_y_ - span_axle_tail_y_)
-        + bump_rate_*sin_theta_road_*(-axle_x_ - span_axle_tail_x_))
-        + bump_rate_*(bump_acceleration_*p->mass_bump_bump_ - cos_theta_road_*p->weight_road_across_
-        + right_pull_*right_span_x_*span_road_head_y_ - right_pull_*right_span_y_*span_road_head_x_);
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = bump_rate_*(bump_acceleration_*p->mass_bump_bump_ - cos_theta_road_*p->weight_road_across_
+        + right_pull_*right_span_x_*span_road_head_y_ - right_pull_*right_span_y_*span_road_head_x_)
+        - rhs->lambda[0]*(-bump_rate_*cos_theta_road_*(-axle_y_ - span_axle_tail_y_)
+        + bump_rate_*sin_theta_road_*(-axle_x_ - span_axle_tail_x_));
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

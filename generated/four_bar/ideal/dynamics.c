@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double crank_x_ = q[0];
@@ -51,59 +51,59 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_A0_x_ = -arm_crank_head_y_*crank_omega_ - crank_vx_;
     const double rhs_A0_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_A0_x_
         - phi_dot_A0_x_*p->two_alpha_;
-    aside->phi[0] = phi_A0_x_;
-    aside->phi_dot[0] = phi_dot_A0_x_;
+    rhs->phi[0] = phi_A0_x_;
+    rhs->phi_dot[0] = phi_dot_A0_x_;
     const double phi_A0_y_ = arm_crank_head_y_ - crank_y_;
     const double phi_dot_A0_y_ = arm_crank_head_x_*crank_omega_ - crank_vy_;
     const double rhs_A0_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_A0_y_
         - phi_dot_A0_y_*p->two_alpha_;
-    aside->phi[1] = phi_A0_y_;
-    aside->phi_dot[1] = phi_dot_A0_y_;
+    rhs->phi[1] = phi_A0_y_;
+    rhs->phi_dot[1] = phi_dot_A0_y_;
     const double phi_A_x_ = arm_coupler_head_x_ + arm_crank_head_x_ - coupler_x_ + crank_x_;
     const double phi_dot_A_x_ = -arm_coupler_head_y_*coupler_omega_ - arm_crank_head_y_*crank_omega_ - coupler_vx_
         + crank_vx_;
     const double rhs_A_x_ = arm_coupler_head_x_*(coupler_omega_ * coupler_omega_)
         + arm_crank_head_x_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_A_x_ - phi_dot_A_x_*p->two_alpha_;
-    aside->phi[2] = phi_A_x_;
-    aside->phi_dot[2] = phi_dot_A_x_;
+    rhs->phi[2] = phi_A_x_;
+    rhs->phi_dot[2] = phi_dot_A_x_;
     const double phi_A_y_ = arm_coupler_head_y_ + arm_crank_head_y_ - coupler_y_ + crank_y_;
     const double phi_dot_A_y_ = arm_coupler_head_x_*coupler_omega_ + arm_crank_head_x_*crank_omega_ - coupler_vy_
         + crank_vy_;
     const double rhs_A_y_ = arm_coupler_head_y_*(coupler_omega_ * coupler_omega_)
         + arm_crank_head_y_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_A_y_ - phi_dot_A_y_*p->two_alpha_;
-    aside->phi[3] = phi_A_y_;
-    aside->phi_dot[3] = phi_dot_A_y_;
+    rhs->phi[3] = phi_A_y_;
+    rhs->phi_dot[3] = phi_dot_A_y_;
     const double phi_B_x_ = arm_coupler_head_x_ - arm_rocker_head_x_ + coupler_x_ - rocker_x_;
     const double phi_dot_B_x_ = -arm_coupler_head_y_*coupler_omega_ + arm_rocker_head_y_*rocker_omega_ + coupler_vx_
         - rocker_vx_;
     const double rhs_B_x_ = arm_coupler_head_x_*(coupler_omega_ * coupler_omega_)
         - arm_rocker_head_x_*(rocker_omega_ * rocker_omega_) - p->beta_squared_*phi_B_x_ - phi_dot_B_x_*p->two_alpha_;
-    aside->phi[4] = phi_B_x_;
-    aside->phi_dot[4] = phi_dot_B_x_;
+    rhs->phi[4] = phi_B_x_;
+    rhs->phi_dot[4] = phi_dot_B_x_;
     const double phi_B_y_ = arm_coupler_head_y_ - arm_rocker_head_y_ + coupler_y_ - rocker_y_;
     const double phi_dot_B_y_ = arm_coupler_head_x_*coupler_omega_ - arm_rocker_head_x_*rocker_omega_ + coupler_vy_
         - rocker_vy_;
     const double rhs_B_y_ = arm_coupler_head_y_*(coupler_omega_ * coupler_omega_)
         - arm_rocker_head_y_*(rocker_omega_ * rocker_omega_) - p->beta_squared_*phi_B_y_ - phi_dot_B_y_*p->two_alpha_;
-    aside->phi[5] = phi_B_y_;
-    aside->phi_dot[5] = phi_dot_B_y_;
+    rhs->phi[5] = phi_B_y_;
+    rhs->phi_dot[5] = phi_dot_B_y_;
     const double phi_B0_x_ = p->B0_x_ + arm_rocker_head_x_ - rocker_x_;
     const double phi_dot_B0_x_ = -arm_rocker_head_y_*rocker_omega_ - rocker_vx_;
     const double rhs_B0_x_ = arm_rocker_head_x_*(rocker_omega_ * rocker_omega_) - p->beta_squared_*phi_B0_x_
         - phi_dot_B0_x_*p->two_alpha_;
-    aside->phi[6] = phi_B0_x_;
-    aside->phi_dot[6] = phi_dot_B0_x_;
+    rhs->phi[6] = phi_B0_x_;
+    rhs->phi_dot[6] = phi_dot_B0_x_;
     const double phi_B0_y_ = arm_rocker_head_y_ - rocker_y_;
     const double phi_dot_B0_y_ = arm_rocker_head_x_*rocker_omega_ - rocker_vy_;
     const double rhs_B0_y_ = arm_rocker_head_y_*(rocker_omega_ * rocker_omega_) - p->beta_squared_*phi_B0_y_
         - phi_dot_B0_y_*p->two_alpha_;
-    aside->phi[7] = phi_B0_y_;
-    aside->phi_dot[7] = phi_dot_B0_y_;
+    rhs->phi[7] = phi_B0_y_;
+    rhs->phi_dot[7] = phi_dot_B0_y_;
     const double phi_motor_ = crank_theta_ - motor_value_;
     const double phi_dot_motor_ = crank_omega_ - motor_rate_;
     const double rhs_motor_ = -p->beta_squared_*phi_motor_ + motor_acceleration_ - phi_dot_motor_*p->two_alpha_;
-    aside->phi[8] = phi_motor_;
-    aside->phi_dot[8] = phi_dot_motor_;
+    rhs->phi[8] = phi_motor_;
+    rhs->phi_dot[8] = phi_dot_motor_;
 
     /* L D L^T of the KKT matrix */
     const double l_crank_theta_A_y_ = -arm_crank_head_x_*p->coupler_mass_;
@@ -148,11 +148,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double size_B_y_ = p->mobility_B_x_ + scale_B_y_;
     const double pivot_B_x_B_y_ = l_B_y_coupler_theta_*w_B_x_coupler_theta_ + l_B_y_rocker_theta_*w_B_x_rocker_theta_;
     const double determinant_B_x_B_y_ = -(pivot_B_x_B_y_ * pivot_B_x_B_y_) + scale_B_x_*scale_B_y_;
-    if (!(scale_B_x_ > memory->least * size_B_x_)) {
+    if (!(scale_B_x_ > discrete->least * size_B_x_)) {
         pivot = 8;
         goto dependent;
     }
-    if (!(determinant_B_x_B_y_ > memory->least * size_B_y_ * scale_B_x_)) {
+    if (!(determinant_B_x_B_y_ > discrete->least * size_B_y_ * scale_B_x_)) {
         pivot = 9;
         goto dependent;
     }
@@ -224,20 +224,20 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[6] = acceleration_rocker_x_;
     a[7] = acceleration_rocker_y_;
     a[8] = acceleration_rocker_theta_;
-    aside->lambda[0] = lambda_A0_x_;
-    aside->lambda[1] = lambda_A0_y_;
-    aside->lambda[2] = lambda_A_x_;
-    aside->lambda[3] = lambda_A_y_;
-    aside->lambda[4] = lambda_B_x_;
-    aside->lambda[5] = lambda_B_y_;
-    aside->lambda[6] = lambda_B0_x_;
-    aside->lambda[7] = lambda_B0_y_;
-    aside->lambda[8] = lambda_motor_;
+    rhs->lambda[0] = lambda_A0_x_;
+    rhs->lambda[1] = lambda_A0_y_;
+    rhs->lambda[2] = lambda_A_x_;
+    rhs->lambda[3] = lambda_A_y_;
+    rhs->lambda[4] = lambda_B_x_;
+    rhs->lambda[5] = lambda_B_y_;
+    rhs->lambda[6] = lambda_B0_x_;
+    rhs->lambda[7] = lambda_B0_y_;
+    rhs->lambda[8] = lambda_motor_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = p->weight_crank_y_;
         force[2] = 0.0;
@@ -247,20 +247,20 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[6] = 0.0;
         force[7] = p->weight_rocker_y_;
         force[8] = 0.0;
-        rhs[0] = rhs_A0_x_;
-        rhs[1] = rhs_A0_y_;
-        rhs[2] = rhs_A_x_;
-        rhs[3] = rhs_A_y_;
-        rhs[4] = rhs_B_x_;
-        rhs[5] = rhs_B_y_;
-        rhs[6] = rhs_B0_x_;
-        rhs[7] = rhs_B0_y_;
-        rhs[8] = rhs_motor_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_A0_x_;
+        gamma_stab[1] = rhs_A0_y_;
+        gamma_stab[2] = rhs_A_x_;
+        gamma_stab[3] = rhs_A_y_;
+        gamma_stab[4] = rhs_B_x_;
+        gamma_stab[5] = rhs_B_y_;
+        gamma_stab[6] = rhs_B0_x_;
+        gamma_stab[7] = rhs_B0_y_;
+        gamma_stab[8] = rhs_motor_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = -aside->lambda[8]*motor_rate_;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = -motor_rate_*rhs->lambda[8];
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

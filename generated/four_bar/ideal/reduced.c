@@ -163,12 +163,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double rocker_theta_ = q[0];
@@ -232,16 +232,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x_B_y_ > memory->least * scale_B_y_ * scale_B_x_)) {
+    if (!(determinant_B_x_B_y_ > discrete->least * scale_B_y_ * scale_B_x_)) {
         pivot = 2;
         goto dependent;
     }
     const double size_B_x_ = scale_B_x_ + scale_B_y_;
-    if (!(scale_B_x_ > memory->least_size * size_B_x_)) {
+    if (!(scale_B_x_ > discrete->least_size * size_B_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x_B_y_ > memory->least_size * size_B_x_ * scale_B_x_)) {
+    if (!(determinant_B_x_B_y_ > discrete->least_size * size_B_x_ * scale_B_x_)) {
         pivot = 2;
         goto dependent;
     }
@@ -268,20 +268,19 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     /* results */
     a[0] = acceleration_rocker_theta_;
     a[1] = acceleration_coupler_theta_;
-    aside->lambda[0] = lambda_B_x_;
-    aside->lambda[1] = lambda_B_y_;
+    rhs->lambda[0] = lambda_B_x_;
+    rhs->lambda[1] = lambda_B_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = -aside->lambda[0]*motor_rate_*span_crank_head_y_
-        + aside->lambda[1]*motor_rate_*span_crank_head_x_ + motor_rate_*(a[1]*dot_crank_coupler_
-        - cos_theta_crank_*p->weight_crank_across_ - (coupler_omega_ * coupler_omega_)*cross_crank_coupler_
-        + p->mass_motor_motor_*motor_acceleration_);
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = -motor_rate_*rhs->lambda[0]*span_crank_head_y_ + motor_rate_*rhs->lambda[1]*span_crank_head_x_
+        + motor_rate_*(a[1]*dot_crank_coupler_ - cos_theta_crank_*p->weight_crank_across_
+        - (coupler_omega_ * coupler_omega_)*cross_crank_coupler_ + p->mass_motor_motor_*motor_acceleration_);
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

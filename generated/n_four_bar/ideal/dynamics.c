@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double crank0_x_ = q[0];
@@ -68,94 +68,94 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_O0_x_ = -arm_crank0_head_y_*crank0_omega_ - crank0_vx_;
     const double rhs_O0_x_ = arm_crank0_head_x_*(crank0_omega_ * crank0_omega_) - p->beta_squared_*phi_O0_x_
         - phi_dot_O0_x_*p->two_alpha_;
-    aside->phi[0] = phi_O0_x_;
-    aside->phi_dot[0] = phi_dot_O0_x_;
+    rhs->phi[0] = phi_O0_x_;
+    rhs->phi_dot[0] = phi_dot_O0_x_;
     const double phi_O0_y_ = arm_crank0_head_y_ - crank0_y_;
     const double phi_dot_O0_y_ = arm_crank0_head_x_*crank0_omega_ - crank0_vy_;
     const double rhs_O0_y_ = arm_crank0_head_y_*(crank0_omega_ * crank0_omega_) - p->beta_squared_*phi_O0_y_
         - phi_dot_O0_y_*p->two_alpha_;
-    aside->phi[1] = phi_O0_y_;
-    aside->phi_dot[1] = phi_dot_O0_y_;
+    rhs->phi[1] = phi_O0_y_;
+    rhs->phi_dot[1] = phi_dot_O0_y_;
     const double phi_O1_x_ = p->O1_x_ + arm_crank1_head_x_ - crank1_x_;
     const double phi_dot_O1_x_ = -arm_crank1_head_y_*crank1_omega_ - crank1_vx_;
     const double rhs_O1_x_ = arm_crank1_head_x_*(crank1_omega_ * crank1_omega_) - p->beta_squared_*phi_O1_x_
         - phi_dot_O1_x_*p->two_alpha_;
-    aside->phi[2] = phi_O1_x_;
-    aside->phi_dot[2] = phi_dot_O1_x_;
+    rhs->phi[2] = phi_O1_x_;
+    rhs->phi_dot[2] = phi_dot_O1_x_;
     const double phi_O1_y_ = arm_crank1_head_y_ - crank1_y_;
     const double phi_dot_O1_y_ = arm_crank1_head_x_*crank1_omega_ - crank1_vy_;
     const double rhs_O1_y_ = arm_crank1_head_y_*(crank1_omega_ * crank1_omega_) - p->beta_squared_*phi_O1_y_
         - phi_dot_O1_y_*p->two_alpha_;
-    aside->phi[3] = phi_O1_y_;
-    aside->phi_dot[3] = phi_dot_O1_y_;
+    rhs->phi[3] = phi_O1_y_;
+    rhs->phi_dot[3] = phi_dot_O1_y_;
     const double phi_O2_x_ = p->O2_x_ + arm_crank2_head_x_ - crank2_x_;
     const double phi_dot_O2_x_ = -arm_crank2_head_y_*crank2_omega_ - crank2_vx_;
     const double rhs_O2_x_ = arm_crank2_head_x_*(crank2_omega_ * crank2_omega_) - p->beta_squared_*phi_O2_x_
         - phi_dot_O2_x_*p->two_alpha_;
-    aside->phi[4] = phi_O2_x_;
-    aside->phi_dot[4] = phi_dot_O2_x_;
+    rhs->phi[4] = phi_O2_x_;
+    rhs->phi_dot[4] = phi_dot_O2_x_;
     const double phi_O2_y_ = arm_crank2_head_y_ - crank2_y_;
     const double phi_dot_O2_y_ = arm_crank2_head_x_*crank2_omega_ - crank2_vy_;
     const double rhs_O2_y_ = arm_crank2_head_y_*(crank2_omega_ * crank2_omega_) - p->beta_squared_*phi_O2_y_
         - phi_dot_O2_y_*p->two_alpha_;
-    aside->phi[5] = phi_O2_y_;
-    aside->phi_dot[5] = phi_dot_O2_y_;
+    rhs->phi[5] = phi_O2_y_;
+    rhs->phi_dot[5] = phi_dot_O2_y_;
     const double phi_A0_x_ = arm_coupler1_head_x_ + arm_crank0_head_x_ - coupler1_x_ + crank0_x_;
     const double phi_dot_A0_x_ = -arm_coupler1_head_y_*coupler1_omega_ - arm_crank0_head_y_*crank0_omega_
         - coupler1_vx_ + crank0_vx_;
     const double rhs_A0_x_ = arm_coupler1_head_x_*(coupler1_omega_ * coupler1_omega_)
         + arm_crank0_head_x_*(crank0_omega_ * crank0_omega_) - p->beta_squared_*phi_A0_x_ - phi_dot_A0_x_*p->two_alpha_;
-    aside->phi[6] = phi_A0_x_;
-    aside->phi_dot[6] = phi_dot_A0_x_;
+    rhs->phi[6] = phi_A0_x_;
+    rhs->phi_dot[6] = phi_dot_A0_x_;
     const double phi_A0_y_ = arm_coupler1_head_y_ + arm_crank0_head_y_ - coupler1_y_ + crank0_y_;
     const double phi_dot_A0_y_ = arm_coupler1_head_x_*coupler1_omega_ + arm_crank0_head_x_*crank0_omega_ - coupler1_vy_
         + crank0_vy_;
     const double rhs_A0_y_ = arm_coupler1_head_y_*(coupler1_omega_ * coupler1_omega_)
         + arm_crank0_head_y_*(crank0_omega_ * crank0_omega_) - p->beta_squared_*phi_A0_y_ - phi_dot_A0_y_*p->two_alpha_;
-    aside->phi[7] = phi_A0_y_;
-    aside->phi_dot[7] = phi_dot_A0_y_;
+    rhs->phi[7] = phi_A0_y_;
+    rhs->phi_dot[7] = phi_dot_A0_y_;
     const double phi_B1_x_ = arm_coupler1_head_x_ - arm_crank1_head_x_ + coupler1_x_ - crank1_x_;
     const double phi_dot_B1_x_ = -arm_coupler1_head_y_*coupler1_omega_ + arm_crank1_head_y_*crank1_omega_
         + coupler1_vx_ - crank1_vx_;
     const double rhs_B1_x_ = arm_coupler1_head_x_*(coupler1_omega_ * coupler1_omega_)
         - arm_crank1_head_x_*(crank1_omega_ * crank1_omega_) - p->beta_squared_*phi_B1_x_ - phi_dot_B1_x_*p->two_alpha_;
-    aside->phi[8] = phi_B1_x_;
-    aside->phi_dot[8] = phi_dot_B1_x_;
+    rhs->phi[8] = phi_B1_x_;
+    rhs->phi_dot[8] = phi_dot_B1_x_;
     const double phi_B1_y_ = arm_coupler1_head_y_ - arm_crank1_head_y_ + coupler1_y_ - crank1_y_;
     const double phi_dot_B1_y_ = arm_coupler1_head_x_*coupler1_omega_ - arm_crank1_head_x_*crank1_omega_ + coupler1_vy_
         - crank1_vy_;
     const double rhs_B1_y_ = arm_coupler1_head_y_*(coupler1_omega_ * coupler1_omega_)
         - arm_crank1_head_y_*(crank1_omega_ * crank1_omega_) - p->beta_squared_*phi_B1_y_ - phi_dot_B1_y_*p->two_alpha_;
-    aside->phi[9] = phi_B1_y_;
-    aside->phi_dot[9] = phi_dot_B1_y_;
+    rhs->phi[9] = phi_B1_y_;
+    rhs->phi_dot[9] = phi_dot_B1_y_;
     const double phi_A1_x_ = arm_coupler2_head_x_ + arm_crank1_head_x_ - coupler2_x_ + crank1_x_;
     const double phi_dot_A1_x_ = -arm_coupler2_head_y_*coupler2_omega_ - arm_crank1_head_y_*crank1_omega_
         - coupler2_vx_ + crank1_vx_;
     const double rhs_A1_x_ = arm_coupler2_head_x_*(coupler2_omega_ * coupler2_omega_)
         + arm_crank1_head_x_*(crank1_omega_ * crank1_omega_) - p->beta_squared_*phi_A1_x_ - phi_dot_A1_x_*p->two_alpha_;
-    aside->phi[10] = phi_A1_x_;
-    aside->phi_dot[10] = phi_dot_A1_x_;
+    rhs->phi[10] = phi_A1_x_;
+    rhs->phi_dot[10] = phi_dot_A1_x_;
     const double phi_A1_y_ = arm_coupler2_head_y_ + arm_crank1_head_y_ - coupler2_y_ + crank1_y_;
     const double phi_dot_A1_y_ = arm_coupler2_head_x_*coupler2_omega_ + arm_crank1_head_x_*crank1_omega_ - coupler2_vy_
         + crank1_vy_;
     const double rhs_A1_y_ = arm_coupler2_head_y_*(coupler2_omega_ * coupler2_omega_)
         + arm_crank1_head_y_*(crank1_omega_ * crank1_omega_) - p->beta_squared_*phi_A1_y_ - phi_dot_A1_y_*p->two_alpha_;
-    aside->phi[11] = phi_A1_y_;
-    aside->phi_dot[11] = phi_dot_A1_y_;
+    rhs->phi[11] = phi_A1_y_;
+    rhs->phi_dot[11] = phi_dot_A1_y_;
     const double phi_B2_x_ = arm_coupler2_head_x_ - arm_crank2_head_x_ + coupler2_x_ - crank2_x_;
     const double phi_dot_B2_x_ = -arm_coupler2_head_y_*coupler2_omega_ + arm_crank2_head_y_*crank2_omega_
         + coupler2_vx_ - crank2_vx_;
     const double rhs_B2_x_ = arm_coupler2_head_x_*(coupler2_omega_ * coupler2_omega_)
         - arm_crank2_head_x_*(crank2_omega_ * crank2_omega_) - p->beta_squared_*phi_B2_x_ - phi_dot_B2_x_*p->two_alpha_;
-    aside->phi[12] = phi_B2_x_;
-    aside->phi_dot[12] = phi_dot_B2_x_;
+    rhs->phi[12] = phi_B2_x_;
+    rhs->phi_dot[12] = phi_dot_B2_x_;
     const double phi_B2_y_ = arm_coupler2_head_y_ - arm_crank2_head_y_ + coupler2_y_ - crank2_y_;
     const double phi_dot_B2_y_ = arm_coupler2_head_x_*coupler2_omega_ - arm_crank2_head_x_*crank2_omega_ + coupler2_vy_
         - crank2_vy_;
     const double rhs_B2_y_ = arm_coupler2_head_y_*(coupler2_omega_ * coupler2_omega_)
         - arm_crank2_head_y_*(crank2_omega_ * crank2_omega_) - p->beta_squared_*phi_B2_y_ - phi_dot_B2_y_*p->two_alpha_;
-    aside->phi[13] = phi_B2_y_;
-    aside->phi_dot[13] = phi_dot_B2_y_;
+    rhs->phi[13] = phi_B2_y_;
+    rhs->phi_dot[13] = phi_dot_B2_y_;
 
     /* L D L^T of the KKT matrix */
     const double l_coupler2_theta_A1_y_ = -arm_coupler2_head_x_*p->coupler2_mass_;
@@ -262,11 +262,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_B1_x_B1_y_ = l_B1_y_coupler1_theta_*w_B1_x_coupler1_theta_
         + l_B1_y_crank0_theta_*w_B1_x_crank0_theta_ + l_B1_y_crank1_theta_*w_B1_x_crank1_theta_;
     const double determinant_B1_x_B1_y_ = -(pivot_B1_x_B1_y_ * pivot_B1_x_B1_y_) + scale_B1_x_*scale_B1_y_;
-    if (!(scale_B1_x_ > memory->least * size_B1_x_)) {
+    if (!(scale_B1_x_ > discrete->least * size_B1_x_)) {
         pivot = 11;
         goto dependent;
     }
-    if (!(determinant_B1_x_B1_y_ > memory->least * size_B1_y_ * scale_B1_x_)) {
+    if (!(determinant_B1_x_B1_y_ > discrete->least * size_B1_y_ * scale_B1_x_)) {
         pivot = 12;
         goto dependent;
     }
@@ -294,11 +294,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_B2_y_coupler2_theta_*w_B2_x_coupler2_theta_ + l_B2_y_crank1_theta_*w_B2_x_crank1_theta_
         + l_B2_y_crank2_theta_*w_B2_x_crank2_theta_;
     const double determinant_B2_x_B2_y_ = pivot_B2_x_*pivot_B2_y_ - (pivot_B2_x_B2_y_ * pivot_B2_x_B2_y_);
-    if (!(pivot_B2_x_ > memory->least * size_B2_x_)) {
+    if (!(pivot_B2_x_ > discrete->least * size_B2_x_)) {
         pivot = 13;
         goto dependent;
     }
-    if (!(determinant_B2_x_B2_y_ > memory->least * size_B2_y_ * pivot_B2_x_)) {
+    if (!(determinant_B2_x_B2_y_ > discrete->least * size_B2_y_ * pivot_B2_x_)) {
         pivot = 14;
         goto dependent;
     }
@@ -414,25 +414,25 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[12] = acceleration_coupler2_x_;
     a[13] = acceleration_coupler2_y_;
     a[14] = acceleration_coupler2_theta_;
-    aside->lambda[0] = lambda_O0_x_;
-    aside->lambda[1] = lambda_O0_y_;
-    aside->lambda[2] = lambda_O1_x_;
-    aside->lambda[3] = lambda_O1_y_;
-    aside->lambda[4] = lambda_O2_x_;
-    aside->lambda[5] = lambda_O2_y_;
-    aside->lambda[6] = lambda_A0_x_;
-    aside->lambda[7] = lambda_A0_y_;
-    aside->lambda[8] = lambda_B1_x_;
-    aside->lambda[9] = lambda_B1_y_;
-    aside->lambda[10] = lambda_A1_x_;
-    aside->lambda[11] = lambda_A1_y_;
-    aside->lambda[12] = lambda_B2_x_;
-    aside->lambda[13] = lambda_B2_y_;
+    rhs->lambda[0] = lambda_O0_x_;
+    rhs->lambda[1] = lambda_O0_y_;
+    rhs->lambda[2] = lambda_O1_x_;
+    rhs->lambda[3] = lambda_O1_y_;
+    rhs->lambda[4] = lambda_O2_x_;
+    rhs->lambda[5] = lambda_O2_y_;
+    rhs->lambda[6] = lambda_A0_x_;
+    rhs->lambda[7] = lambda_A0_y_;
+    rhs->lambda[8] = lambda_B1_x_;
+    rhs->lambda[9] = lambda_B1_y_;
+    rhs->lambda[10] = lambda_A1_x_;
+    rhs->lambda[11] = lambda_A1_y_;
+    rhs->lambda[12] = lambda_B2_x_;
+    rhs->lambda[13] = lambda_B2_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = p->weight_crank0_y_;
         force[2] = 0.0;
@@ -448,25 +448,25 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[12] = 0.0;
         force[13] = p->weight_coupler2_y_;
         force[14] = 0.0;
-        rhs[0] = rhs_O0_x_;
-        rhs[1] = rhs_O0_y_;
-        rhs[2] = rhs_O1_x_;
-        rhs[3] = rhs_O1_y_;
-        rhs[4] = rhs_O2_x_;
-        rhs[5] = rhs_O2_y_;
-        rhs[6] = rhs_A0_x_;
-        rhs[7] = rhs_A0_y_;
-        rhs[8] = rhs_B1_x_;
-        rhs[9] = rhs_B1_y_;
-        rhs[10] = rhs_A1_x_;
-        rhs[11] = rhs_A1_y_;
-        rhs[12] = rhs_B2_x_;
-        rhs[13] = rhs_B2_y_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_O0_x_;
+        gamma_stab[1] = rhs_O0_y_;
+        gamma_stab[2] = rhs_O1_x_;
+        gamma_stab[3] = rhs_O1_y_;
+        gamma_stab[4] = rhs_O2_x_;
+        gamma_stab[5] = rhs_O2_y_;
+        gamma_stab[6] = rhs_A0_x_;
+        gamma_stab[7] = rhs_A0_y_;
+        gamma_stab[8] = rhs_B1_x_;
+        gamma_stab[9] = rhs_B1_y_;
+        gamma_stab[10] = rhs_A1_x_;
+        gamma_stab[11] = rhs_A1_y_;
+        gamma_stab[12] = rhs_B2_x_;
+        gamma_stab[13] = rhs_B2_y_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

@@ -258,12 +258,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double crank0_theta_ = q[0];
@@ -358,11 +358,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         goto dependent;
     }
     const double size_B2_x_ = scale_B2_x_ + scale_B2_y_;
-    if (!(scale_B2_x_ > memory->least_size * size_B2_x_)) {
+    if (!(scale_B2_x_ > discrete->least_size * size_B2_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x_B2_y_ > memory->least_size * size_B2_x_ * scale_B2_x_)) {
+    if (!(determinant_B2_x_B2_y_ > discrete->least_size * size_B2_x_ * scale_B2_x_)) {
         pivot = 2;
         goto dependent;
     }
@@ -415,16 +415,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x_B1_y_ > memory->least * scale_B1_y_ * scale_B1_x_)) {
+    if (!(determinant_B1_x_B1_y_ > discrete->least * scale_B1_y_ * scale_B1_x_)) {
         pivot = 4;
         goto dependent;
     }
     const double size_B1_x_ = scale_B1_x_ + scale_B1_y_;
-    if (!(scale_B1_x_ > memory->least_size * size_B1_x_)) {
+    if (!(scale_B1_x_ > discrete->least_size * size_B1_x_)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x_B1_y_ > memory->least_size * size_B1_x_ * scale_B1_x_)) {
+    if (!(determinant_B1_x_B1_y_ > discrete->least_size * size_B1_x_ * scale_B1_x_)) {
         pivot = 4;
         goto dependent;
     }
@@ -477,19 +477,19 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[2] = acceleration_crank2_theta_;
     a[3] = acceleration_coupler1_theta_;
     a[4] = acceleration_coupler2_theta_;
-    aside->lambda[0] = lambda_B2_x_;
-    aside->lambda[1] = lambda_B2_y_;
-    aside->lambda[2] = lambda_B1_x_;
-    aside->lambda[3] = lambda_B1_y_;
+    rhs->lambda[0] = lambda_B2_x_;
+    rhs->lambda[1] = lambda_B2_y_;
+    rhs->lambda[2] = lambda_B1_x_;
+    rhs->lambda[3] = lambda_B1_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

@@ -1,14 +1,14 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double *const g = aside->g;
+    const double *const branch = discrete->held ? discrete->branch : NULL;
+    double *const g = rhs->g;
 
     /* coordinates, velocities, time */
     const double L1_x_ = q[0];
@@ -104,144 +104,144 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double e_A_y_ = -L1_y_ + L2_y_ - arm_L1_head_y_ - arm_L2_head_y_;
     const double edot_A_x_ = L1_omega_*arm_L1_head_y_ - L1_vx_ + L2_omega_*arm_L2_head_y_ + L2_vx_;
     const double edot_A_y_ = -L1_omega_*arm_L1_head_x_ - L1_vy_ - L2_omega_*arm_L2_head_x_ + L2_vy_;
-    clearance_A_(e_A_x_, e_A_y_, edot_A_x_, edot_A_y_, L1_omega_, L2_omega_, &memory->latch[0], p, side, g,
-        &aside->clearance[0]);
-    const double F_A_x_ = aside->clearance[0].Fx;
-    const double F_A_y_ = aside->clearance[0].Fy;
-    const double M_A_first_ = aside->clearance[0].moment_first;
-    const double M_A_second_ = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_A_x_*edot_A_x_ + F_A_y_*edot_A_y_ + L1_omega_*M_A_first_ + L2_omega_*M_A_second_;
+    clearance_A_(e_A_x_, e_A_y_, edot_A_x_, edot_A_y_, L1_omega_, L2_omega_, &discrete->contact[0], p, branch, g,
+        &rhs->clearance[0]);
+    const double F_A_x_ = rhs->clearance[0].Fx;
+    const double F_A_y_ = rhs->clearance[0].Fy;
+    const double M_A_first_ = rhs->clearance[0].moment_first;
+    const double M_A_second_ = rhs->clearance[0].moment_second;
+    rhs->clearance[0].power = F_A_x_*edot_A_x_ + F_A_y_*edot_A_y_ + L1_omega_*M_A_first_ + L2_omega_*M_A_second_;
 
     /* clearance joint B */
     const double e_B_x_ = L3_x_ - L4_x_ - arm_L3_head_x_ - arm_L4_head_x_;
     const double e_B_y_ = L3_y_ - L4_y_ - arm_L3_head_y_ - arm_L4_head_y_;
     const double edot_B_x_ = L3_omega_*arm_L3_head_y_ + L3_vx_ + L4_omega_*arm_L4_head_y_ - L4_vx_;
     const double edot_B_y_ = -L3_omega_*arm_L3_head_x_ + L3_vy_ - L4_omega_*arm_L4_head_x_ - L4_vy_;
-    clearance_B_(e_B_x_, e_B_y_, edot_B_x_, edot_B_y_, L4_omega_, L3_omega_, &memory->latch[1], p, side, g,
-        &aside->clearance[1]);
-    const double F_B_x_ = aside->clearance[1].Fx;
-    const double F_B_y_ = aside->clearance[1].Fy;
-    const double M_B_first_ = aside->clearance[1].moment_first;
-    const double M_B_second_ = aside->clearance[1].moment_second;
-    aside->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + L4_omega_*M_B_first_;
+    clearance_B_(e_B_x_, e_B_y_, edot_B_x_, edot_B_y_, L4_omega_, L3_omega_, &discrete->contact[1], p, branch, g,
+        &rhs->clearance[1]);
+    const double F_B_x_ = rhs->clearance[1].Fx;
+    const double F_B_y_ = rhs->clearance[1].Fy;
+    const double M_B_first_ = rhs->clearance[1].moment_first;
+    const double M_B_second_ = rhs->clearance[1].moment_second;
+    rhs->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + L4_omega_*M_B_first_;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_O1_x_ = -L1_x_ + arm_L1_head_x_;
     const double phi_dot_O1_x_ = -L1_omega_*arm_L1_head_y_ - L1_vx_;
     const double rhs_O1_x_ = (L1_omega_ * L1_omega_)*arm_L1_head_x_ - p->beta_squared_*phi_O1_x_
         - phi_dot_O1_x_*p->two_alpha_;
-    aside->phi[0] = phi_O1_x_;
-    aside->phi_dot[0] = phi_dot_O1_x_;
+    rhs->phi[0] = phi_O1_x_;
+    rhs->phi_dot[0] = phi_dot_O1_x_;
     const double phi_O1_y_ = -L1_y_ + arm_L1_head_y_;
     const double phi_dot_O1_y_ = L1_omega_*arm_L1_head_x_ - L1_vy_;
     const double rhs_O1_y_ = (L1_omega_ * L1_omega_)*arm_L1_head_y_ - p->beta_squared_*phi_O1_y_
         - phi_dot_O1_y_*p->two_alpha_;
-    aside->phi[1] = phi_O1_y_;
-    aside->phi_dot[1] = phi_dot_O1_y_;
+    rhs->phi[1] = phi_O1_y_;
+    rhs->phi_dot[1] = phi_dot_O1_y_;
     const double phi_O4_x_ = -L4_x_ + arm_L4_head_x_;
     const double phi_dot_O4_x_ = -L4_omega_*arm_L4_head_y_ - L4_vx_;
     const double rhs_O4_x_ = (L4_omega_ * L4_omega_)*arm_L4_head_x_ - p->beta_squared_*phi_O4_x_
         - phi_dot_O4_x_*p->two_alpha_;
-    aside->phi[2] = phi_O4_x_;
-    aside->phi_dot[2] = phi_dot_O4_x_;
+    rhs->phi[2] = phi_O4_x_;
+    rhs->phi_dot[2] = phi_dot_O4_x_;
     const double phi_O4_y_ = -L4_y_ + p->O4_y_ + arm_L4_head_y_;
     const double phi_dot_O4_y_ = L4_omega_*arm_L4_head_x_ - L4_vy_;
     const double rhs_O4_y_ = (L4_omega_ * L4_omega_)*arm_L4_head_y_ - p->beta_squared_*phi_O4_y_
         - phi_dot_O4_y_*p->two_alpha_;
-    aside->phi[3] = phi_O4_y_;
-    aside->phi_dot[3] = phi_dot_O4_y_;
+    rhs->phi[3] = phi_O4_y_;
+    rhs->phi_dot[3] = phi_dot_O4_y_;
     const double phi_P2_x_ = L2_x_ - L7_x_ + arm_L2_head_x_ + arm_L7_head_x_;
     const double phi_dot_P2_x_ = -L2_omega_*arm_L2_head_y_ + L2_vx_ - L7_omega_*arm_L7_head_y_ - L7_vx_;
     const double rhs_P2_x_ = (L2_omega_ * L2_omega_)*arm_L2_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_
         - p->beta_squared_*phi_P2_x_ - phi_dot_P2_x_*p->two_alpha_;
-    aside->phi[4] = phi_P2_x_;
-    aside->phi_dot[4] = phi_dot_P2_x_;
+    rhs->phi[4] = phi_P2_x_;
+    rhs->phi_dot[4] = phi_dot_P2_x_;
     const double phi_P2_y_ = L2_y_ - L7_y_ + arm_L2_head_y_ + arm_L7_head_y_;
     const double phi_dot_P2_y_ = L2_omega_*arm_L2_head_x_ + L2_vy_ + L7_omega_*arm_L7_head_x_ - L7_vy_;
     const double rhs_P2_y_ = (L2_omega_ * L2_omega_)*arm_L2_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_
         - p->beta_squared_*phi_P2_y_ - phi_dot_P2_y_*p->two_alpha_;
-    aside->phi[5] = phi_P2_y_;
-    aside->phi_dot[5] = phi_dot_P2_y_;
+    rhs->phi[5] = phi_P2_y_;
+    rhs->phi_dot[5] = phi_dot_P2_y_;
     const double phi_P3_x_ = L3_x_ - L7_x_ + arm_L3_head_x_ + arm_L7_head_x_;
     const double phi_dot_P3_x_ = -L3_omega_*arm_L3_head_y_ + L3_vx_ - L7_omega_*arm_L7_head_y_ - L7_vx_;
     const double rhs_P3_x_ = (L3_omega_ * L3_omega_)*arm_L3_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_
         - p->beta_squared_*phi_P3_x_ - phi_dot_P3_x_*p->two_alpha_;
-    aside->phi[6] = phi_P3_x_;
-    aside->phi_dot[6] = phi_dot_P3_x_;
+    rhs->phi[6] = phi_P3_x_;
+    rhs->phi_dot[6] = phi_dot_P3_x_;
     const double phi_P3_y_ = L3_y_ - L7_y_ + arm_L3_head_y_ + arm_L7_head_y_;
     const double phi_dot_P3_y_ = L3_omega_*arm_L3_head_x_ + L3_vy_ + L7_omega_*arm_L7_head_x_ - L7_vy_;
     const double rhs_P3_y_ = (L3_omega_ * L3_omega_)*arm_L3_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_
         - p->beta_squared_*phi_P3_y_ - phi_dot_P3_y_*p->two_alpha_;
-    aside->phi[7] = phi_P3_y_;
-    aside->phi_dot[7] = phi_dot_P3_y_;
+    rhs->phi[7] = phi_P3_y_;
+    rhs->phi_dot[7] = phi_dot_P3_y_;
     const double phi_Q6_x_ = -L6_x_ + L7_x_ - arm_L6_head_x_ + arm_L7_head_x_;
     const double phi_dot_Q6_x_ = L6_omega_*arm_L6_head_y_ - L6_vx_ - L7_omega_*arm_L7_head_y_ + L7_vx_;
     const double rhs_Q6_x_ = -(L6_omega_ * L6_omega_)*arm_L6_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_
         - p->beta_squared_*phi_Q6_x_ - phi_dot_Q6_x_*p->two_alpha_;
-    aside->phi[8] = phi_Q6_x_;
-    aside->phi_dot[8] = phi_dot_Q6_x_;
+    rhs->phi[8] = phi_Q6_x_;
+    rhs->phi_dot[8] = phi_dot_Q6_x_;
     const double phi_Q6_y_ = -L6_y_ + L7_y_ - arm_L6_head_y_ + arm_L7_head_y_;
     const double phi_dot_Q6_y_ = -L6_omega_*arm_L6_head_x_ - L6_vy_ + L7_omega_*arm_L7_head_x_ + L7_vy_;
     const double rhs_Q6_y_ = -(L6_omega_ * L6_omega_)*arm_L6_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_
         - p->beta_squared_*phi_Q6_y_ - phi_dot_Q6_y_*p->two_alpha_;
-    aside->phi[9] = phi_Q6_y_;
-    aside->phi_dot[9] = phi_dot_Q6_y_;
+    rhs->phi[9] = phi_Q6_y_;
+    rhs->phi_dot[9] = phi_dot_Q6_y_;
     const double phi_Q8_x_ = L7_x_ - L8_x_ + arm_L7_head_x_ + arm_L8_head_x_;
     const double phi_dot_Q8_x_ = -L7_omega_*arm_L7_head_y_ + L7_vx_ - L8_omega_*arm_L8_head_y_ - L8_vx_;
     const double rhs_Q8_x_ = (L7_omega_ * L7_omega_)*arm_L7_head_x_ + (L8_omega_ * L8_omega_)*arm_L8_head_x_
         - p->beta_squared_*phi_Q8_x_ - phi_dot_Q8_x_*p->two_alpha_;
-    aside->phi[10] = phi_Q8_x_;
-    aside->phi_dot[10] = phi_dot_Q8_x_;
+    rhs->phi[10] = phi_Q8_x_;
+    rhs->phi_dot[10] = phi_dot_Q8_x_;
     const double phi_Q8_y_ = L7_y_ - L8_y_ + arm_L7_head_y_ + arm_L8_head_y_;
     const double phi_dot_Q8_y_ = L7_omega_*arm_L7_head_x_ + L7_vy_ + L8_omega_*arm_L8_head_x_ - L8_vy_;
     const double rhs_Q8_y_ = (L7_omega_ * L7_omega_)*arm_L7_head_y_ + (L8_omega_ * L8_omega_)*arm_L8_head_y_
         - p->beta_squared_*phi_Q8_y_ - phi_dot_Q8_y_*p->two_alpha_;
-    aside->phi[11] = phi_Q8_y_;
-    aside->phi_dot[11] = phi_dot_Q8_y_;
+    rhs->phi[11] = phi_Q8_y_;
+    rhs->phi_dot[11] = phi_dot_Q8_y_;
     const double phi_O6_x_ = -L6_x_ + p->O6_x_ + arm_L6_head_x_;
     const double phi_dot_O6_x_ = -L6_omega_*arm_L6_head_y_ - L6_vx_;
     const double rhs_O6_x_ = (L6_omega_ * L6_omega_)*arm_L6_head_x_ - p->beta_squared_*phi_O6_x_
         - phi_dot_O6_x_*p->two_alpha_;
-    aside->phi[12] = phi_O6_x_;
-    aside->phi_dot[12] = phi_dot_O6_x_;
+    rhs->phi[12] = phi_O6_x_;
+    rhs->phi_dot[12] = phi_dot_O6_x_;
     const double phi_O6_y_ = -L6_y_ + arm_L6_head_y_;
     const double phi_dot_O6_y_ = L6_omega_*arm_L6_head_x_ - L6_vy_;
     const double rhs_O6_y_ = (L6_omega_ * L6_omega_)*arm_L6_head_y_ - p->beta_squared_*phi_O6_y_
         - phi_dot_O6_y_*p->two_alpha_;
-    aside->phi[13] = phi_O6_y_;
-    aside->phi_dot[13] = phi_dot_O6_y_;
+    rhs->phi[13] = phi_O6_y_;
+    rhs->phi_dot[13] = phi_dot_O6_y_;
     const double phi_slider_x_ = L8_x_ - S9_x_ + arm_L8_head_x_;
     const double phi_dot_slider_x_ = -L8_omega_*arm_L8_head_y_ + L8_vx_ - S9_vx_;
     const double rhs_slider_x_ = (L8_omega_ * L8_omega_)*arm_L8_head_x_ - p->beta_squared_*phi_slider_x_
         - phi_dot_slider_x_*p->two_alpha_;
-    aside->phi[14] = phi_slider_x_;
-    aside->phi_dot[14] = phi_dot_slider_x_;
+    rhs->phi[14] = phi_slider_x_;
+    rhs->phi_dot[14] = phi_dot_slider_x_;
     const double phi_slider_y_ = L8_y_ - S9_y_ + arm_L8_head_y_;
     const double phi_dot_slider_y_ = L8_omega_*arm_L8_head_x_ + L8_vy_ - S9_vy_;
     const double rhs_slider_y_ = (L8_omega_ * L8_omega_)*arm_L8_head_y_ - p->beta_squared_*phi_slider_y_
         - phi_dot_slider_y_*p->two_alpha_;
-    aside->phi[15] = phi_slider_y_;
-    aside->phi_dot[15] = phi_dot_slider_y_;
+    rhs->phi[15] = phi_slider_y_;
+    rhs->phi_dot[15] = phi_dot_slider_y_;
     const double phi_guide_offset_ = p->O6_x_ - S9_x_;
     const double phi_dot_guide_offset_ = -S9_vx_;
     const double rhs_guide_offset_ = -p->beta_squared_*phi_guide_offset_ - phi_dot_guide_offset_*p->two_alpha_;
-    aside->phi[16] = phi_guide_offset_;
-    aside->phi_dot[16] = phi_dot_guide_offset_;
+    rhs->phi[16] = phi_guide_offset_;
+    rhs->phi_dot[16] = phi_dot_guide_offset_;
     const double phi_guide_angle_ = S9_theta_ - PI/2.0;
     const double phi_dot_guide_angle_ = S9_omega_;
     const double rhs_guide_angle_ = -p->beta_squared_*phi_guide_angle_ - phi_dot_guide_angle_*p->two_alpha_;
-    aside->phi[17] = phi_guide_angle_;
-    aside->phi_dot[17] = phi_dot_guide_angle_;
+    rhs->phi[17] = phi_guide_angle_;
+    rhs->phi_dot[17] = phi_dot_guide_angle_;
     const double phi_crank1_ = L1_theta_ - crank1_value_;
     const double phi_dot_crank1_ = L1_omega_ - crank1_rate_;
     const double rhs_crank1_ = -p->beta_squared_*phi_crank1_ + crank1_acceleration_ - phi_dot_crank1_*p->two_alpha_;
-    aside->phi[18] = phi_crank1_;
-    aside->phi_dot[18] = phi_dot_crank1_;
+    rhs->phi[18] = phi_crank1_;
+    rhs->phi_dot[18] = phi_dot_crank1_;
     const double phi_crank4_ = L4_theta_ - crank4_value_;
     const double phi_dot_crank4_ = L4_omega_ - crank4_rate_;
     const double rhs_crank4_ = -p->beta_squared_*phi_crank4_ + crank4_acceleration_ - phi_dot_crank4_*p->two_alpha_;
-    aside->phi[19] = phi_crank4_;
-    aside->phi_dot[19] = phi_dot_crank4_;
+    rhs->phi[19] = phi_crank4_;
+    rhs->phi_dot[19] = phi_dot_crank4_;
 
     /* L D L^T of the KKT matrix */
     const double l_L8_theta_slider_y_ = -p->S9_mass_*arm_L8_head_x_;
@@ -338,7 +338,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_guide_offset_L8_theta_*w_guide_offset_L8_theta_;
     const double pivot_guide_offset_ = scale_guide_offset_;
     const double size_guide_offset_ = p->mobility_guide_offset_ + scale_guide_offset_;
-    if (!(pivot_guide_offset_ > memory->least * size_guide_offset_)) {
+    if (!(pivot_guide_offset_ > discrete->least * size_guide_offset_)) {
         pivot = 20;
         goto dependent;
     }
@@ -494,31 +494,31 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[21] = acceleration_S9_x_;
     a[22] = acceleration_S9_y_;
     a[23] = acceleration_S9_theta_;
-    aside->lambda[0] = lambda_O1_x_;
-    aside->lambda[1] = lambda_O1_y_;
-    aside->lambda[2] = lambda_O4_x_;
-    aside->lambda[3] = lambda_O4_y_;
-    aside->lambda[4] = lambda_P2_x_;
-    aside->lambda[5] = lambda_P2_y_;
-    aside->lambda[6] = lambda_P3_x_;
-    aside->lambda[7] = lambda_P3_y_;
-    aside->lambda[8] = lambda_Q6_x_;
-    aside->lambda[9] = lambda_Q6_y_;
-    aside->lambda[10] = lambda_Q8_x_;
-    aside->lambda[11] = lambda_Q8_y_;
-    aside->lambda[12] = lambda_O6_x_;
-    aside->lambda[13] = lambda_O6_y_;
-    aside->lambda[14] = lambda_slider_x_;
-    aside->lambda[15] = lambda_slider_y_;
-    aside->lambda[16] = lambda_guide_offset_;
-    aside->lambda[17] = lambda_guide_angle_;
-    aside->lambda[18] = lambda_crank1_;
-    aside->lambda[19] = lambda_crank4_;
+    rhs->lambda[0] = lambda_O1_x_;
+    rhs->lambda[1] = lambda_O1_y_;
+    rhs->lambda[2] = lambda_O4_x_;
+    rhs->lambda[3] = lambda_O4_y_;
+    rhs->lambda[4] = lambda_P2_x_;
+    rhs->lambda[5] = lambda_P2_y_;
+    rhs->lambda[6] = lambda_P3_x_;
+    rhs->lambda[7] = lambda_P3_y_;
+    rhs->lambda[8] = lambda_Q6_x_;
+    rhs->lambda[9] = lambda_Q6_y_;
+    rhs->lambda[10] = lambda_Q8_x_;
+    rhs->lambda[11] = lambda_Q8_y_;
+    rhs->lambda[12] = lambda_O6_x_;
+    rhs->lambda[13] = lambda_O6_y_;
+    rhs->lambda[14] = lambda_slider_x_;
+    rhs->lambda[15] = lambda_slider_y_;
+    rhs->lambda[16] = lambda_guide_offset_;
+    rhs->lambda[17] = lambda_guide_angle_;
+    rhs->lambda[18] = lambda_crank1_;
+    rhs->lambda[19] = lambda_crank4_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = -F_A_x_;
         force[1] = -F_A_y_ + p->weight_L1_y_;
         force[2] = F_A_x_*arm_L1_head_y_ - F_A_y_*arm_L1_head_x_ + M_A_first_;
@@ -543,31 +543,31 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[21] = 0.0;
         force[22] = p->weight_S9_y_;
         force[23] = 0.0;
-        rhs[0] = rhs_O1_x_;
-        rhs[1] = rhs_O1_y_;
-        rhs[2] = rhs_O4_x_;
-        rhs[3] = rhs_O4_y_;
-        rhs[4] = rhs_P2_x_;
-        rhs[5] = rhs_P2_y_;
-        rhs[6] = rhs_P3_x_;
-        rhs[7] = rhs_P3_y_;
-        rhs[8] = rhs_Q6_x_;
-        rhs[9] = rhs_Q6_y_;
-        rhs[10] = rhs_Q8_x_;
-        rhs[11] = rhs_Q8_y_;
-        rhs[12] = rhs_O6_x_;
-        rhs[13] = rhs_O6_y_;
-        rhs[14] = rhs_slider_x_;
-        rhs[15] = rhs_slider_y_;
-        rhs[16] = rhs_guide_offset_;
-        rhs[17] = rhs_guide_angle_;
-        rhs[18] = rhs_crank1_;
-        rhs[19] = rhs_crank4_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_O1_x_;
+        gamma_stab[1] = rhs_O1_y_;
+        gamma_stab[2] = rhs_O4_x_;
+        gamma_stab[3] = rhs_O4_y_;
+        gamma_stab[4] = rhs_P2_x_;
+        gamma_stab[5] = rhs_P2_y_;
+        gamma_stab[6] = rhs_P3_x_;
+        gamma_stab[7] = rhs_P3_y_;
+        gamma_stab[8] = rhs_Q6_x_;
+        gamma_stab[9] = rhs_Q6_y_;
+        gamma_stab[10] = rhs_Q8_x_;
+        gamma_stab[11] = rhs_Q8_y_;
+        gamma_stab[12] = rhs_O6_x_;
+        gamma_stab[13] = rhs_O6_y_;
+        gamma_stab[14] = rhs_slider_x_;
+        gamma_stab[15] = rhs_slider_y_;
+        gamma_stab[16] = rhs_guide_offset_;
+        gamma_stab[17] = rhs_guide_angle_;
+        gamma_stab[18] = rhs_crank1_;
+        gamma_stab[19] = rhs_crank4_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = -aside->lambda[18]*crank1_rate_ - aside->lambda[19]*crank4_rate_;
-    aside->power[1] = 0.0;
-    aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
+    rhs->power[0] = -crank1_rate_*rhs->lambda[18] - crank4_rate_*rhs->lambda[19];
+    rhs->power[1] = 0.0;
+    rhs->power[2] = rhs->clearance[0].power + rhs->clearance[1].power;
     return pivot;
 }

@@ -244,16 +244,16 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double *const g = aside->g;
+    const double *const branch = discrete->held ? discrete->branch : NULL;
+    double *const g = rhs->g;
 
     /* coordinates, velocities, time */
     const double L6_theta_ = q[0];
@@ -361,26 +361,26 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double e_A_y_ = L2_tail_y_ - span_L1_head_y_;
     const double edot_A_x_ = -L1_head_vx_ + L2_tail_vx_;
     const double edot_A_y_ = -L1_head_vy_ + L2_tail_vy_;
-    clearance_A_(e_A_x_, e_A_y_, edot_A_x_, edot_A_y_, crank1_rate_, L2_omega_, &memory->latch[0], p, side, g,
-        &aside->clearance[0]);
-    const double F_A_x_ = aside->clearance[0].Fx;
-    const double F_A_y_ = aside->clearance[0].Fy;
-    const double M_A_first_ = aside->clearance[0].moment_first;
-    const double M_A_second_ = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_A_x_*edot_A_x_ + F_A_y_*edot_A_y_ + L2_omega_*M_A_second_ + M_A_first_*crank1_rate_;
+    clearance_A_(e_A_x_, e_A_y_, edot_A_x_, edot_A_y_, crank1_rate_, L2_omega_, &discrete->contact[0], p, branch, g,
+        &rhs->clearance[0]);
+    const double F_A_x_ = rhs->clearance[0].Fx;
+    const double F_A_y_ = rhs->clearance[0].Fy;
+    const double M_A_first_ = rhs->clearance[0].moment_first;
+    const double M_A_second_ = rhs->clearance[0].moment_second;
+    rhs->clearance[0].power = F_A_x_*edot_A_x_ + F_A_y_*edot_A_y_ + L2_omega_*M_A_second_ + M_A_first_*crank1_rate_;
 
     /* clearance joint B */
     const double e_B_x_ = L3_tail_x_ - span_L4_head_x_;
     const double e_B_y_ = L3_tail_y_ - L4_head_y_;
     const double edot_B_x_ = L3_tail_vx_ - L4_head_vx_;
     const double edot_B_y_ = L3_tail_vy_ - L4_head_vy_;
-    clearance_B_(e_B_x_, e_B_y_, edot_B_x_, edot_B_y_, crank4_rate_, L3_omega_, &memory->latch[1], p, side, g,
-        &aside->clearance[1]);
-    const double F_B_x_ = aside->clearance[1].Fx;
-    const double F_B_y_ = aside->clearance[1].Fy;
-    const double M_B_first_ = aside->clearance[1].moment_first;
-    const double M_B_second_ = aside->clearance[1].moment_second;
-    aside->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + M_B_first_*crank4_rate_;
+    clearance_B_(e_B_x_, e_B_y_, edot_B_x_, edot_B_y_, crank4_rate_, L3_omega_, &discrete->contact[1], p, branch, g,
+        &rhs->clearance[1]);
+    const double F_B_x_ = rhs->clearance[1].Fx;
+    const double F_B_y_ = rhs->clearance[1].Fy;
+    const double M_B_first_ = rhs->clearance[1].moment_first;
+    const double M_B_second_ = rhs->clearance[1].moment_second;
+    rhs->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + M_B_first_*crank4_rate_;
 
     /* without a (NULL) joints with play alone are asked for */
     if (!a)
@@ -474,19 +474,19 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[2] = acceleration_L8_theta_;
     a[3] = acceleration_L2_theta_;
     a[4] = acceleration_L3_theta_;
-    aside->lambda[0] = lambda_guide_offset_;
+    rhs->lambda[0] = lambda_guide_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = crank1_rate_*(-F_A_x_*span_L1_head_y_ + F_A_y_*span_L1_head_x_ - M_A_first_
+    rhs->power[0] = crank1_rate_*(-F_A_x_*span_L1_head_y_ + F_A_y_*span_L1_head_x_ - M_A_first_
         - cos_theta_L1_*p->weight_L1_across_ + crank1_acceleration_*p->mass_crank1_crank1_)
         + crank4_rate_*(-F_B_x_*span_L4_head_y_ + F_B_y_*span_L4_head_x_ - M_B_first_
         - cos_theta_L4_*p->weight_L4_across_ + crank4_acceleration_*p->mass_crank4_crank4_);
-    aside->power[1] = 0.0;
-    aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = rhs->clearance[0].power + rhs->clearance[1].power;
     return pivot;
 }
 

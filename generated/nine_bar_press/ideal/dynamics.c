@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double L1_x_ = q[0];
@@ -100,142 +100,142 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_O1_x_ = -L1_omega_*arm_L1_head_y_ - L1_vx_;
     const double rhs_O1_x_ = (L1_omega_ * L1_omega_)*arm_L1_head_x_ - p->beta_squared_*phi_O1_x_
         - phi_dot_O1_x_*p->two_alpha_;
-    aside->phi[0] = phi_O1_x_;
-    aside->phi_dot[0] = phi_dot_O1_x_;
+    rhs->phi[0] = phi_O1_x_;
+    rhs->phi_dot[0] = phi_dot_O1_x_;
     const double phi_O1_y_ = -L1_y_ + arm_L1_head_y_;
     const double phi_dot_O1_y_ = L1_omega_*arm_L1_head_x_ - L1_vy_;
     const double rhs_O1_y_ = (L1_omega_ * L1_omega_)*arm_L1_head_y_ - p->beta_squared_*phi_O1_y_
         - phi_dot_O1_y_*p->two_alpha_;
-    aside->phi[1] = phi_O1_y_;
-    aside->phi_dot[1] = phi_dot_O1_y_;
+    rhs->phi[1] = phi_O1_y_;
+    rhs->phi_dot[1] = phi_dot_O1_y_;
     const double phi_O4_x_ = -L4_x_ + arm_L4_head_x_;
     const double phi_dot_O4_x_ = -L4_omega_*arm_L4_head_y_ - L4_vx_;
     const double rhs_O4_x_ = (L4_omega_ * L4_omega_)*arm_L4_head_x_ - p->beta_squared_*phi_O4_x_
         - phi_dot_O4_x_*p->two_alpha_;
-    aside->phi[2] = phi_O4_x_;
-    aside->phi_dot[2] = phi_dot_O4_x_;
+    rhs->phi[2] = phi_O4_x_;
+    rhs->phi_dot[2] = phi_dot_O4_x_;
     const double phi_O4_y_ = -L4_y_ + p->O4_y_ + arm_L4_head_y_;
     const double phi_dot_O4_y_ = L4_omega_*arm_L4_head_x_ - L4_vy_;
     const double rhs_O4_y_ = (L4_omega_ * L4_omega_)*arm_L4_head_y_ - p->beta_squared_*phi_O4_y_
         - phi_dot_O4_y_*p->two_alpha_;
-    aside->phi[3] = phi_O4_y_;
-    aside->phi_dot[3] = phi_dot_O4_y_;
+    rhs->phi[3] = phi_O4_y_;
+    rhs->phi_dot[3] = phi_dot_O4_y_;
     const double phi_A_x_ = L1_x_ - L2_x_ + arm_L1_head_x_ + arm_L2_head_x_;
     const double phi_dot_A_x_ = -L1_omega_*arm_L1_head_y_ + L1_vx_ - L2_omega_*arm_L2_head_y_ - L2_vx_;
     const double rhs_A_x_ = (L1_omega_ * L1_omega_)*arm_L1_head_x_ + (L2_omega_ * L2_omega_)*arm_L2_head_x_
         - p->beta_squared_*phi_A_x_ - phi_dot_A_x_*p->two_alpha_;
-    aside->phi[4] = phi_A_x_;
-    aside->phi_dot[4] = phi_dot_A_x_;
+    rhs->phi[4] = phi_A_x_;
+    rhs->phi_dot[4] = phi_dot_A_x_;
     const double phi_A_y_ = L1_y_ - L2_y_ + arm_L1_head_y_ + arm_L2_head_y_;
     const double phi_dot_A_y_ = L1_omega_*arm_L1_head_x_ + L1_vy_ + L2_omega_*arm_L2_head_x_ - L2_vy_;
     const double rhs_A_y_ = (L1_omega_ * L1_omega_)*arm_L1_head_y_ + (L2_omega_ * L2_omega_)*arm_L2_head_y_
         - p->beta_squared_*phi_A_y_ - phi_dot_A_y_*p->two_alpha_;
-    aside->phi[5] = phi_A_y_;
-    aside->phi_dot[5] = phi_dot_A_y_;
+    rhs->phi[5] = phi_A_y_;
+    rhs->phi_dot[5] = phi_dot_A_y_;
     const double phi_B_x_ = -L3_x_ + L4_x_ + arm_L3_head_x_ + arm_L4_head_x_;
     const double phi_dot_B_x_ = -L3_omega_*arm_L3_head_y_ - L3_vx_ - L4_omega_*arm_L4_head_y_ + L4_vx_;
     const double rhs_B_x_ = (L3_omega_ * L3_omega_)*arm_L3_head_x_ + (L4_omega_ * L4_omega_)*arm_L4_head_x_
         - p->beta_squared_*phi_B_x_ - phi_dot_B_x_*p->two_alpha_;
-    aside->phi[6] = phi_B_x_;
-    aside->phi_dot[6] = phi_dot_B_x_;
+    rhs->phi[6] = phi_B_x_;
+    rhs->phi_dot[6] = phi_dot_B_x_;
     const double phi_B_y_ = -L3_y_ + L4_y_ + arm_L3_head_y_ + arm_L4_head_y_;
     const double phi_dot_B_y_ = L3_omega_*arm_L3_head_x_ - L3_vy_ + L4_omega_*arm_L4_head_x_ + L4_vy_;
     const double rhs_B_y_ = (L3_omega_ * L3_omega_)*arm_L3_head_y_ + (L4_omega_ * L4_omega_)*arm_L4_head_y_
         - p->beta_squared_*phi_B_y_ - phi_dot_B_y_*p->two_alpha_;
-    aside->phi[7] = phi_B_y_;
-    aside->phi_dot[7] = phi_dot_B_y_;
+    rhs->phi[7] = phi_B_y_;
+    rhs->phi_dot[7] = phi_dot_B_y_;
     const double phi_P2_x_ = L2_x_ - L7_x_ + arm_L2_head_x_ + arm_L7_head_x_;
     const double phi_dot_P2_x_ = -L2_omega_*arm_L2_head_y_ + L2_vx_ - L7_omega_*arm_L7_head_y_ - L7_vx_;
     const double rhs_P2_x_ = (L2_omega_ * L2_omega_)*arm_L2_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_
         - p->beta_squared_*phi_P2_x_ - phi_dot_P2_x_*p->two_alpha_;
-    aside->phi[8] = phi_P2_x_;
-    aside->phi_dot[8] = phi_dot_P2_x_;
+    rhs->phi[8] = phi_P2_x_;
+    rhs->phi_dot[8] = phi_dot_P2_x_;
     const double phi_P2_y_ = L2_y_ - L7_y_ + arm_L2_head_y_ + arm_L7_head_y_;
     const double phi_dot_P2_y_ = L2_omega_*arm_L2_head_x_ + L2_vy_ + L7_omega_*arm_L7_head_x_ - L7_vy_;
     const double rhs_P2_y_ = (L2_omega_ * L2_omega_)*arm_L2_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_
         - p->beta_squared_*phi_P2_y_ - phi_dot_P2_y_*p->two_alpha_;
-    aside->phi[9] = phi_P2_y_;
-    aside->phi_dot[9] = phi_dot_P2_y_;
+    rhs->phi[9] = phi_P2_y_;
+    rhs->phi_dot[9] = phi_dot_P2_y_;
     const double phi_P3_x_ = L3_x_ - L7_x_ + arm_L3_head_x_ + arm_L7_head_x_;
     const double phi_dot_P3_x_ = -L3_omega_*arm_L3_head_y_ + L3_vx_ - L7_omega_*arm_L7_head_y_ - L7_vx_;
     const double rhs_P3_x_ = (L3_omega_ * L3_omega_)*arm_L3_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_
         - p->beta_squared_*phi_P3_x_ - phi_dot_P3_x_*p->two_alpha_;
-    aside->phi[10] = phi_P3_x_;
-    aside->phi_dot[10] = phi_dot_P3_x_;
+    rhs->phi[10] = phi_P3_x_;
+    rhs->phi_dot[10] = phi_dot_P3_x_;
     const double phi_P3_y_ = L3_y_ - L7_y_ + arm_L3_head_y_ + arm_L7_head_y_;
     const double phi_dot_P3_y_ = L3_omega_*arm_L3_head_x_ + L3_vy_ + L7_omega_*arm_L7_head_x_ - L7_vy_;
     const double rhs_P3_y_ = (L3_omega_ * L3_omega_)*arm_L3_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_
         - p->beta_squared_*phi_P3_y_ - phi_dot_P3_y_*p->two_alpha_;
-    aside->phi[11] = phi_P3_y_;
-    aside->phi_dot[11] = phi_dot_P3_y_;
+    rhs->phi[11] = phi_P3_y_;
+    rhs->phi_dot[11] = phi_dot_P3_y_;
     const double phi_Q6_x_ = -L6_x_ + L7_x_ - arm_L6_head_x_ + arm_L7_head_x_;
     const double phi_dot_Q6_x_ = L6_omega_*arm_L6_head_y_ - L6_vx_ - L7_omega_*arm_L7_head_y_ + L7_vx_;
     const double rhs_Q6_x_ = -(L6_omega_ * L6_omega_)*arm_L6_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_
         - p->beta_squared_*phi_Q6_x_ - phi_dot_Q6_x_*p->two_alpha_;
-    aside->phi[12] = phi_Q6_x_;
-    aside->phi_dot[12] = phi_dot_Q6_x_;
+    rhs->phi[12] = phi_Q6_x_;
+    rhs->phi_dot[12] = phi_dot_Q6_x_;
     const double phi_Q6_y_ = -L6_y_ + L7_y_ - arm_L6_head_y_ + arm_L7_head_y_;
     const double phi_dot_Q6_y_ = -L6_omega_*arm_L6_head_x_ - L6_vy_ + L7_omega_*arm_L7_head_x_ + L7_vy_;
     const double rhs_Q6_y_ = -(L6_omega_ * L6_omega_)*arm_L6_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_
         - p->beta_squared_*phi_Q6_y_ - phi_dot_Q6_y_*p->two_alpha_;
-    aside->phi[13] = phi_Q6_y_;
-    aside->phi_dot[13] = phi_dot_Q6_y_;
+    rhs->phi[13] = phi_Q6_y_;
+    rhs->phi_dot[13] = phi_dot_Q6_y_;
     const double phi_Q8_x_ = L7_x_ - L8_x_ + arm_L7_head_x_ + arm_L8_head_x_;
     const double phi_dot_Q8_x_ = -L7_omega_*arm_L7_head_y_ + L7_vx_ - L8_omega_*arm_L8_head_y_ - L8_vx_;
     const double rhs_Q8_x_ = (L7_omega_ * L7_omega_)*arm_L7_head_x_ + (L8_omega_ * L8_omega_)*arm_L8_head_x_
         - p->beta_squared_*phi_Q8_x_ - phi_dot_Q8_x_*p->two_alpha_;
-    aside->phi[14] = phi_Q8_x_;
-    aside->phi_dot[14] = phi_dot_Q8_x_;
+    rhs->phi[14] = phi_Q8_x_;
+    rhs->phi_dot[14] = phi_dot_Q8_x_;
     const double phi_Q8_y_ = L7_y_ - L8_y_ + arm_L7_head_y_ + arm_L8_head_y_;
     const double phi_dot_Q8_y_ = L7_omega_*arm_L7_head_x_ + L7_vy_ + L8_omega_*arm_L8_head_x_ - L8_vy_;
     const double rhs_Q8_y_ = (L7_omega_ * L7_omega_)*arm_L7_head_y_ + (L8_omega_ * L8_omega_)*arm_L8_head_y_
         - p->beta_squared_*phi_Q8_y_ - phi_dot_Q8_y_*p->two_alpha_;
-    aside->phi[15] = phi_Q8_y_;
-    aside->phi_dot[15] = phi_dot_Q8_y_;
+    rhs->phi[15] = phi_Q8_y_;
+    rhs->phi_dot[15] = phi_dot_Q8_y_;
     const double phi_O6_x_ = -L6_x_ + p->O6_x_ + arm_L6_head_x_;
     const double phi_dot_O6_x_ = -L6_omega_*arm_L6_head_y_ - L6_vx_;
     const double rhs_O6_x_ = (L6_omega_ * L6_omega_)*arm_L6_head_x_ - p->beta_squared_*phi_O6_x_
         - phi_dot_O6_x_*p->two_alpha_;
-    aside->phi[16] = phi_O6_x_;
-    aside->phi_dot[16] = phi_dot_O6_x_;
+    rhs->phi[16] = phi_O6_x_;
+    rhs->phi_dot[16] = phi_dot_O6_x_;
     const double phi_O6_y_ = -L6_y_ + arm_L6_head_y_;
     const double phi_dot_O6_y_ = L6_omega_*arm_L6_head_x_ - L6_vy_;
     const double rhs_O6_y_ = (L6_omega_ * L6_omega_)*arm_L6_head_y_ - p->beta_squared_*phi_O6_y_
         - phi_dot_O6_y_*p->two_alpha_;
-    aside->phi[17] = phi_O6_y_;
-    aside->phi_dot[17] = phi_dot_O6_y_;
+    rhs->phi[17] = phi_O6_y_;
+    rhs->phi_dot[17] = phi_dot_O6_y_;
     const double phi_slider_x_ = L8_x_ - S9_x_ + arm_L8_head_x_;
     const double phi_dot_slider_x_ = -L8_omega_*arm_L8_head_y_ + L8_vx_ - S9_vx_;
     const double rhs_slider_x_ = (L8_omega_ * L8_omega_)*arm_L8_head_x_ - p->beta_squared_*phi_slider_x_
         - phi_dot_slider_x_*p->two_alpha_;
-    aside->phi[18] = phi_slider_x_;
-    aside->phi_dot[18] = phi_dot_slider_x_;
+    rhs->phi[18] = phi_slider_x_;
+    rhs->phi_dot[18] = phi_dot_slider_x_;
     const double phi_slider_y_ = L8_y_ - S9_y_ + arm_L8_head_y_;
     const double phi_dot_slider_y_ = L8_omega_*arm_L8_head_x_ + L8_vy_ - S9_vy_;
     const double rhs_slider_y_ = (L8_omega_ * L8_omega_)*arm_L8_head_y_ - p->beta_squared_*phi_slider_y_
         - phi_dot_slider_y_*p->two_alpha_;
-    aside->phi[19] = phi_slider_y_;
-    aside->phi_dot[19] = phi_dot_slider_y_;
+    rhs->phi[19] = phi_slider_y_;
+    rhs->phi_dot[19] = phi_dot_slider_y_;
     const double phi_guide_offset_ = p->O6_x_ - S9_x_;
     const double phi_dot_guide_offset_ = -S9_vx_;
     const double rhs_guide_offset_ = -p->beta_squared_*phi_guide_offset_ - phi_dot_guide_offset_*p->two_alpha_;
-    aside->phi[20] = phi_guide_offset_;
-    aside->phi_dot[20] = phi_dot_guide_offset_;
+    rhs->phi[20] = phi_guide_offset_;
+    rhs->phi_dot[20] = phi_dot_guide_offset_;
     const double phi_guide_angle_ = S9_theta_ - PI/2.0;
     const double phi_dot_guide_angle_ = S9_omega_;
     const double rhs_guide_angle_ = -p->beta_squared_*phi_guide_angle_ - phi_dot_guide_angle_*p->two_alpha_;
-    aside->phi[21] = phi_guide_angle_;
-    aside->phi_dot[21] = phi_dot_guide_angle_;
+    rhs->phi[21] = phi_guide_angle_;
+    rhs->phi_dot[21] = phi_dot_guide_angle_;
     const double phi_crank1_ = L1_theta_ - crank1_value_;
     const double phi_dot_crank1_ = L1_omega_ - crank1_rate_;
     const double rhs_crank1_ = -p->beta_squared_*phi_crank1_ + crank1_acceleration_ - phi_dot_crank1_*p->two_alpha_;
-    aside->phi[22] = phi_crank1_;
-    aside->phi_dot[22] = phi_dot_crank1_;
+    rhs->phi[22] = phi_crank1_;
+    rhs->phi_dot[22] = phi_dot_crank1_;
     const double phi_crank4_ = L4_theta_ - crank4_value_;
     const double phi_dot_crank4_ = L4_omega_ - crank4_rate_;
     const double rhs_crank4_ = -p->beta_squared_*phi_crank4_ + crank4_acceleration_ - phi_dot_crank4_*p->two_alpha_;
-    aside->phi[23] = phi_crank4_;
-    aside->phi_dot[23] = phi_dot_crank4_;
+    rhs->phi[23] = phi_crank4_;
+    rhs->phi_dot[23] = phi_dot_crank4_;
 
     /* L D L^T of the KKT matrix */
     const double l_L8_theta_slider_y_ = -p->S9_mass_*arm_L8_head_x_;
@@ -372,11 +372,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_P2_x_P2_y_ = l_P2_y_L2_theta_*w_P2_x_L2_theta_ + l_P2_y_L6_theta_*w_P2_x_L6_theta_
         + l_P2_y_L7_theta_*w_P2_x_L7_theta_;
     const double determinant_P2_x_P2_y_ = -(pivot_P2_x_P2_y_ * pivot_P2_x_P2_y_) + scale_P2_x_*scale_P2_y_;
-    if (!(scale_P2_x_ > memory->least * size_P2_x_)) {
+    if (!(scale_P2_x_ > discrete->least * size_P2_x_)) {
         pivot = 20;
         goto dependent;
     }
-    if (!(determinant_P2_x_P2_y_ > memory->least * size_P2_y_ * scale_P2_x_)) {
+    if (!(determinant_P2_x_P2_y_ > discrete->least * size_P2_y_ * scale_P2_x_)) {
         pivot = 21;
         goto dependent;
     }
@@ -411,11 +411,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_P3_x_P3_y_ = l_P3_y_L3_theta_*w_P3_x_L3_theta_ + l_P3_y_L6_theta_*w_P3_x_L6_theta_
         + l_P3_y_L7_theta_*w_P3_x_L7_theta_ + l_P3_y_P2_x_*w_P3_x_P2_x_ + l_P3_y_P2_y_*w_P3_x_P2_y_;
     const double determinant_P3_x_P3_y_ = pivot_P3_x_*pivot_P3_y_ - (pivot_P3_x_P3_y_ * pivot_P3_x_P3_y_);
-    if (!(pivot_P3_x_ > memory->least * size_P3_x_)) {
+    if (!(pivot_P3_x_ > discrete->least * size_P3_x_)) {
         pivot = 22;
         goto dependent;
     }
-    if (!(determinant_P3_x_P3_y_ > memory->least * size_P3_y_ * pivot_P3_x_)) {
+    if (!(determinant_P3_x_P3_y_ > discrete->least * size_P3_y_ * pivot_P3_x_)) {
         pivot = 23;
         goto dependent;
     }
@@ -439,7 +439,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_guide_offset_P2_y_*w_guide_offset_P2_y_ + l_guide_offset_P3_x_*w_guide_offset_P3_x_
         + l_guide_offset_P3_y_*w_guide_offset_P3_y_ + scale_guide_offset_;
     const double size_guide_offset_ = p->mobility_guide_offset_ + scale_guide_offset_;
-    if (!(pivot_guide_offset_ > memory->least * size_guide_offset_)) {
+    if (!(pivot_guide_offset_ > discrete->least * size_guide_offset_)) {
         pivot = 24;
         goto dependent;
     }
@@ -612,35 +612,35 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[21] = acceleration_S9_x_;
     a[22] = acceleration_S9_y_;
     a[23] = acceleration_S9_theta_;
-    aside->lambda[0] = lambda_O1_x_;
-    aside->lambda[1] = lambda_O1_y_;
-    aside->lambda[2] = lambda_O4_x_;
-    aside->lambda[3] = lambda_O4_y_;
-    aside->lambda[4] = lambda_A_x_;
-    aside->lambda[5] = lambda_A_y_;
-    aside->lambda[6] = lambda_B_x_;
-    aside->lambda[7] = lambda_B_y_;
-    aside->lambda[8] = lambda_P2_x_;
-    aside->lambda[9] = lambda_P2_y_;
-    aside->lambda[10] = lambda_P3_x_;
-    aside->lambda[11] = lambda_P3_y_;
-    aside->lambda[12] = lambda_Q6_x_;
-    aside->lambda[13] = lambda_Q6_y_;
-    aside->lambda[14] = lambda_Q8_x_;
-    aside->lambda[15] = lambda_Q8_y_;
-    aside->lambda[16] = lambda_O6_x_;
-    aside->lambda[17] = lambda_O6_y_;
-    aside->lambda[18] = lambda_slider_x_;
-    aside->lambda[19] = lambda_slider_y_;
-    aside->lambda[20] = lambda_guide_offset_;
-    aside->lambda[21] = lambda_guide_angle_;
-    aside->lambda[22] = lambda_crank1_;
-    aside->lambda[23] = lambda_crank4_;
+    rhs->lambda[0] = lambda_O1_x_;
+    rhs->lambda[1] = lambda_O1_y_;
+    rhs->lambda[2] = lambda_O4_x_;
+    rhs->lambda[3] = lambda_O4_y_;
+    rhs->lambda[4] = lambda_A_x_;
+    rhs->lambda[5] = lambda_A_y_;
+    rhs->lambda[6] = lambda_B_x_;
+    rhs->lambda[7] = lambda_B_y_;
+    rhs->lambda[8] = lambda_P2_x_;
+    rhs->lambda[9] = lambda_P2_y_;
+    rhs->lambda[10] = lambda_P3_x_;
+    rhs->lambda[11] = lambda_P3_y_;
+    rhs->lambda[12] = lambda_Q6_x_;
+    rhs->lambda[13] = lambda_Q6_y_;
+    rhs->lambda[14] = lambda_Q8_x_;
+    rhs->lambda[15] = lambda_Q8_y_;
+    rhs->lambda[16] = lambda_O6_x_;
+    rhs->lambda[17] = lambda_O6_y_;
+    rhs->lambda[18] = lambda_slider_x_;
+    rhs->lambda[19] = lambda_slider_y_;
+    rhs->lambda[20] = lambda_guide_offset_;
+    rhs->lambda[21] = lambda_guide_angle_;
+    rhs->lambda[22] = lambda_crank1_;
+    rhs->lambda[23] = lambda_crank4_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = p->weight_L1_y_;
         force[2] = 0.0;
@@ -665,35 +665,35 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[21] = 0.0;
         force[22] = p->weight_S9_y_;
         force[23] = 0.0;
-        rhs[0] = rhs_O1_x_;
-        rhs[1] = rhs_O1_y_;
-        rhs[2] = rhs_O4_x_;
-        rhs[3] = rhs_O4_y_;
-        rhs[4] = rhs_A_x_;
-        rhs[5] = rhs_A_y_;
-        rhs[6] = rhs_B_x_;
-        rhs[7] = rhs_B_y_;
-        rhs[8] = rhs_P2_x_;
-        rhs[9] = rhs_P2_y_;
-        rhs[10] = rhs_P3_x_;
-        rhs[11] = rhs_P3_y_;
-        rhs[12] = rhs_Q6_x_;
-        rhs[13] = rhs_Q6_y_;
-        rhs[14] = rhs_Q8_x_;
-        rhs[15] = rhs_Q8_y_;
-        rhs[16] = rhs_O6_x_;
-        rhs[17] = rhs_O6_y_;
-        rhs[18] = rhs_slider_x_;
-        rhs[19] = rhs_slider_y_;
-        rhs[20] = rhs_guide_offset_;
-        rhs[21] = rhs_guide_angle_;
-        rhs[22] = rhs_crank1_;
-        rhs[23] = rhs_crank4_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_O1_x_;
+        gamma_stab[1] = rhs_O1_y_;
+        gamma_stab[2] = rhs_O4_x_;
+        gamma_stab[3] = rhs_O4_y_;
+        gamma_stab[4] = rhs_A_x_;
+        gamma_stab[5] = rhs_A_y_;
+        gamma_stab[6] = rhs_B_x_;
+        gamma_stab[7] = rhs_B_y_;
+        gamma_stab[8] = rhs_P2_x_;
+        gamma_stab[9] = rhs_P2_y_;
+        gamma_stab[10] = rhs_P3_x_;
+        gamma_stab[11] = rhs_P3_y_;
+        gamma_stab[12] = rhs_Q6_x_;
+        gamma_stab[13] = rhs_Q6_y_;
+        gamma_stab[14] = rhs_Q8_x_;
+        gamma_stab[15] = rhs_Q8_y_;
+        gamma_stab[16] = rhs_O6_x_;
+        gamma_stab[17] = rhs_O6_y_;
+        gamma_stab[18] = rhs_slider_x_;
+        gamma_stab[19] = rhs_slider_y_;
+        gamma_stab[20] = rhs_guide_offset_;
+        gamma_stab[21] = rhs_guide_angle_;
+        gamma_stab[22] = rhs_crank1_;
+        gamma_stab[23] = rhs_crank4_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = -aside->lambda[22]*crank1_rate_ - aside->lambda[23]*crank4_rate_;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = -crank1_rate_*rhs->lambda[22] - crank4_rate_*rhs->lambda[23];
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

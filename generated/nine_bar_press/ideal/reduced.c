@@ -326,12 +326,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double L6_theta_ = q[0];
@@ -487,17 +487,17 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > memory->least * scale_L2_head_L3_head_y_
+    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > discrete->least * scale_L2_head_L3_head_y_
         * scale_L2_head_L3_head_x_)) {
         pivot = 3;
         goto dependent;
     }
     const double size_L2_head_L3_head_x_ = scale_L2_head_L3_head_x_ + scale_L2_head_L3_head_y_;
-    if (!(scale_L2_head_L3_head_x_ > memory->least_size * size_L2_head_L3_head_x_)) {
+    if (!(scale_L2_head_L3_head_x_ > discrete->least_size * size_L2_head_L3_head_x_)) {
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > memory->least_size * size_L2_head_L3_head_x_
+    if (!(determinant_L2_head_L3_head_x_L2_head_L3_head_y_ > discrete->least_size * size_L2_head_L3_head_x_
         * scale_L2_head_L3_head_x_)) {
         pivot = 3;
         goto dependent;
@@ -534,20 +534,20 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         + l_P2_y_L6_theta_*w_P2_x_L6_theta_ + l_P2_y_L7_theta_*span_L7_tail_y_
         + l_P2_y_guide_offset_*w_P2_x_guide_offset_;
     const double determinant_P2_x_P2_y_ = pivot_P2_x_*pivot_P2_y_ - (pivot_P2_x_P2_y_ * pivot_P2_x_P2_y_);
-    if (!(pivot_P2_x_ > memory->least * scale_P2_x_)) {
+    if (!(pivot_P2_x_ > discrete->least * scale_P2_x_)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x_P2_y_ > memory->least * scale_P2_y_ * pivot_P2_x_)) {
+    if (!(determinant_P2_x_P2_y_ > discrete->least * scale_P2_y_ * pivot_P2_x_)) {
         pivot = 5;
         goto dependent;
     }
     const double size_P2_x_ = scale_P2_x_ + scale_P2_y_;
-    if (!(pivot_P2_x_ > memory->least_size * size_P2_x_)) {
+    if (!(pivot_P2_x_ > discrete->least_size * size_P2_x_)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x_P2_y_ > memory->least_size * size_P2_x_ * pivot_P2_x_)) {
+    if (!(determinant_P2_x_P2_y_ > discrete->least_size * size_P2_x_ * pivot_P2_x_)) {
         pivot = 5;
         goto dependent;
     }
@@ -609,25 +609,25 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[2] = acceleration_L3_theta_;
     a[3] = acceleration_L7_theta_;
     a[4] = acceleration_L8_theta_;
-    aside->lambda[0] = lambda_guide_offset_;
-    aside->lambda[1] = lambda_L2_head_L3_head_x_;
-    aside->lambda[2] = lambda_L2_head_L3_head_y_;
-    aside->lambda[3] = lambda_P2_x_;
-    aside->lambda[4] = lambda_P2_y_;
+    rhs->lambda[0] = lambda_guide_offset_;
+    rhs->lambda[1] = lambda_L2_head_L3_head_x_;
+    rhs->lambda[2] = lambda_L2_head_L3_head_y_;
+    rhs->lambda[3] = lambda_P2_x_;
+    rhs->lambda[4] = lambda_P2_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = -aside->lambda[1]*(crank1_rate_*span_L1_head_y_ - crank4_rate_*span_L4_head_y_)
-        - aside->lambda[2]*(-crank1_rate_*span_L1_head_x_ + crank4_rate_*span_L4_head_x_)
-        - aside->lambda[3]*crank1_rate_*span_L1_head_y_ + aside->lambda[4]*crank1_rate_*span_L1_head_x_
+    rhs->power[0] = -crank1_rate_*rhs->lambda[3]*span_L1_head_y_ + crank1_rate_*rhs->lambda[4]*span_L1_head_x_
         + crank1_rate_*(-(L2_omega_ * L2_omega_)*cross_L1_L2_ + a[1]*dot_L1_L2_ - cos_theta_L1_*p->weight_L1_across_
         + crank1_acceleration_*p->mass_crank1_crank1_) + crank4_rate_*(-(L3_omega_ * L3_omega_)*cross_L4_L3_
-        + a[2]*dot_L4_L3_ - cos_theta_L4_*p->weight_L4_across_ + crank4_acceleration_*p->mass_crank4_crank4_);
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+        + a[2]*dot_L4_L3_ - cos_theta_L4_*p->weight_L4_across_ + crank4_acceleration_*p->mass_crank4_crank4_)
+        - rhs->lambda[1]*(crank1_rate_*span_L1_head_y_ - crank4_rate_*span_L4_head_y_)
+        - rhs->lambda[2]*(-crank1_rate_*span_L1_head_x_ + crank4_rate_*span_L4_head_x_);
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

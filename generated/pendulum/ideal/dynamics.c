@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double bob_x_ = q[0];
@@ -23,8 +23,8 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double rhs_rod_length_ = -p->beta_squared_*phi_rod_length_
         - 2.0*(bob_vx_ * bob_vx_)*p->rod_half_inverse_length_ - 2.0*(bob_vy_ * bob_vy_)*p->rod_half_inverse_length_
         - phi_dot_rod_length_*p->two_alpha_;
-    aside->phi[0] = phi_rod_length_;
-    aside->phi_dot[0] = phi_dot_rod_length_;
+    rhs->phi[0] = phi_rod_length_;
+    rhs->phi_dot[0] = phi_dot_rod_length_;
 
     /* L D L^T of the KKT matrix */
     const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
@@ -51,21 +51,21 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[0] = acceleration_bob_x_;
     a[1] = acceleration_bob_y_;
     a[2] = acceleration_bob_theta_;
-    aside->lambda[0] = lambda_rod_length_;
+    rhs->lambda[0] = lambda_rod_length_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = p->weight_bob_y_;
         force[2] = 0.0;
-        rhs[0] = rhs_rod_length_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_rod_length_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

@@ -91,12 +91,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double bob_x_ = q[0];
@@ -136,16 +136,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     a[0] = acceleration_bob_x_;
     a[1] = acceleration_bob_y_;
     a[2] = acceleration_bob_theta_;
-    aside->lambda[0] = lambda_rod_length_;
+    rhs->lambda[0] = lambda_rod_length_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double crank_x_ = q[0];
@@ -61,71 +61,71 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_shaft_x_ = -arm_crank_head_y_*crank_omega_ - crank_vx_;
     const double rhs_shaft_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_shaft_x_
         - phi_dot_shaft_x_*p->two_alpha_;
-    aside->phi[0] = phi_shaft_x_;
-    aside->phi_dot[0] = phi_dot_shaft_x_;
+    rhs->phi[0] = phi_shaft_x_;
+    rhs->phi_dot[0] = phi_dot_shaft_x_;
     const double phi_shaft_y_ = arm_crank_head_y_ - crank_y_;
     const double phi_dot_shaft_y_ = arm_crank_head_x_*crank_omega_ - crank_vy_;
     const double rhs_shaft_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_shaft_y_
         - phi_dot_shaft_y_*p->two_alpha_;
-    aside->phi[1] = phi_shaft_y_;
-    aside->phi_dot[1] = phi_dot_shaft_y_;
+    rhs->phi[1] = phi_shaft_y_;
+    rhs->phi_dot[1] = phi_dot_shaft_y_;
     const double phi_crankpin_x_ = arm_crank_head_x_ + arm_rod_head_x_ + crank_x_ - rod_x_;
     const double phi_dot_crankpin_x_ = -arm_crank_head_y_*crank_omega_ - arm_rod_head_y_*rod_omega_ + crank_vx_
         - rod_vx_;
     const double rhs_crankpin_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_)
         + arm_rod_head_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_crankpin_x_
         - phi_dot_crankpin_x_*p->two_alpha_;
-    aside->phi[2] = phi_crankpin_x_;
-    aside->phi_dot[2] = phi_dot_crankpin_x_;
+    rhs->phi[2] = phi_crankpin_x_;
+    rhs->phi_dot[2] = phi_dot_crankpin_x_;
     const double phi_crankpin_y_ = arm_crank_head_y_ + arm_rod_head_y_ + crank_y_ - rod_y_;
     const double phi_dot_crankpin_y_ = arm_crank_head_x_*crank_omega_ + arm_rod_head_x_*rod_omega_ + crank_vy_
         - rod_vy_;
     const double rhs_crankpin_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_)
         + arm_rod_head_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_crankpin_y_
         - phi_dot_crankpin_y_*p->two_alpha_;
-    aside->phi[3] = phi_crankpin_y_;
-    aside->phi_dot[3] = phi_dot_crankpin_y_;
+    rhs->phi[3] = phi_crankpin_y_;
+    rhs->phi_dot[3] = phi_dot_crankpin_y_;
     const double phi_pin_x_ = arm_rod_head_x_ + rod_x_ - table_x_;
     const double phi_dot_pin_x_ = -arm_rod_head_y_*rod_omega_ + rod_vx_ - table_vx_;
     const double rhs_pin_x_ = arm_rod_head_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_pin_x_
         - phi_dot_pin_x_*p->two_alpha_;
-    aside->phi[4] = phi_pin_x_;
-    aside->phi_dot[4] = phi_dot_pin_x_;
+    rhs->phi[4] = phi_pin_x_;
+    rhs->phi_dot[4] = phi_dot_pin_x_;
     const double phi_pin_y_ = arm_rod_head_y_ + rod_y_ - table_y_;
     const double phi_dot_pin_y_ = arm_rod_head_x_*rod_omega_ + rod_vy_ - table_vy_;
     const double rhs_pin_y_ = arm_rod_head_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_pin_y_
         - phi_dot_pin_y_*p->two_alpha_;
-    aside->phi[5] = phi_pin_y_;
-    aside->phi_dot[5] = phi_dot_pin_y_;
+    rhs->phi[5] = phi_pin_y_;
+    rhs->phi_dot[5] = phi_dot_pin_y_;
     const double phi_guide_offset_ = -table_x_;
     const double phi_dot_guide_offset_ = -table_vx_;
     const double rhs_guide_offset_ = -p->beta_squared_*phi_guide_offset_ - phi_dot_guide_offset_*p->two_alpha_;
-    aside->phi[6] = phi_guide_offset_;
-    aside->phi_dot[6] = phi_dot_guide_offset_;
+    rhs->phi[6] = phi_guide_offset_;
+    rhs->phi_dot[6] = phi_dot_guide_offset_;
     const double phi_guide_angle_ = table_theta_;
     const double phi_dot_guide_angle_ = table_omega_;
     const double rhs_guide_angle_ = -p->beta_squared_*phi_guide_angle_ - phi_dot_guide_angle_*p->two_alpha_;
-    aside->phi[7] = phi_guide_angle_;
-    aside->phi_dot[7] = phi_dot_guide_angle_;
+    rhs->phi[7] = phi_guide_angle_;
+    rhs->phi_dot[7] = phi_dot_guide_angle_;
     const double phi_pivot_x_ = arm_arm_head_x_ + arm_table_top_x_ - arm_x_ + table_x_;
     const double phi_dot_pivot_x_ = -arm_arm_head_y_*arm_omega_ - arm_table_top_y_*table_omega_ - arm_vx_ + table_vx_;
     const double rhs_pivot_x_ = arm_arm_head_x_*(arm_omega_ * arm_omega_)
         + arm_table_top_x_*(table_omega_ * table_omega_) - p->beta_squared_*phi_pivot_x_
         - phi_dot_pivot_x_*p->two_alpha_;
-    aside->phi[8] = phi_pivot_x_;
-    aside->phi_dot[8] = phi_dot_pivot_x_;
+    rhs->phi[8] = phi_pivot_x_;
+    rhs->phi_dot[8] = phi_dot_pivot_x_;
     const double phi_pivot_y_ = arm_arm_head_y_ + arm_table_top_y_ - arm_y_ + table_y_;
     const double phi_dot_pivot_y_ = arm_arm_head_x_*arm_omega_ + arm_table_top_x_*table_omega_ - arm_vy_ + table_vy_;
     const double rhs_pivot_y_ = arm_arm_head_y_*(arm_omega_ * arm_omega_)
         + arm_table_top_y_*(table_omega_ * table_omega_) - p->beta_squared_*phi_pivot_y_
         - phi_dot_pivot_y_*p->two_alpha_;
-    aside->phi[9] = phi_pivot_y_;
-    aside->phi_dot[9] = phi_dot_pivot_y_;
+    rhs->phi[9] = phi_pivot_y_;
+    rhs->phi_dot[9] = phi_dot_pivot_y_;
     const double phi_motor_ = crank_theta_ - motor_value_;
     const double phi_dot_motor_ = crank_omega_ - motor_rate_;
     const double rhs_motor_ = -p->beta_squared_*phi_motor_ + motor_acceleration_ - phi_dot_motor_*p->two_alpha_;
-    aside->phi[10] = phi_motor_;
-    aside->phi_dot[10] = phi_dot_motor_;
+    rhs->phi[10] = phi_motor_;
+    rhs->phi_dot[10] = phi_dot_motor_;
 
     /* L D L^T of the KKT matrix */
     const double l_table_theta_pivot_y_ = -p->arm_mass_*arm_table_top_x_;
@@ -183,7 +183,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double scale_guide_offset_ = l_guide_offset_rod_theta_*w_guide_offset_rod_theta_;
     const double pivot_guide_offset_ = scale_guide_offset_;
     const double size_guide_offset_ = p->mobility_guide_offset_ + scale_guide_offset_;
-    if (!(pivot_guide_offset_ > memory->least * size_guide_offset_)) {
+    if (!(pivot_guide_offset_ > discrete->least * size_guide_offset_)) {
         pivot = 11;
         goto dependent;
     }
@@ -287,22 +287,22 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[9] = acceleration_arm_x_;
     a[10] = acceleration_arm_y_;
     a[11] = acceleration_arm_theta_;
-    aside->lambda[0] = lambda_shaft_x_;
-    aside->lambda[1] = lambda_shaft_y_;
-    aside->lambda[2] = lambda_crankpin_x_;
-    aside->lambda[3] = lambda_crankpin_y_;
-    aside->lambda[4] = lambda_pin_x_;
-    aside->lambda[5] = lambda_pin_y_;
-    aside->lambda[6] = lambda_guide_offset_;
-    aside->lambda[7] = lambda_guide_angle_;
-    aside->lambda[8] = lambda_pivot_x_;
-    aside->lambda[9] = lambda_pivot_y_;
-    aside->lambda[10] = lambda_motor_;
+    rhs->lambda[0] = lambda_shaft_x_;
+    rhs->lambda[1] = lambda_shaft_y_;
+    rhs->lambda[2] = lambda_crankpin_x_;
+    rhs->lambda[3] = lambda_crankpin_y_;
+    rhs->lambda[4] = lambda_pin_x_;
+    rhs->lambda[5] = lambda_pin_y_;
+    rhs->lambda[6] = lambda_guide_offset_;
+    rhs->lambda[7] = lambda_guide_angle_;
+    rhs->lambda[8] = lambda_pivot_x_;
+    rhs->lambda[9] = lambda_pivot_y_;
+    rhs->lambda[10] = lambda_motor_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = p->weight_crank_y_;
         force[2] = 0.0;
@@ -315,22 +315,22 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[9] = 0.0;
         force[10] = p->weight_arm_y_;
         force[11] = 0.0;
-        rhs[0] = rhs_shaft_x_;
-        rhs[1] = rhs_shaft_y_;
-        rhs[2] = rhs_crankpin_x_;
-        rhs[3] = rhs_crankpin_y_;
-        rhs[4] = rhs_pin_x_;
-        rhs[5] = rhs_pin_y_;
-        rhs[6] = rhs_guide_offset_;
-        rhs[7] = rhs_guide_angle_;
-        rhs[8] = rhs_pivot_x_;
-        rhs[9] = rhs_pivot_y_;
-        rhs[10] = rhs_motor_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_shaft_x_;
+        gamma_stab[1] = rhs_shaft_y_;
+        gamma_stab[2] = rhs_crankpin_x_;
+        gamma_stab[3] = rhs_crankpin_y_;
+        gamma_stab[4] = rhs_pin_x_;
+        gamma_stab[5] = rhs_pin_y_;
+        gamma_stab[6] = rhs_guide_offset_;
+        gamma_stab[7] = rhs_guide_angle_;
+        gamma_stab[8] = rhs_pivot_x_;
+        gamma_stab[9] = rhs_pivot_y_;
+        gamma_stab[10] = rhs_motor_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = -aside->lambda[10]*motor_rate_;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = -motor_rate_*rhs->lambda[10];
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

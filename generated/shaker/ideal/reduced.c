@@ -116,14 +116,14 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
-    (void)t, (void)memory;
+    (void)t, (void)discrete;
     /* coordinates, velocities, time */
     const double rod_omega_ = v[1];
     const double arm_theta_ = q[0];
@@ -165,14 +165,14 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 
     /* results */
     a[0] = acceleration_arm_theta_;
-    aside->power[0] = motor_rate_*(a[0]*dot_crank_arm_ - (arm_omega_ * arm_omega_)*cross_crank_arm_
+    rhs->power[0] = motor_rate_*(a[0]*dot_crank_arm_ - (arm_omega_ * arm_omega_)*cross_crank_arm_
         - cos_theta_crank_*p->weight_crank_across_ - cross_crank_rod_*(rod_omega_ * rod_omega_)
         + dot_crank_rod_*rod_theta_second_ + p->mass_motor_motor_*motor_acceleration_)
         + rod_omega_*(a[0]*dot_rod_arm_ - (arm_omega_ * arm_omega_)*cross_rod_arm_
         - cos_theta_rod_*p->weight_rod_across_ + cross_crank_rod_*(motor_rate_ * motor_rate_)
         + dot_crank_rod_*motor_acceleration_ + p->mass_rod_rod_*rod_theta_second_);
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return 0;
 }
 
@@ -195,9 +195,9 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 /*
  * Cosines and sines of all angles in the chains' closures, behind the coordinates in q.
  */
-void chain_directions(const double t, const double *q, const Memory *memory, const Parameters *p, double *out)
+void chain_directions(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *out)
 {
-    (void)memory;
+    (void)discrete;
     /* coordinates, velocities, time */
     const double rod_theta_ = q[1];
 
@@ -219,10 +219,10 @@ void chain_directions(const double t, const double *q, const Memory *memory, con
  * step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with
  * the largest |Phi|. Returns 0, or the number of a row that depends on others here.
  */
-int chain_step(const double t, const double *q, const Memory *memory, const Parameters *p, double *step, double *bend,
-    int *row)
+int chain_step(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *step,
+    double *bend, int *row)
 {
-    (void)t, (void)memory;
+    (void)t, (void)discrete;
     /* coordinates, velocities, time */
     const double cos_theta_crank_ = q[2];
     const double cos_theta_rod_ = q[4];
@@ -261,9 +261,9 @@ int chain_step(const double t, const double *q, const Memory *memory, const Para
  * Phi_c c'' = gamma. They go behind those of the other coordinates in v.
  * Returns 0, or the number of a row that depends on others here.
  */
-int chain_rates(const double t, const double *q, const Memory *memory, const Parameters *p, double *v)
+int chain_rates(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v)
 {
-    (void)t, (void)memory;
+    (void)t, (void)discrete;
     /* coordinates, velocities, time */
     const double cos_theta_crank_ = q[2];
     const double sin_theta_crank_ = q[3];
@@ -303,10 +303,10 @@ int chain_rates(const double t, const double *q, const Memory *memory, const Par
  * Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.
  * Returns 0, or the number of a row that depends on others here.
  */
-int chain_third(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+int chain_third(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *out)
 {
-    (void)t, (void)memory;
+    (void)t, (void)discrete;
     /* coordinates, velocities, time */
     const double rod_omega_ = v[1];
     const double cos_theta_crank_ = q[2];

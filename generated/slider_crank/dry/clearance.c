@@ -6,9 +6,9 @@
  * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
 static inline void lankarani_nikravesh(double delta, double ratio, double exponent, double K, double hysteresis,
-    const double *side, double *g, int corner, double *F_n_out)
+    const double *branch, double *g, int corner, double *F_n_out)
 {
-    const double side_1 = side_of(side, g, corner, hysteresis*ratio + 1.0);
+    const double side_1 = branch_of(branch, g, corner, hysteresis*ratio + 1.0);
     double larger_1;
     if (side_1 < 0.0)
         larger_1 = 0.0;
@@ -24,22 +24,22 @@ static inline void lankarani_nikravesh(double delta, double ratio, double expone
  * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
 static inline void modified_coulomb(double F_n, double v_t, double mu, double v0, double friction_slope,
-    const double *side, double *g, int corner, double *F_t_out)
+    const double *branch, double *g, int corner, double *F_t_out)
 {
-    const double side_1 = side_of(side, g, corner, -friction_slope*(-v0 - v_t) + 1.0);
+    const double side_1 = branch_of(branch, g, corner, -friction_slope*(-v0 - v_t) + 1.0);
     double smaller_1;
     if (side_1 < 0.0)
         smaller_1 = 1.0;
     else
         smaller_1 = friction_slope*(-v0 - v_t);
-    const double side_2 = side_of(side, g, corner + 1, smaller_1);
-    const double side_3 = side_of(side, g, corner + 2, -friction_slope*(-v0 + v_t) + 1.0);
+    const double side_2 = branch_of(branch, g, corner + 1, smaller_1);
+    const double side_3 = branch_of(branch, g, corner + 2, -friction_slope*(-v0 + v_t) + 1.0);
     double smaller_2;
     if (side_3 < 0.0)
         smaller_2 = 1.0;
     else
         smaller_2 = friction_slope*(-v0 + v_t);
-    const double side_4 = side_of(side, g, corner + 3, smaller_2);
+    const double side_4 = branch_of(branch, g, corner + 3, smaller_2);
     double larger_1;
     if (side_2 < 0.0)
         larger_1 = 0.0;
@@ -60,18 +60,18 @@ static inline void modified_coulomb(double F_n, double v_t, double mu, double v0
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_wristpin_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g)
+    const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
+    const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
     lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent_, p->dry_pin_K_, p->dry_pin_hysteresis_,
-        side, g, 0, &F_n);
+        branch, g, 0, &F_n);
     double F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->dry_friction_mu_, p->dry_friction_v0_, p->dry_pin_friction_slope_, side, g, 1,
+    modified_coulomb(F_n, v_t, p->dry_friction_mu_, p->dry_friction_v0_, p->dry_pin_friction_slope_, branch, g, 1,
         &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -80,7 +80,7 @@ static inline PinForce dry_wristpin_(double delta, double deltadot, double de_t,
 
 /* Joint wristpin: free while delta < 0, dry contact beyond; a step holds what it began with. */
 static void clearance_wristpin_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
+    const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
@@ -92,8 +92,8 @@ static void clearance_wristpin_(double e_x, double e_y, double de_x, double de_y
     PinForce F = {0};
     for (int k = 0; k < 5; k++)
         g[k] = NAN; /* without contact nothing switches */
-    if (side ? latch->closed : delta > 0.0)
-        F = dry_wristpin_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+    if (branch ? contact->closed : delta > 0.0)
+        F = dry_wristpin_(delta, deltadot, de_t, omega_i, omega_j, contact, p, branch, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

@@ -97,16 +97,16 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double *const g = aside->g;
+    const double *const branch = discrete->held ? discrete->branch : NULL;
+    double *const g = rhs->g;
 
     /* coordinates, velocities, time */
     const double cylinder_slide_ = q[0];
@@ -147,12 +147,12 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double edot_wristpin_x_ = cylinder_slide_rate_ - rod_head_vx_;
     const double edot_wristpin_y_ = -rod_head_vy_;
     clearance_wristpin_(e_wristpin_x_, e_wristpin_y_, edot_wristpin_x_, edot_wristpin_y_, rod_omega_, slider_omega_,
-        &memory->latch[0], p, side, g, &aside->clearance[0]);
-    const double F_wristpin_x_ = aside->clearance[0].Fx;
-    const double F_wristpin_y_ = aside->clearance[0].Fy;
-    const double M_wristpin_first_ = aside->clearance[0].moment_first;
-    const double M_wristpin_second_ = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_wristpin_x_*edot_wristpin_x_ + F_wristpin_y_*edot_wristpin_y_
+        &discrete->contact[0], p, branch, g, &rhs->clearance[0]);
+    const double F_wristpin_x_ = rhs->clearance[0].Fx;
+    const double F_wristpin_y_ = rhs->clearance[0].Fy;
+    const double M_wristpin_first_ = rhs->clearance[0].moment_first;
+    const double M_wristpin_second_ = rhs->clearance[0].moment_second;
+    rhs->clearance[0].power = F_wristpin_x_*edot_wristpin_x_ + F_wristpin_y_*edot_wristpin_y_
         + M_wristpin_first_*rod_omega_ + M_wristpin_second_*slider_omega_;
 
     /* without a (NULL) joints with play alone are asked for */
@@ -170,10 +170,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     /* results */
     a[0] = acceleration_cylinder_slide_;
     a[1] = acceleration_rod_theta_;
-    aside->power[0] = motor_rate_*(-F_wristpin_x_*span_crank_head_y_ + F_wristpin_y_*span_crank_head_x_
+    rhs->power[0] = motor_rate_*(-F_wristpin_x_*span_crank_head_y_ + F_wristpin_y_*span_crank_head_x_
         + a[1]*dot_crank_rod_ - cross_crank_rod_*(rod_omega_ * rod_omega_) + p->mass_motor_motor_*motor_acceleration_);
-    aside->power[1] = 0.0;
-    aside->power[2] = aside->clearance[0].power;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = rhs->clearance[0].power;
     return 0;
 }
 

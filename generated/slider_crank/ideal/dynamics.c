@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double crank_x_ = q[0];
@@ -47,57 +47,57 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_dot_O_x_ = -arm_crank_head_y_*crank_omega_ - crank_vx_;
     const double rhs_O_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_O_x_
         - phi_dot_O_x_*p->two_alpha_;
-    aside->phi[0] = phi_O_x_;
-    aside->phi_dot[0] = phi_dot_O_x_;
+    rhs->phi[0] = phi_O_x_;
+    rhs->phi_dot[0] = phi_dot_O_x_;
     const double phi_O_y_ = arm_crank_head_y_ - crank_y_;
     const double phi_dot_O_y_ = arm_crank_head_x_*crank_omega_ - crank_vy_;
     const double rhs_O_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_O_y_
         - phi_dot_O_y_*p->two_alpha_;
-    aside->phi[1] = phi_O_y_;
-    aside->phi_dot[1] = phi_dot_O_y_;
+    rhs->phi[1] = phi_O_y_;
+    rhs->phi_dot[1] = phi_dot_O_y_;
     const double phi_crankpin_x_ = arm_crank_head_x_ + arm_rod_head_x_ + crank_x_ - rod_x_;
     const double phi_dot_crankpin_x_ = -arm_crank_head_y_*crank_omega_ - arm_rod_head_y_*rod_omega_ + crank_vx_
         - rod_vx_;
     const double rhs_crankpin_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_)
         + arm_rod_head_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_crankpin_x_
         - phi_dot_crankpin_x_*p->two_alpha_;
-    aside->phi[2] = phi_crankpin_x_;
-    aside->phi_dot[2] = phi_dot_crankpin_x_;
+    rhs->phi[2] = phi_crankpin_x_;
+    rhs->phi_dot[2] = phi_dot_crankpin_x_;
     const double phi_crankpin_y_ = arm_crank_head_y_ + arm_rod_head_y_ + crank_y_ - rod_y_;
     const double phi_dot_crankpin_y_ = arm_crank_head_x_*crank_omega_ + arm_rod_head_x_*rod_omega_ + crank_vy_
         - rod_vy_;
     const double rhs_crankpin_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_)
         + arm_rod_head_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_crankpin_y_
         - phi_dot_crankpin_y_*p->two_alpha_;
-    aside->phi[3] = phi_crankpin_y_;
-    aside->phi_dot[3] = phi_dot_crankpin_y_;
+    rhs->phi[3] = phi_crankpin_y_;
+    rhs->phi_dot[3] = phi_dot_crankpin_y_;
     const double phi_wristpin_x_ = arm_rod_head_x_ + rod_x_ - slider_x_;
     const double phi_dot_wristpin_x_ = -arm_rod_head_y_*rod_omega_ + rod_vx_ - slider_vx_;
     const double rhs_wristpin_x_ = arm_rod_head_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_wristpin_x_
         - phi_dot_wristpin_x_*p->two_alpha_;
-    aside->phi[4] = phi_wristpin_x_;
-    aside->phi_dot[4] = phi_dot_wristpin_x_;
+    rhs->phi[4] = phi_wristpin_x_;
+    rhs->phi_dot[4] = phi_dot_wristpin_x_;
     const double phi_wristpin_y_ = arm_rod_head_y_ + rod_y_ - slider_y_;
     const double phi_dot_wristpin_y_ = arm_rod_head_x_*rod_omega_ + rod_vy_ - slider_vy_;
     const double rhs_wristpin_y_ = arm_rod_head_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_wristpin_y_
         - phi_dot_wristpin_y_*p->two_alpha_;
-    aside->phi[5] = phi_wristpin_y_;
-    aside->phi_dot[5] = phi_dot_wristpin_y_;
+    rhs->phi[5] = phi_wristpin_y_;
+    rhs->phi_dot[5] = phi_dot_wristpin_y_;
     const double phi_cylinder_offset_ = slider_y_;
     const double phi_dot_cylinder_offset_ = slider_vy_;
     const double rhs_cylinder_offset_ = -p->beta_squared_*phi_cylinder_offset_ - phi_dot_cylinder_offset_*p->two_alpha_;
-    aside->phi[6] = phi_cylinder_offset_;
-    aside->phi_dot[6] = phi_dot_cylinder_offset_;
+    rhs->phi[6] = phi_cylinder_offset_;
+    rhs->phi_dot[6] = phi_dot_cylinder_offset_;
     const double phi_cylinder_angle_ = slider_theta_;
     const double phi_dot_cylinder_angle_ = slider_omega_;
     const double rhs_cylinder_angle_ = -p->beta_squared_*phi_cylinder_angle_ - phi_dot_cylinder_angle_*p->two_alpha_;
-    aside->phi[7] = phi_cylinder_angle_;
-    aside->phi_dot[7] = phi_dot_cylinder_angle_;
+    rhs->phi[7] = phi_cylinder_angle_;
+    rhs->phi_dot[7] = phi_dot_cylinder_angle_;
     const double phi_motor_ = crank_theta_ - motor_value_;
     const double phi_dot_motor_ = crank_omega_ - motor_rate_;
     const double rhs_motor_ = -p->beta_squared_*phi_motor_ + motor_acceleration_ - phi_dot_motor_*p->two_alpha_;
-    aside->phi[8] = phi_motor_;
-    aside->phi_dot[8] = phi_dot_motor_;
+    rhs->phi[8] = phi_motor_;
+    rhs->phi_dot[8] = phi_dot_motor_;
 
     /* L D L^T of the KKT matrix */
     const double l_rod_theta_wristpin_y_ = -arm_rod_head_x_*p->slider_mass_;
@@ -129,7 +129,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*w_cylinder_offset_rod_theta_;
     const double pivot_cylinder_offset_ = scale_cylinder_offset_;
     const double size_cylinder_offset_ = p->mobility_cylinder_offset_ + scale_cylinder_offset_;
-    if (!(pivot_cylinder_offset_ > memory->least * size_cylinder_offset_)) {
+    if (!(pivot_cylinder_offset_ > discrete->least * size_cylinder_offset_)) {
         pivot = 9;
         goto dependent;
     }
@@ -197,20 +197,20 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[6] = acceleration_slider_x_;
     a[7] = acceleration_slider_y_;
     a[8] = acceleration_slider_theta_;
-    aside->lambda[0] = lambda_O_x_;
-    aside->lambda[1] = lambda_O_y_;
-    aside->lambda[2] = lambda_crankpin_x_;
-    aside->lambda[3] = lambda_crankpin_y_;
-    aside->lambda[4] = lambda_wristpin_x_;
-    aside->lambda[5] = lambda_wristpin_y_;
-    aside->lambda[6] = lambda_cylinder_offset_;
-    aside->lambda[7] = lambda_cylinder_angle_;
-    aside->lambda[8] = lambda_motor_;
+    rhs->lambda[0] = lambda_O_x_;
+    rhs->lambda[1] = lambda_O_y_;
+    rhs->lambda[2] = lambda_crankpin_x_;
+    rhs->lambda[3] = lambda_crankpin_y_;
+    rhs->lambda[4] = lambda_wristpin_x_;
+    rhs->lambda[5] = lambda_wristpin_y_;
+    rhs->lambda[6] = lambda_cylinder_offset_;
+    rhs->lambda[7] = lambda_cylinder_angle_;
+    rhs->lambda[8] = lambda_motor_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;
         force[1] = 0.0;
         force[2] = 0.0;
@@ -220,20 +220,20 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[6] = 0.0;
         force[7] = 0.0;
         force[8] = 0.0;
-        rhs[0] = rhs_O_x_;
-        rhs[1] = rhs_O_y_;
-        rhs[2] = rhs_crankpin_x_;
-        rhs[3] = rhs_crankpin_y_;
-        rhs[4] = rhs_wristpin_x_;
-        rhs[5] = rhs_wristpin_y_;
-        rhs[6] = rhs_cylinder_offset_;
-        rhs[7] = rhs_cylinder_angle_;
-        rhs[8] = rhs_motor_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_O_x_;
+        gamma_stab[1] = rhs_O_y_;
+        gamma_stab[2] = rhs_crankpin_x_;
+        gamma_stab[3] = rhs_crankpin_y_;
+        gamma_stab[4] = rhs_wristpin_x_;
+        gamma_stab[5] = rhs_wristpin_y_;
+        gamma_stab[6] = rhs_cylinder_offset_;
+        gamma_stab[7] = rhs_cylinder_angle_;
+        gamma_stab[8] = rhs_motor_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = -aside->lambda[8]*motor_rate_;
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[0] = -motor_rate_*rhs->lambda[8];
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

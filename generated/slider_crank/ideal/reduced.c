@@ -134,12 +134,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double rod_theta_ = q[0];
@@ -196,18 +196,18 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 
     /* results */
     a[0] = acceleration_rod_theta_;
-    aside->lambda[0] = lambda_cylinder_offset_;
+    rhs->lambda[0] = lambda_cylinder_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
-    aside->power[0] = aside->lambda[0]*motor_rate_*span_crank_head_x_
+    rhs->power[0] = motor_rate_*rhs->lambda[0]*span_crank_head_x_
         + motor_rate_*(a[0]*dot_crank_rod_ - cross_crank_rod_*(rod_omega_ * rod_omega_)
         + p->mass_motor_motor_*motor_acceleration_);
-    aside->power[1] = 0.0;
-    aside->power[2] = 0.0;
+    rhs->power[1] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }
 

@@ -1,10 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `aside` at a state:
+ * Accelerations a (n) and multipliers in `rhs` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
-    Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
+    double *a, RhsOutputs *rhs)
 {
     /* coordinates, velocities, time */
     const double crank_x_ = q[0];
@@ -53,31 +53,31 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double phi_O_x_ = -crank_x_;
     const double phi_dot_O_x_ = -crank_vx_;
     const double rhs_O_x_ = -p->beta_squared_*phi_O_x_ - phi_dot_O_x_*p->two_alpha_;
-    aside->phi[0] = phi_O_x_;
-    aside->phi_dot[0] = phi_dot_O_x_;
+    rhs->phi[0] = phi_O_x_;
+    rhs->phi_dot[0] = phi_dot_O_x_;
     const double phi_O_y_ = -crank_y_;
     const double phi_dot_O_y_ = -crank_vy_;
     const double rhs_O_y_ = -p->beta_squared_*phi_O_y_ - phi_dot_O_y_*p->two_alpha_;
-    aside->phi[1] = phi_O_y_;
-    aside->phi_dot[1] = phi_dot_O_y_;
+    rhs->phi[1] = phi_O_y_;
+    rhs->phi_dot[1] = phi_dot_O_y_;
     const double phi_pin_x_ = arm_crank_head_x_ - arm_rod_crankpin_x_ + crank_x_ - rod_x_;
     const double phi_dot_pin_x_ = -arm_crank_head_y_*crank_omega_ + arm_rod_crankpin_y_*rod_omega_ + crank_vx_
         - rod_vx_;
     const double rhs_pin_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_)
         - arm_rod_crankpin_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_pin_x_ - phi_dot_pin_x_*p->two_alpha_;
-    aside->phi[2] = phi_pin_x_;
-    aside->phi_dot[2] = phi_dot_pin_x_;
+    rhs->phi[2] = phi_pin_x_;
+    rhs->phi_dot[2] = phi_dot_pin_x_;
     const double phi_pin_y_ = arm_crank_head_y_ - arm_rod_crankpin_y_ + crank_y_ - rod_y_;
     const double phi_dot_pin_y_ = arm_crank_head_x_*crank_omega_ - arm_rod_crankpin_x_*rod_omega_ + crank_vy_ - rod_vy_;
     const double rhs_pin_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_)
         - arm_rod_crankpin_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_pin_y_ - phi_dot_pin_y_*p->two_alpha_;
-    aside->phi[3] = phi_pin_y_;
-    aside->phi_dot[3] = phi_dot_pin_y_;
+    rhs->phi[3] = phi_pin_y_;
+    rhs->phi_dot[3] = phi_dot_pin_y_;
     const double phi_slider_offset_ = rod_y_;
     const double phi_dot_slider_offset_ = rod_vy_;
     const double rhs_slider_offset_ = -p->beta_squared_*phi_slider_offset_ - phi_dot_slider_offset_*p->two_alpha_;
-    aside->phi[4] = phi_slider_offset_;
-    aside->phi_dot[4] = phi_dot_slider_offset_;
+    rhs->phi[4] = phi_slider_offset_;
+    rhs->phi_dot[4] = phi_dot_slider_offset_;
 
     /* L D L^T of the KKT matrix */
     const double l_crank_theta_pin_y_ = -arm_crank_head_x_*p->rod_mass_;
@@ -114,7 +114,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         - arm_rod_crankpin_x_*l_slider_offset_rod_theta_;
     const double pivot_slider_offset_ = scale_slider_offset_;
     const double size_slider_offset_ = p->mobility_slider_offset_ + scale_slider_offset_;
-    if (!(pivot_slider_offset_ > memory->least * size_slider_offset_)) {
+    if (!(pivot_slider_offset_ > discrete->least * size_slider_offset_)) {
         pivot = 5;
         goto dependent;
     }
@@ -164,16 +164,16 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[3] = acceleration_rod_x_;
     a[4] = acceleration_rod_y_;
     a[5] = acceleration_rod_theta_;
-    aside->lambda[0] = lambda_O_x_;
-    aside->lambda[1] = lambda_O_y_;
-    aside->lambda[2] = lambda_pin_x_;
-    aside->lambda[3] = lambda_pin_y_;
-    aside->lambda[4] = lambda_slider_offset_;
+    rhs->lambda[0] = lambda_O_x_;
+    rhs->lambda[1] = lambda_O_y_;
+    rhs->lambda[2] = lambda_pin_x_;
+    rhs->lambda[3] = lambda_pin_y_;
+    rhs->lambda[4] = lambda_slider_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
-        double force[N_Q], rhs[N_ROWS];
+        double force[N_Q], gamma_stab[N_ROWS];
         force[0] = coil_pull_*coil_span_x_;
         force[1] = coil_pull_*coil_span_y_;
         force[2] = arm_crank_middle_x_*coil_pull_*coil_span_y_ - arm_crank_middle_y_*coil_pull_*coil_span_x_;
@@ -181,17 +181,17 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[4] = -coil_pull_*coil_span_y_;
         force[5] = -arm_rod_middle_x_*coil_pull_*coil_span_y_ + arm_rod_middle_y_*coil_pull_*coil_span_x_
             - arm_rod_tip_y_*p->push_value_x_;
-        rhs[0] = rhs_O_x_;
-        rhs[1] = rhs_O_y_;
-        rhs[2] = rhs_pin_x_;
-        rhs[3] = rhs_pin_y_;
-        rhs[4] = rhs_slider_offset_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
+        gamma_stab[0] = rhs_O_x_;
+        gamma_stab[1] = rhs_O_y_;
+        gamma_stab[2] = rhs_pin_x_;
+        gamma_stab[3] = rhs_pin_y_;
+        gamma_stab[4] = rhs_slider_offset_;
+        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
-    aside->power[0] = 0.0;
-    aside->power[1] = -p->coil_damping_*(coil_length_rate_ * coil_length_rate_)
+    rhs->power[0] = 0.0;
+    rhs->power[1] = -p->coil_damping_*(coil_length_rate_ * coil_length_rate_)
         + p->push_value_x_*(-arm_rod_tip_y_*rod_omega_ + rod_vx_);
-    aside->power[2] = 0.0;
+    rhs->power[2] = 0.0;
     return pivot;
 }

@@ -153,7 +153,7 @@ def _ends(*points: PointRef) -> tuple[str, ...]:
 
 
 def _states(model: Model) -> tuple[str, ...]:
-    """As C has them in memory, as many for each joint: "" is none."""
+    """As C has them in discrete, as many for each joint: "" is none."""
     return tuple(
         f"{c.name}.{c.states[k].name}" if k < len(c.states) else ""
         for c in model.clearances

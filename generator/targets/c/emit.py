@@ -250,7 +250,7 @@ def reduced_code(model: Model, tree: TreeFunctions, render: Render, print_kernel
         parts.append(render("multipliers.c.jinja", multipliers=_multipliers(model, tree.system)))
     if chains := tree.chains:
         kernels = print_kernels(*chains.kernels)
-        parts.append(render("chains.c.jinja", kernels=kernels, shares=_shares(chains), turned=_turned(chains)))
+        parts.append(render("driven_loops.c.jinja", kernels=kernels, shares=_shares(chains), turned=_turned(chains)))
     return "\n".join(parts)
 
 

@@ -14,6 +14,7 @@ from gudgeon.generator.ir.series_rules import Gathered
 from gudgeon.generator.ir.signatures import Access, Argument, Number, Type
 from gudgeon.generator.ir.split import cut
 from gudgeon.generator.ir.statements import (
+    Branches,
     Call,
     Declare,
     Ended,
@@ -26,7 +27,6 @@ from gudgeon.generator.ir.statements import (
     Rescue,
     Return,
     RunNumbers,
-    Sides,
     Sines,
     Statement,
     Status,
@@ -69,7 +69,7 @@ CALLED_BY_ENGINE = frozenset(
         "chain_step",
         "chain_rates",
         "chain_third",
-        "chain_corners",
+        "loop_switches",
         "close_step",
         "arrive",
         "project",
@@ -120,7 +120,7 @@ class Lines(Text):
                 return [f"{'' if item.status == 'pivot' else 'const int '}{item.status} = {self._call(item.call)};"]
             case Ended():
                 return [f"if ({item.status})", f"    {'goto dependent' if item.jumps else f'return {item.status}'};"]
-            case Sides():
+            case Branches():
                 return _sides(item)
             case Sines():
                 return self._sines(item)
@@ -197,14 +197,14 @@ class Lines(Text):
 
     def _rescue(self, item: Rescue) -> list[str]:
         if not item.force:
-            return ["dependent:", "pivot = solve_by_absolute(t, q, v, memory, p, a, aside);", "powers:"]
-        given = (("force", item.force), ("rhs", item.rhs))
+            return ["dependent:", "pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);", "powers:"]
+        given = (("force", item.force), ("gamma_stab", item.rhs))
         stored = (f"{name}[{k}] = {self.expression(x)};" for name, some in given for k, x in enumerate(some))
         return [
             "dependent: {",
-            "    double force[N_Q], rhs[N_ROWS];",
+            "    double force[N_Q], gamma_stab[N_ROWS];",
             *("\n".join(broken(f"        {code}"))[4:] for code in stored),
-            "    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);",
+            "    pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);",
             "}",
             "powers:",
         ]
@@ -229,10 +229,14 @@ class Lines(Text):
         return "\n".join([f"    {comment}", *code])
 
 
-def _sides(item: Sides) -> list[str]:
-    held = "memory->held ? memory->side : NULL;" if item.held else "NULL; /* of corners within corners: as they are */"
-    told = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "aside": ["double *const g = aside->g;"]}[item.told]
-    return [f"const double *const side = {held}", *told]
+def _sides(item: Branches) -> list[str]:
+    held = (
+        "discrete->held ? discrete->branch : NULL;"
+        if item.held
+        else "NULL; /* of corners within corners: as they are */"
+    )
+    told = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[item.told]
+    return [f"const double *const branch = {held}", *told]
 
 
 def statements(items: Sequence[Statement]) -> str:
@@ -249,16 +253,16 @@ def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
 
 def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str]) -> str:
     """A joint's call of a function that joints share."""
-    held = ["side", "g", str(call.corner)] if call.corner is not None else []
+    held = ["branch", "g", str(call.corner)] if call.corner is not None else []
     numbers = map(expression, call.numbers)
     return f"{call.kernel.name}({', '.join([*given, *numbers, *held, *results])});"
 
 
-def unread_sides(calls: Iterable[SharedCall], statements: Iterable[Statement] = ()) -> list[str]:
-    """Which of `side` and `g` neither the calls, if they have corners, nor the statements read."""
+def unread_branches(calls: Iterable[SharedCall], statements: Iterable[Statement] = ()) -> list[str]:
+    """Which of `branch` and `g` neither the calls, if they have corners, nor the statements read."""
     read = NONE.union(*(line.reads for line in statements))
     corners = any(call.corner is not None for call in calls)
-    return [] if corners else [name for name in ("side", "g") if name not in read]
+    return [] if corners else [name for name in ("branch", "g") if name not in read]
 
 
 def arguments(items: tuple[Argument, ...]) -> str:

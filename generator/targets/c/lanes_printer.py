@@ -18,6 +18,7 @@ from gudgeon.generator.ir.series_rules import WIDE, Gathered
 from gudgeon.generator.ir.signatures import Number, Type, result
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.ir.statements import (
+    Branches,
     Call,
     Declare,
     Guard,
@@ -27,7 +28,6 @@ from gudgeon.generator.ir.statements import (
     Rescue,
     Return,
     RunNumbers,
-    Sides,
     Sines,
     Statement,
     Status,
@@ -41,9 +41,9 @@ from gudgeon.generator.targets.c.printer import Text
 _TYPES: dict[Type, Type] = {
     Number.REAL: "Lanes",
     "Parameters": "LaneParameters",
-    "Memory": "LaneMemory",
-    "Aside": "LaneAside",
-    "Latch": "LaneLatch",
+    "DiscreteState": "LaneDiscreteState",
+    "RhsOutputs": "LaneRhsOutputs",
+    "ContactState": "LaneContactState",
     "Linear": "LaneLinear",
     "ComplexLinear": "LaneComplexLinear",
     "PinSlopes": "LaneSlopes",
@@ -78,9 +78,9 @@ class LanesPrinter(printer.CPrinter):
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return f"pick({self._vector(expr.args[0])} >= 0.0, all_of(1.0), all_of(0.0))"
 
-    def _print_SideOf(self, expr: sp.Expr) -> str:
+    def _print_BranchOf(self, expr: sp.Expr) -> str:
         """As it is held, if it is."""
-        return f"lanes_side_of(side, g, {self.corner(int(expr.args[0]))}, {self._vector(expr.args[1])})"
+        return f"lanes_branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._vector(expr.args[1])})"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         return f"(lanes_fabs({self._vector(expr.args[0])}) + 1e-150)"
@@ -155,10 +155,10 @@ class LaneLines(functions.Lines):
                 return super()._lines(replace(item, type="Lanes"))
             case RunNumbers():
                 return ["const LaneParameters *const p = lin->p;"]
-            case Sides():
-                held, own = "held_sides(memory)" if item.held else "NULL", "Lanes g[N_SWITCHES + 1];"
-                told = {"": [], "nobody": [own], "aside": ["Lanes *const g = told_sides(aside);"]}
-                return [f"const Lanes *const side = {held};", *told[item.told]]
+            case Branches():
+                held, own = "held_branches(discrete)" if item.held else "NULL", "Lanes g[N_SWITCHES + 1];"
+                told = {"": [], "nobody": [own], "rhs": ["Lanes *const g = reported_branches(rhs);"]}
+                return [f"const Lanes *const branch = {held};", *told[item.told]]
             case Largest():
                 name = f"*{item.target}"
                 before = ["all_of(0.0)", *[name] * len(item.values)]

@@ -319,14 +319,14 @@ def _table(kind: str, name: str, values: Iterable[int]) -> str:
 
 
 def _watched(program: Program, of_scene: Sizes) -> dict[tuple[str, str], Sequence[int]]:
-    """Margins of the scene's own corners and of user events, in C's order of margins; which corners' branches meet."""
+    """Event functions of the scene's own switches and of user events, in C's order; switches whose branches meet."""
     count = {name: value for name, (value, _) in of_scene.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
-    margins = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
-    margins += range(first, first + int(count["N_USER_EVENTS"]))
-    place = {k: i for i, k in enumerate(margins)}
+    event_functions = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
+    event_functions += range(first, first + int(count["N_USER_EVENTS"]))
+    place = {k: i for i, k in enumerate(event_functions)}
     return {
-        ("short", "watched"): margins,
+        ("short", "watched"): event_functions,
         ("short", "watched_as"): [place.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
         ("unsigned char", "meets"): _meeting(program.model, int(count["N_SWITCHES"])),
     }

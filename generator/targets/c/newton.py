@@ -18,7 +18,7 @@ from gudgeon.generator.targets.c.printer import expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
-STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "latch")
+STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "contact")
 _BLENDING = """
 /* F = share F + (1 - share) film, slopes as well; `share` with its derivative by e. */
 static inline void blend_slopes({type} *F, const {type} *film, const {number} *share)
@@ -77,8 +77,8 @@ def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render:
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
         worn=[expression(contour.at(beta_i, order)) for order in range(3)],
-        unread="g" in functions.unread_sides([dry]),
-        call=functions.shared_call(dry, (*given, "latch"), ("&F",)),
+        unread="g" in functions.unread_branches([dry]),
+        call=functions.shared_call(dry, (*given, "contact"), ("&F",)),
     )
 
 
@@ -97,7 +97,7 @@ def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> st
     def call(part: str, result: str, *given: str) -> str:
         return functions.shared_call(calls[part], given or STATE, (result,))
 
-    unread = functions.unread_sides(calls.values())
+    unread = functions.unread_branches(calls.values())
     if clearance.normal is None:
         return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), call("film", "out")))
     lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {c};"]

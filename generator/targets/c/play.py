@@ -17,7 +17,7 @@ Render = Callable[..., str]  # template name, substitutions -> text
 
 _ARGUMENTS = (
     "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,%s\n"
-    "    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out"
+    "    const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out"
 )
 _OF_CONTOUR = ("e", "steep", "worn_slope")  # what its dry contact is given besides
 CONTOURS = '#include "engine/scene/contour.h"\n\n'
@@ -27,9 +27,9 @@ _STORE = """\
         .moment_first = F.M_i%s, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _JOURNAL = ("e_x", "e_y", "")
 _AT_WALL = ("e * n_x", "e * n_y", " + along * F.n")  # of a slider's corner: along its wall's normal
-_RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
-_IN_BLOW = "if (latch->smooth)\n        F_along_t_dry = latch->along; /* a blow asks what it does */"
-CLOSED = "side ? latch->closed : delta > 0.0"
+_RATIO = "contact->closed ? deltadot / contact->deltadot_minus : 1.0"
+_IN_BLOW = "if (contact->smooth)\n        F_along_t_dry = contact->along; /* a blow asks what it does */"
+CLOSED = "branch ? contact->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
 
@@ -79,7 +79,7 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         gap=_lines(pin.gap),
         share=_lines(pin.share),
         rigid=clearance.rigid,
-        closed="latch->closed" if clearance.rigid else CLOSED,
+        closed="contact->closed" if clearance.rigid else CLOSED,
         store=_store(clearance, states),
         told=_shared_by(clearance),
         law=_law_of_share(clearance),
@@ -124,7 +124,7 @@ def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     steps["along"] = "-F_N" if clearance.contour else "-F_n"
     steps["further"] = "".join(f", double {name}" for name in _further(pin))
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
-    steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
+    steps["unread"] = functions.unread_branches(laws, (*pin.before_dry, *pin.after_dry))
     steps |= {"law": _texts(calls), "rates": braced("rate", clearance, states)}
     text = render("play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio, **steps)
     own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
@@ -139,7 +139,7 @@ def _further(pin: Pin) -> tuple[str, ...]:
 def _film(pin: Pin, render: Render, states: int) -> PinFunction:
     calls, joint = _calls_of_film(pin, "double"), pin.clearance.label
     steps: dict[str, Any] = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": _texts(calls)}
-    steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
+    steps["unread"] = functions.unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
     text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
     own: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
     return PinFunction(function_name("film", joint), text, [*own, *functions.one_by_one(pin.after_film)])
@@ -175,7 +175,7 @@ def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     found += [(code.strip(), step.defines) for (code, _), step in pressing]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
-        given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
+        given, told = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
         results = ("&F_along_t_dry", *told)
         friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results)
         found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))

@@ -134,9 +134,9 @@ class CPrinter(Quick, C99CodePrinter):
         """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
-    def _print_SideOf(self, expr: sp.Expr) -> str:
+    def _print_BranchOf(self, expr: sp.Expr) -> str:
         """From corners.py."""
-        return f"side_of(side, g, {self.corner(int(expr.args[0]))}, {self._print(expr.args[1])})"
+        return f"branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._print(expr.args[1])})"
 
     def corner(self, index: int) -> str:
         """Its number, or how far behind the function's first one it is."""
@@ -180,7 +180,7 @@ class CPrinter(Quick, C99CodePrinter):
         return self._call("mod_on", *expr.args)
 
     def _print_PeriodsOf(self, expr: sp.Expr) -> str:
-        return self._call("period_side", *expr.args)
+        return self._call("period_branch", *expr.args)
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """From finite_slopes.py."""

@@ -15,8 +15,8 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.quick import ordered_terms
 
-_TYPES: dict[Type, Type] = {Number.REAL: "Range", "Aside": "Range"}
-_NAMES = {"aside": "out"}
+_TYPES: dict[Type, Type] = {Number.REAL: "Range", "RhsOutputs": "Range"}
+_NAMES = {"rhs": "out"}
 _RANGES = {"q", "v", "t"}  # what a range is handed over for; everything else is a number
 
 
@@ -77,8 +77,8 @@ class RangesPrinter(printer.CPrinter):
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return self._call("heaviside", expr.args[0])
 
-    def _print_SideOf(self, expr: sp.Expr) -> str:
-        return f"range_side(side, {int(expr.args[0])}, {self._range(expr.args[1])})"
+    def _print_BranchOf(self, expr: sp.Expr) -> str:
+        return f"range_branch(branch, {int(expr.args[0])}, {self._range(expr.args[1])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Of ranges 0 times infinity is 0: the derivative is enough."""

@@ -106,7 +106,7 @@ def _calls(program: Program, names: Collection[str]) -> list[str]:
     runs = (
         "`gudgeon_run_start`, `gudgeon_adaptive_setup`, then `gudgeon_adaptive_run`"
         if program.integrates
-        else ("`gudgeon_course_begin`, then `gudgeon_kinematic`")
+        else ("`gudgeon_kinematic_begin`, then `gudgeon_kinematic`")
     )
     lanes = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * ("lanes.c" in names)
     return [

@@ -20,7 +20,7 @@ from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, Line
 MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
 BLENDED = ("n", "t", "M_i", "M_j")  # members of a force that film and dry contact share
 _NOTHING = "{n: 0, t: 0, M_i: 0, M_j: 0}"
-_DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "latch", "p", "of")
+_DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "contact", "p", "of")
 _OF_CONTOUR = ("e", "steep", "worn_slope")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 
@@ -36,7 +36,7 @@ def joint_functions(own: Pin, read: set[str]) -> list[str]:
         found.append(_function(f"dry_{joint}_", _given(own), _dry(own, read)))
     if own.clearance.film is not None:
         found.append(_function(f"film_{joint}_", _FILM, _film(own, read)))
-    given = (*map(str, motion(own.clearance)), "latch", "p", "of")
+    given = (*map(str, motion(own.clearance)), "contact", "p", "of")
     return [*found, _function(f"clearance_{joint}_", given, _clearance(own, read))]
 
 
@@ -59,12 +59,12 @@ def _function(name: str, given: Iterable[str], body: Iterable[str]) -> str:
 def _dry(own: Pin, read: set[str]) -> list[str]:
     ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
     before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
-    body = [f"const {ratio} = latch.closed ? deltadot / latch.deltadot_minus : 1;", *before.text]
+    body = [f"const {ratio} = contact.closed ? deltadot / contact.deltadot_minus : 1;", *before.text]
     body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, own.given)), ("F_n",), read)
     pressing = _Part(own.pressing, read)
     pressed, body = "F_N" if own.pressing else "F_n", [*body, *pressing.text]
     if "friction" in own.laws:
-        states = (f"latch.state[{k}]" for k in range(len(own.clearance.states)))
+        states = (f"contact.state[{k}]" for k in range(len(own.clearance.states)))
         body += _call(own.laws["friction"], (pressed, "v_t", *states), ("F_along_t_dry",), read)
     else:
         body.append("const F_along_t_dry = 0;")
@@ -88,7 +88,7 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     dry, film = (f"functions.{part}_{joint}_({', '.join(given)})" for part, given in parts)
     body = [*gap.text, _store(f"clearance_{joint}_", gap.locals)]
     if own.clearance.film is None:
-        acts = "latch.closed" if own.clearance.rigid else "delta > 0"
+        acts = "contact.closed" if own.clearance.rigid else "delta > 0"
         at_wall = "{...F, M_i: F.M_i + along * F.n}" if own.clearance.wall else "F"
         return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned(at_wall)]
     if own.clearance.normal is None:

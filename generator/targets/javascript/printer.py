@@ -12,8 +12,9 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, readable
-from gudgeon.generator.ir.signatures import ASIDE, SIDES, Access, Number
+from gudgeon.generator.ir.signatures import BRANCHES, RHS, Access, Number
 from gudgeon.generator.ir.statements import (
+    Branches,
     Call,
     Guard,
     Jump,
@@ -21,7 +22,6 @@ from gudgeon.generator.ir.statements import (
     Line,
     Rescue,
     Return,
-    Sides,
     Sines,
     Statement,
     Status,
@@ -50,7 +50,7 @@ const mod_on = (a, b) => mod_of(a, b), isfinite = isFinite;
 const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
     force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
 });
-const period_side = (a, b) => sin(PI * a / b);
+const period_branch = (a, b) => sin(PI * a / b);
 """
 )
 CONTOUR = """\
@@ -63,7 +63,7 @@ const contour = (depth, order, angle) => {
     return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
 };
 """
-_SIDES = tuple(Place(argument.name) for argument in SIDES)
+_SIDES = tuple(Place(argument.name) for argument in BRANCHES)
 
 
 class JavaScriptPrinter(CPrinter):
@@ -79,7 +79,7 @@ class JavaScriptPrinter(CPrinter):
             self.numbers.add(place.member)
         return str(place)
 
-    def _print_SideOf(self, expr: sp.Expr) -> str:
+    def _print_BranchOf(self, expr: sp.Expr) -> str:
         """The side on which its difference is."""
         return self._call("sign_of", expr.args[1])
 
@@ -107,8 +107,8 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
     outs = results(kernel) if only is None else []
     outs = [out for out in outs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
-    if aside := _aside(kernel) if only is None else "":
-        arrays, outs = [*arrays, f"    const aside = {aside};"], [*outs, "aside"]
+    if rhs := _aside(kernel) if only is None else "":
+        arrays, outs = [*arrays, f"    const rhs = {rhs};"], [*outs, "rhs"]
     given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
     lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{told}}};"]
@@ -117,13 +117,13 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
 
 def arguments(kernel: Kernel) -> list[str]:
     """What a function is given: not the arrays that it returns."""
-    given = (a for a in kernel.arguments if a not in (*SIDES, CORNER))
+    given = (a for a in kernel.arguments if a not in (*BRANCHES, CORNER))
     return [a.name for a in given if a.access is not Access.WRITTEN]
 
 
 def results(kernel: Kernel) -> list[str]:
     """Numbers and arrays of numbers that a function returns by its arguments, in their order."""
-    written = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in SIDES)
+    written = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in BRANCHES)
     return [a.name for a in written if a.type is Number.REAL]
 
 
@@ -135,7 +135,7 @@ def _aside(kernel: Kernel) -> str:
     parts = dict[str, int]()
     for place in places:
         match place:
-            case Place(ASIDE.name, (str() as array, int() as k, *member)):
+            case Place(RHS.name, (str() as array, int() as k, *member)):
                 structs = 1 + k if member or array == "clearance" else 0
                 parts[array] = max(structs, parts.get(array, 0))
     told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
@@ -164,7 +164,7 @@ class Lines:
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
-        if isinstance(item, (Sides, Status, JointsAlone, Jump, Rescue, Return, LargestRow)):
+        if isinstance(item, (Branches, Status, JointsAlone, Jump, Rescue, Return, LargestRow)):
             return []
         if isinstance(item, Sines):
             return self._sines(item)

@@ -27,7 +27,7 @@ const gudgeonValues = (() => {
         const call = equations?.functions[name];
         if (!call) return {};
         known.p ??= named(state.p);
-        const given = {t: state.t, q, v, r, all_a, p: known.p, memory: {latch: latches}};
+        const given = {t: state.t, q, v, r, all_a, p: known.p, memory: {contact: latches}};
         known[name] ??= call(...equations.given[name].map((one) => given[one]));
         return known[name];
     }
@@ -51,7 +51,7 @@ const gudgeonValues = (() => {
         if (name === "reduce_state" || !q) return known[name] ?? {};
         if (name === "reduce_accelerations") return called(name, {...state, all_a: accelerations()});
         const r = name === "reduced_project" && residuals(q);
-        return called(name, {q, v, r, latches: Object.keys(equations.joints).map(latch)});
+        return called(name, {q, v, r, latches: Object.keys(equations.joints).map(contact)});
     }
 
     /* How far the loops are open, in all rows of the tree's linkage. */
@@ -79,14 +79,14 @@ const gudgeonValues = (() => {
     function contact(joint) {
         const play = computed("play"), {functions, joints} = equations;
         const motion = joints[joint].map((name) => play[name]);
-        return known[`joint ${joint}`] ??= functions[`clearance_${joint}_`](...motion, latch(joint), known.p, {});
+        return known[`joint ${joint}`] ??= functions[`clearance_${joint}_`](...motion, contact(joint), known.p, {});
     }
 
     /*
      * What a joint remembers at the sample: rates of closing, NaN of the free, first; inner states of laws last. Of a
      * run that keeps none of it (`Recorded`) a contact is closed by no number, so that its force is none either.
      */
-    function latch(joint) {
+    function contact(joint) {
         const joints = Object.keys(equations.joints), i = joints.indexOf(joint), {run, k} = state;
         const memory = run?.memory ?? [], width = memory.length / (run?.t?.length || 1);
         const own = memory.slice(k * width, (k + 1) * width);
@@ -129,7 +129,7 @@ const gudgeonValues = (() => {
         return computed(kind)[kind === "gamma" ? "gamma_rows" : kind]?.[row];
     }
 
-    /* A local of a function, or an entry of what it fills: "phi[3]", "aside.lambda[2]". */
+    /* A local of a function, or an entry of what it fills: "phi[3]", "rhs.lambda[2]". */
     function local(found, name) {
         return name.split(/[.[\]]+/).filter(Boolean).reduce((part, key) => part?.[key], found);
     }

@@ -17,7 +17,7 @@ from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import readable
-from gudgeon.generator.ir.signatures import ASIDE
+from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
@@ -240,9 +240,9 @@ class _Finder:
 
 
 def _element(target: Key) -> tuple[str, int]:
-    """An array of numbers, of a function or within its `aside`, and which element of it; −1 of everything else."""
+    """An array of numbers, of a function or within its `rhs`, and which element of it; −1 of everything else."""
     match target:
-        case Place(array, (int() as index,)) | Place(ASIDE.name, (str() as array, int() as index)):
+        case Place(array, (int() as index,)) | Place(RHS.name, (str() as array, int() as index)):
             return array, index
     return str(target), -1
 

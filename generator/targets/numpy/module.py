@@ -198,14 +198,14 @@ class NumPyModel(ClosedLinkage):
         rates = _one_each("latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances))
         bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
         memory = SimpleNamespace(
-            latch=[
+            contact=[
                 SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
                 for x, z in zip(rates, bent, strict=True)
             ],
             mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
         )
         m = len(model.rows)
-        aside = SimpleNamespace(
+        rhs = SimpleNamespace(
             a=np.zeros(self.n),
             lambda_=np.zeros(m),
             phi=np.zeros(m),
@@ -217,8 +217,8 @@ class NumPyModel(ClosedLinkage):
             status=0,
         )
         with np.errstate(all="ignore"):
-            aside.status = self.functions["dynamics"](t, _list(q), _list(v), memory, p, aside.a, aside)
-        return aside
+            rhs.status = self.functions["dynamics"](t, _list(q), _list(v), memory, p, rhs.a, rhs)
+        return rhs
 
 
 def _head(model: Model) -> str:
@@ -354,7 +354,7 @@ def pin(own: Pin) -> str:
     if clearance.normal is None:
         body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
     elif clearance.film is None:
-        acts = "latch.closed" if clearance.rigid else "delta > 0"
+        acts = "contact.closed" if clearance.rigid else "delta > 0"
         body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", f"if {acts}:", *indented(_dry(own))]
     else:
         body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
@@ -375,18 +375,18 @@ def pin(own: Pin) -> str:
         f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0",
     ]
     turned = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
-    head = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
+    head = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, contact, p, out):"
     return "\n".join([*code(head), *indented(body)])
 
 
 def _dry(own: Pin) -> list[str]:
     """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
     ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
-    given, told = [f"latch.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
+    given, told = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
     pressed = "F_N" if own.pressing else "F_n"
     rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
     return [
-        f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0",
+        f"{ratio} = deltadot / contact.deltadot_minus if contact.closed else 1.0",
         *lines(own.before_dry),
         *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *map(name, own.given)), is_call=True),
         *lines(own.pressing),

@@ -17,8 +17,9 @@ from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, readable, share_of_pi
 from gudgeon.generator.ir.readable import lines as readable_lines
-from gudgeon.generator.ir.signatures import SIDES
+from gudgeon.generator.ir.signatures import BRANCHES
 from gudgeon.generator.ir.statements import (
+    Branches,
     Call,
     Guard,
     Jump,
@@ -26,7 +27,6 @@ from gudgeon.generator.ir.statements import (
     Line,
     Rescue,
     Return,
-    Sides,
     Statement,
     Status,
     When,
@@ -38,13 +38,13 @@ from gudgeon.generator.symbols.storage import Key, Place, Result, key_of
 from gudgeon.generator.targets import breaks
 from gudgeon.generator.targets.quick import Quick
 
-_NOWHERE = (Status, JointsAlone, Jump, Rescue, Sides)  # vanished pivots, held corners, what single runs ask for
-_HELD = tuple(Place(argument.name) for argument in SIDES)
-_SIDES = ("side", "g", "corner")
+_NOWHERE = (Status, JointsAlone, Jump, Rescue, Branches)  # vanished pivots, held corners, what single runs ask for
+_HELD = tuple(Place(argument.name) for argument in BRANCHES)
+_SIDES = ("branch", "g", "corner")
 
 
 def name(key: Key) -> str:
-    """Return the expression of a local or place: of a field `lambda` it is `aside.lambda_[3]`."""
+    """Return the expression of a local or place: of a field `lambda` it is `rhs.lambda_[3]`."""
     if isinstance(key, Place):
         steps = (f"[{step}]" if isinstance(step, int) else f".{name(step)}" for step in key.path)
         return name(key.base) + "".join(steps)
@@ -113,7 +113,7 @@ class NumPyPrinter(Quick, PythonCodePrinter):
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return f"np.where({self._print(expr.args[0])} >= 0, 1.0, 0.0)"
 
-    def _print_SideOf(self, expr: sp.Expr) -> str:
+    def _print_BranchOf(self, expr: sp.Expr) -> str:
         return f"np.sign({self._print(expr.args[1])})"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:

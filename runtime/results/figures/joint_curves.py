@@ -2,7 +2,7 @@
 
 Contacts are a thousand times shorter than runs, and samples miss their peaks. The time loop in C keeps of each joint,
 for so many steps in a row, the least and the largest force, the outermost and the last place of the journal; where
-its rows are used up, two become one (engine/run/trace.c). So a trace is never longer than ROWS, and a curve
+its rows are used up, two become one (engine/run/envelope.c). So a trace is never longer than ROWS, and a curve
 through it meets every extreme. Batches, the cross-checks and older files have none: their curves go through the samples
 and the peaks of all contacts. `panels` says which forces a figure shows beside each other.
 """

@@ -11,7 +11,7 @@ from threading import Event
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.integrators.threads import GLANCE, available_threads
+from gudgeon.integrators.threads import POLL_INTERVAL_S, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset
@@ -137,7 +137,9 @@ def _all(
             done.tell()
             if not out:
                 return
-            over = [(future, out.pop(future)) for future in wait(out, GLANCE, return_when=FIRST_COMPLETED).done]
+            over = [
+                (future, out.pop(future)) for future in wait(out, POLL_INTERVAL_S, return_when=FIRST_COMPLETED).done
+            ]
 
 
 @contextmanager

@@ -17,7 +17,7 @@
 #pragma weak motion_here
 #pragma weak newton_factor
 #pragma weak newton_solve
-#pragma weak read_memory
+#pragma weak read_discrete_state
 #pragma weak same_start
 #pragma weak start_values
 #pragma weak to_absolute
@@ -25,14 +25,14 @@
 #pragma weak velocity_rhs
 
 static int failures;
-#define CHECK(truth) \
-    ((truth) ? (void)0 : (void)(failures++, fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #truth)))
+#define CHECK(mask) \
+    ((mask) ? (void)0 : (void)(failures++, fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #mask)))
 #define CLOSE(x, y, tolerance) (fabs((x) - (y)) <= (tolerance))
 
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    (void)t, (void)memory;
-    *aside = (Aside){.clearance = {{.delta = y[0] - p->offset, .e = y[0], .deltadot = y[1]}}, .g = {NAN}};
+    (void)t, (void)discrete;
+    *rhs = (RhsOutputs){.clearance = {{.delta = y[0] - p->offset, .e = y[0], .deltadot = y[1]}}, .g = {NAN}};
     for (int k = 0; k < N_Y; k++)
         dy[k] = 0.0;
     dy[0] = y[1];
@@ -40,10 +40,10 @@ int motion(double t, const double *y, Memory *memory, const Parameters *p, doubl
     return 0;
 }
 
-int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside)
+int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
-    return motion(t, y, memory, p, dy, aside);
+    return motion(t, y, discrete, p, dy, rhs);
 }
 
 double radial_clearance(const Parameters *p, int i) { return (void)i, p->radius; }

@@ -1,14 +1,14 @@
 /* Contacts: their begins and ends on straight lines and parabolas, their list and its fetching, their peaks. */
 #include "part.h"
 
-static Run run;
+static Integrator run;
 static const Parameters p = {.radius = 1.0};
 
 /* The joint touches, or lets go, at time t with the rate deltadot. */
 static void changes(double t, double deltadot)
 {
     run.t = t;
-    run.aside.clearance[0].deltadot = deltadot;
+    run.rhs.clearance[0].deltadot = deltadot;
     cross_contact(&run, 0, slowest_impact(&p, 0));
 }
 
@@ -16,12 +16,12 @@ static void begins_and_ends(void)
 {
     const Contacts *contacts = &run.contacts;
     changes(2.0, 1.0);
-    CHECK(run.memory.latch[0].closed && contacts->open[0].t_on == 2.0 && contacts->open[0].deltadot == 1.0);
+    CHECK(run.discrete.contact[0].closed && contacts->open[0].t_on == 2.0 && contacts->open[0].deltadot == 1.0);
     CHECK(contacts->onsets == 1 && contacts->compressing[0]);
     note_turn(&run, 0, -1.0);
     CHECK(!contacts->compressing[0]);
     changes(7.5, -2.0);
-    CHECK(!run.memory.latch[0].closed && contacts->n_impacts == 1);
+    CHECK(!run.discrete.contact[0].closed && contacts->n_impacts == 1);
     CHECK(contacts->impacts[0].t_on == 2.0 && contacts->impacts[0].t_off == 7.5);
 
     /* the rate of an onset is at least the floor of the law */
@@ -29,11 +29,11 @@ static void begins_and_ends(void)
     CHECK(contacts->open[0].deltadot == slowest_impact(&p, 0));
 
     /* a run that begins deep in its wall is in contact, and one that begins beside it is free */
-    run.memory.latch[0].closed = 0;
-    run.aside.clearance[0] = (Clearance){.delta = 0.5, .deltadot = -3.0};
-    CHECK(begin_latches(&run, &p) && run.memory.latch[0].closed && contacts->open[0].deltadot == 3.0);
-    run.aside.clearance[0].delta = -0.5;
-    CHECK(begin_latches(&run, &p) && !run.memory.latch[0].closed && !begin_latches(&run, &p));
+    run.discrete.contact[0].closed = 0;
+    run.rhs.clearance[0] = (Clearance){.delta = 0.5, .deltadot = -3.0};
+    CHECK(begin_contacts_of_start(&run, &p) && run.discrete.contact[0].closed && contacts->open[0].deltadot == 3.0);
+    run.rhs.clearance[0].delta = -0.5;
+    CHECK(begin_contacts_of_start(&run, &p) && !run.discrete.contact[0].closed && !begin_contacts_of_start(&run, &p));
     run.contacts.n_impacts = 1;
     changes(8.0, 1.0);
 }
@@ -49,10 +49,10 @@ static void peaks(void)
     CHECK(run.contacts.open[0].F_peak == 4.0 && run.contacts.open[0].t_peak == 2.0);
 
     /* deltadot/deltadot_minus of a contact that lasts, outside of [-1, 1] once */
-    run.memory.latch[0].deltadot_minus = 2.0;
-    run.aside.clearance[0] = (Clearance){.F_n = 3.0, .F_t = 4.0, .e = 0.5, .deltadot = 1.0};
+    run.discrete.contact[0].deltadot_minus = 2.0;
+    run.rhs.clearance[0] = (Clearance){.F_n = 3.0, .F_t = 4.0, .e = 0.5, .deltadot = 1.0};
     watch_joint(&run, 0);
-    run.aside.clearance[0].deltadot = -3.0;
+    run.rhs.clearance[0].deltadot = -3.0;
     watch_joint(&run, 0);
     CHECK(run.contacts.ratio_max == 0.5 && run.contacts.ratio_min == -1.5 && run.contacts.ratio_outside == 1.0);
     CHECK(run.contacts.open[0].F_peak == 5.0 && run.contacts.e_max[0] == 0.5);
@@ -83,7 +83,7 @@ static void lists(void)
 
 int main(void)
 {
-    const double latched[N_MEMORY] = {NAN};
+    const double latched[N_DISCRETE] = {NAN};
     start_contacts(&run, 0.0, latched);
     CHECK(run.contacts.e_max[0] == -INFINITY && run.contacts.ratio_min == INFINITY);
     begins_and_ends();

@@ -1,7 +1,7 @@
 /* The choice between the explicit method and the stiff one: how many steps lead to a change. */
 #include "part.h"
 
-static Run run;
+static Integrator run;
 
 /* Steps with this h rho until the method is another one; 0: it is not within `most`. */
 static int steps_to_change(double stability, int most)
@@ -9,7 +9,7 @@ static int steps_to_change(double stability, int most)
     const Method *method = run.choice.method;
     for (int k = 1; k <= most; k++) {
         note_stability(&run, stability);
-        choose(&run, NULL);
+        choose_method(&run, NULL);
         if (run.choice.method != method)
             return k;
     }
@@ -26,7 +26,7 @@ int main(void)
 
     start_choice(&run, explicit, stiff);
     CHECK(steps_to_change(below, 1000) == 0);
-    CHECK(steps_to_change(beyond, 1000) == VOTES);
+    CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
     CHECK(run.choice.method == METHODS[stiff]);
 
     /* a step of the other kind in between begins the count anew */
@@ -36,20 +36,20 @@ int main(void)
 
     /* a return that did not last makes the next one twice as hard, up to a limit */
     for (int patience = 2 * PATIENCE; patience <= MAX_PATIENCE; patience *= 2) {
-        CHECK(steps_to_change(beyond, 1000) == VOTES);
+        CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
         CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == patience);
     }
-    CHECK(steps_to_change(beyond, 1000) == VOTES);
+    CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
     CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == MAX_PATIENCE);
 
     /* one that lasted makes it as easy as the first */
     CHECK(steps_to_change(below, WORTHWHILE) == 0);
-    CHECK(steps_to_change(beyond, 1000) == VOTES);
+    CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
     CHECK(steps_to_change(below, 1000) == PATIENCE);
 
     /* explicit steps that are too short beside the stiff ones from before lead back as well */
     run.control.h_stiff = 1.0;
     run.control.h = 0.5 * WORTH;
-    CHECK(steps_to_change(below, 1000) == COMPARE_FROM + 1 + VOTES);
+    CHECK(steps_to_change(below, 1000) == COMPARE_FROM + 1 + MAX_AGAINST);
     return failures;
 }

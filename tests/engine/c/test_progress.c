@@ -1,19 +1,19 @@
 /* Whether time advances, and when a request to stop counts. */
 #include "part.h"
 
-static Run run;
-static int asked, stop;
+static Integrator run;
+static int cancellation, stop;
 
-static int answer(void *whom)
+static int answer(void *caller)
 {
-    asked++;
-    return *(int *)whom;
+    cancellation++;
+    return *(int *)caller;
 }
 
 /* Steps of length h until the run stalls on the way to t_end; 0: it does not within `most`. */
 static long steps_to_stall(double h, double t_end, long most)
 {
-    run = (Run){.t = 0.0};
+    run = (Integrator){.t = 0.0};
     for (long k = 1; k <= most; k++) {
         run.t = (double)k * h;
         if (stalls(&run, t_end))
@@ -24,27 +24,27 @@ static long steps_to_stall(double h, double t_end, long most)
 
 int main(void)
 {
-    /* three looks in a row, each after PACE_STEPS, at a pace that leaves more steps than can ever be made */
-    CHECK(steps_to_stall(1e-9, 1e3, 1000000) == 3 * PACE_STEPS + 1);
+    /* three looks in a row, each after MONITOR_STEPS, at a pace that leaves more steps than can ever be made */
+    CHECK(steps_to_stall(1e-9, 1e3, 1000000) == 3 * MONITOR_STEPS + 1);
     CHECK(steps_to_stall(1e-6, 1.0, 1000000) == 0);
-    CHECK(unseen_steps(&run.progress.pace) < PACE_STEPS);
+    CHECK(steps_before_check(&run.progress.monitor) < MONITOR_STEPS);
 
     /* an event at the beginning of each step */
-    run = (Run){.t = 0.0};
-    int stuck = 0;
-    while (!is_stuck(&run) && stuck < 10 * MAX_STUCK)
-        note_step_end(&run, 0, ++stuck);
-    CHECK(stuck == MAX_STUCK + 1);
-    CHECK(run.progress.ended[0] == stuck);
-    note_step_end(&run, -1, 0);
-    CHECK(run.progress.stuck == 0 && run.progress.ended[N_MARGINS] == 1);
+    run = (Integrator){.t = 0.0};
+    int no_advance = 0;
+    while (!is_chattering(&run) && no_advance < 10 * MAX_NO_ADVANCE)
+        record_step_end(&run, 0, ++no_advance);
+    CHECK(no_advance == MAX_NO_ADVANCE + 1);
+    CHECK(run.progress.ended[0] == no_advance);
+    record_step_end(&run, -1, 0);
+    CHECK(run.progress.no_advance == 0 && run.progress.ended[N_EVENT_FUNCTIONS] == 1);
 
     /* steps that lead nowhere */
     int crawls = 0;
-    while (!note_crawl(&run, ++crawls))
+    while (!note_short_step(&run, ++crawls))
         ;
-    CHECK(crawls == MAX_CRAWL + 1);
-    CHECK(!note_crawl(&run, 0) && !note_crawl(&run, 1));
+    CHECK(crawls == MAX_SHORT_STEPS + 1);
+    CHECK(!note_short_step(&run, 0) && !note_short_step(&run, 1));
 
     /* counters */
     count_step(&run, 1);
@@ -52,11 +52,11 @@ int main(void)
     CHECK(run.counts.steps == 1 && run.counts.stiff_steps == 1 && run.counts.evaluations == 3);
 
     /* a request to stop: nobody asks at first, then it counts unless what is under way comes to its end */
-    Asked token;
-    set_asked(&token, answer, &stop, 0.0);
+    Cancellation token;
+    start_cancellation(&token, answer, &stop, 0.0);
     for (int k = 0; k < 1000; k++)
         CHECK(!given_up(&token));
-    CHECK(asked > 0 && asked <= 1000);
+    CHECK(cancellation > 0 && cancellation <= 1000);
     stop = 1;
     defer_stop(&token);
     for (int k = 0; k < 1000; k++)

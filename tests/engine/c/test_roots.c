@@ -1,7 +1,7 @@
 /* Root finding: the first zero of a penetration in a step whose motion is a cosine. */
 #include "part.h"
 
-static Run run;
+static Integrator run;
 
 /* The time of the first event of a step of dop853 from t to t + h along x = cos t; NAN: there is none. */
 static double event_on_cosine(double t, double h, double offset)
@@ -9,21 +9,21 @@ static double event_on_cosine(double t, double h, double offset)
     const double scale[2] = {1e-8, 1e-8}, least[2] = {1.0, 1.0};
     const Parameters p = {.radius = 10.0, .offset = offset};
     int event;
-    run = (Run){.t = t, .y = {cos(t), -sin(t)}};
+    run = (Integrator){.t = t, .y = {cos(t), -sin(t)}};
     gudgeon_adaptive_setup(&run, gudgeon_method("dop853"), 0, scale, least, 0.0);
-    set_tick(&run, 1.0);
-    run.norm.speed[0] = run.norm.speed[1] = run.norm.turned_over = 1.0;
-    weigh(&run);
-    run.memory.held = 1;
-    run.memory.side[0] = 1.0;
+    set_time_resolution(&run, 1.0);
+    run.norm.speed[0] = run.norm.speed[1] = run.norm.energy_scale = 1.0;
+    update_error_weights(&run);
+    run.discrete.held = 1;
+    run.discrete.branch[0] = 1.0;
     Step *step = &run.step;
     step->method = run.choice.method;
-    CHECK(!rates(&run, t, run.y, &p, run.dy, &run.aside));
-    run.memory.latch[0].closed = run.aside.clearance[0].delta > 0.0;
+    CHECK(!rates(&run, t, run.y, &p, run.dy, &run.rhs));
+    run.discrete.contact[0].closed = run.rhs.clearance[0].delta > 0.0;
     CHECK(!dop853_try(&run, h, &p, step) && step->error <= 1.0);
-    const double share = first_event(&run, step, &p, &event);
+    const double fraction = first_event(&run, step, &p, &event);
     CHECK(event == -1 || event == 0);
-    return event < 0 ? NAN : t + share * h;
+    return event < 0 ? NAN : t + fraction * h;
 }
 
 int main(void)

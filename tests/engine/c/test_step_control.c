@@ -1,7 +1,7 @@
 /* Step control: lengths against the formulas at the head of methods/step_length.c. */
 #include "part.h"
 
-static Run run;
+static Integrator run;
 static Step step;
 
 /* An accepted step of length 1 with this error after one with the error `before`: the ratio of the next length. */
@@ -35,9 +35,9 @@ int main(void)
     CHECK(CLOSE(growth(1.0, 1.0), 0.9, 1e-3));
     CHECK(growth(1e-30, 1.0) == MAX_GROWTH);
     CHECK(run.control.error_before == MIN_LAST_ERROR);
-    step.looked = 1;
+    step.is_searched = 1;
     CHECK(growth(1e-30, 1.0) == MAX_GROWTH_EVENTS);
-    step.looked = 0;
+    step.is_searched = 0;
 
     /* stability bounds an explicit step */
     note_stability(&run, 2.0 * step.method->bounded);
@@ -83,14 +83,14 @@ int main(void)
     double *known = &run.control.after_contact[1][0];
     start_control(&run, 0.0);
     set_length(&run, 1.0);
-    begin_with(&run, known, 0.0);
+    set_first_length(&run, known, 0.0);
     CHECK(run.control.h == 1.0);
     step.h = 0.1;
     step.error = 1.0;
     next_length(&run, &step, 0, 1);
     CHECK(CLOSE(*known, 0.09, 1e-4));
     set_length(&run, 1.0);
-    begin_with(&run, known, 0.0);
+    set_first_length(&run, known, 0.0);
     CHECK(run.control.h == *known);
     return failures;
 }

@@ -3,27 +3,28 @@
  * Positions and velocities of listed contacts at `gap` (m, each) and, where they are closed, without a rate of it: the
  * smallest change, measured by M.
  */
-static int seat(Run *run, double t, double *y, const Parameters *p, Answer *contacts, const double *gap)
+static int project_contacts(
+    Integrator *run, double t, double *y, const Parameters *p, Delassus *contacts, const double *gap)
 {
     unsigned char closed[N_RIGID];
-    Memory now = run->memory;
-    leave_out_friction(&now);
+    DiscreteState now = run->discrete;
+    without_friction(&now);
     for (int k = 0; k < contacts->n; k++) {
-        Latch *latch = &now.latch[contacts->joint[k]];
-        closed[k] = (unsigned char)latch->closed;
-        latch->closed = 1; /* that a force moves it */
+        ContactState *contact = &now.contact[contacts->joint[k]];
+        closed[k] = (unsigned char)contact->closed;
+        contact->closed = 1; /* that a force moves it */
     }
     for (int pass = 0; pass < 3; pass++) {
         double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
-        Aside aside;
-        int status = find_answer(motion_of_laws, N_Y, t, y, &now, p, contacts);
+        RhsOutputs rhs;
+        int status = compute_delassus(motion_of_laws, N_Y, t, y, &now, p, contacts);
         if (!status)
-            status = motion_of_laws(t, y, &now, p, dy, &aside);
+            status = motion_of_laws(t, y, &now, p, dy, &rhs);
         count_evaluations(run, contacts->n + 2);
         if (status)
             return status;
         for (int k = 0; k < contacts->n; k++) {
-            const Clearance *joint = &aside.clearance[contacts->joint[k]];
+            const Clearance *joint = &rhs.clearance[contacts->joint[k]];
             depth[k] = joint->delta + gap[k];
             rate[k] = closed[k] ? joint->deltadot : 0.0;
             worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
@@ -42,11 +43,11 @@ static int seat(Run *run, double t, double *y, const Parameters *p, Answer *cont
 }
 
 /* A state back onto e = c and no rate of it where contacts are closed. */
-static void hold_contacts(Run *run, double t, double *y, const Parameters *p)
+static void hold_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
     const double none[N_RIGID] = {0.0};
-    Answer contacts;
-    contacts.n = list_closed(&run->memory, contacts.joint);
+    Delassus contacts;
+    contacts.n = list_closed(&run->discrete, contacts.joint);
     if (contacts.n)
-        (void)seat(run, t, y, p, &contacts, none);
+        (void)project_contacts(run, t, y, p, &contacts, none);
 }

@@ -5,36 +5,38 @@
  * which that does not resolve it is taken again, shorter.
  */
 #if N_WATCHED
-static void look_at(Run *run, double t, const double *y, const Parameters *p, Aside *aside)
+static void sample_dense_output(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
-    (void)rates(run, t, y, p, dy, aside);
+    (void)rates(run, t, y, p, dy, rhs);
 }
 
 /* Whether a margin may vanish in the step: its least is less than how far it goes. */
-static int may_vanish(const Run *run, const Step *step, int k, double *range)
+static int may_have_zero(const Integrator *run, const Step *step, int k, double *range)
 {
-    const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
+    const double start = event_function(&run->discrete, &run->rhs, k),
+                 end = event_function(&run->discrete, &step->rhs, k);
     double least = min_of(start, end), most = max_of(start, end); /* the end may lie outside of the domain */
-    const Seen seen = seen_of(step, k);
+    const StageValues seen = stage_values(step, k);
     for (int i = 0; i < step->n_seen; i++) {
-        least = min_of(least, seen_at(seen, i));
-        most = max_of(most, seen_at(seen, i));
+        least = min_of(least, stage_value(seen, i));
+        most = max_of(most, stage_value(seen, i));
     }
     *range = most - least;
     return least < *range;
 }
 
 /* What an error of the tolerance in the state changes: no function is known better. */
-static void noise(Run *run, const Step *step, const Parameters *p, double *change)
+static void event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p, double *change)
 {
     double y[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->norm.weight[k] : 0.0);
-    look_at(run, step->t, y, p, &aside);
+    sample_dense_output(run, step->t, y, p, &rhs);
     for (int i = 0; i < N_WATCHED; i++)
-        change[i] = fabs(margin(&run->memory, &aside, watched[i]) - margin(&run->memory, &run->aside, watched[i]));
+        change[i] = fabs(
+            event_function(&run->discrete, &rhs, watched[i]) - event_function(&run->discrete, &run->rhs, watched[i]));
 }
 
 /* The difference of order 4, or of all `n` further ones, of samples from f on: as an error of interpolation. */
@@ -57,57 +59,58 @@ static double end_error(const double *f, int out, int n)
 static double interpolation_error(const double *f, int at)
 {
     double worst = 0.0;
-    for (int j = 3; j + 3 <= N_LOOKS; j += 2)
+    for (int j = 3; j + 3 <= N_SAMPLES; j += 2)
         if (j + 3 <= at || j - 3 > at)
             worst = max_of(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
-    if (at >= N_LOOKS)
+    if (at >= N_SAMPLES)
         return worst;
-    return max_of(worst, max_of(end_error(f + at, -1, at), end_error(f + at + 1, 1, N_LOOKS - at - 1)));
+    return max_of(worst, max_of(end_error(f + at, -1, at), end_error(f + at + 1, 1, N_SAMPLES - at - 1)));
 }
 
 /*
  * How far samples of a step are from resolving a function. Of one that jumps, or whose slope does, it is how far they
  * are on both sides of that: no shorter step would make a jump less.
  */
-static double misfit(const double *f, double enough)
+static double resolution_error(const double *f, double enough)
 {
-    double least = interpolation_error(f, N_LOOKS);
-    for (int at = 0; at < N_LOOKS && least > enough; at++)
+    double least = interpolation_error(f, N_SAMPLES);
+    for (int at = 0; at < N_SAMPLES && least > enough; at++)
         least = min_of(least, interpolation_error(f, at));
     return least;
 }
 
 /* Looks along the step wherever something may vanish; whether the step is too long to tell. */
-static int is_unresolved(Run *run, Step *step, const Parameters *p)
+static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
     double range[N_WATCHED], change[N_WATCHED];
-    step->looked = 0;
+    step->is_searched = 0;
     for (int i = 0; i < N_WATCHED; i++) {
-        step->near[i] = (unsigned char)may_vanish(run, step, watched[i], &range[i]);
-        step->looked |= step->near[i];
+        step->near[i] = (unsigned char)may_have_zero(run, step, watched[i], &range[i]);
+        step->is_searched |= step->near[i];
     }
-    if (!step->looked || make_dense(run, p, step))
+    if (!step->is_searched || make_dense(run, p, step))
         return 0;
-    for (int j = 0; j <= N_LOOKS; j++) {
+    for (int j = 0; j <= N_SAMPLES; j++) {
         double y[N_Y];
-        Aside aside = j < N_LOOKS ? run->aside : step->aside;
-        if (j > 0 && j < N_LOOKS) {
-            interpolate(run, step, (double)j / N_LOOKS, y);
-            look_at(run, step->t + (double)j / N_LOOKS * step->h, y, p, &aside);
+        RhsOutputs rhs = j < N_SAMPLES ? run->rhs : step->rhs;
+        if (j > 0 && j < N_SAMPLES) {
+            interpolate(run, step, (double)j / N_SAMPLES, y);
+            sample_dense_output(run, step->t + (double)j / N_SAMPLES * step->h, y, p, &rhs);
         }
         for (int i = 0; i < N_WATCHED; i++)
-            step->look[i][j] = margin(&run->memory, &aside, watched[i]);
+            step->sample[i][j] = event_function(&run->discrete, &rhs, watched[i]);
     }
-    if (N_LOOKS * root_width(run, step) >= 1.0)
+    if (N_SAMPLES * event_time_tolerance(run, step) >= 1.0)
         return 0; /* samples of more places than there are times show no more (a pole, many jumps) */
-    noise(run, step, p, change);
+    event_function_uncertainty(run, step, p, change);
     for (int i = 0; i < N_WATCHED; i++) {
         double least = INFINITY, most = -INFINITY;
-        for (int j = 0; j <= N_LOOKS; j++) {
-            least = min_of(least, step->look[i][j]);
-            most = max_of(most, step->look[i][j]);
+        for (int j = 0; j <= N_SAMPLES; j++) {
+            least = min_of(least, step->sample[i][j]);
+            most = max_of(most, step->sample[i][j]);
         }
-        const double enough = max_of(0.05 * (most - least), 10.0 * change[i]), missed = misfit(step->look[i], enough);
+        const double enough = max_of(0.05 * (most - least), 10.0 * change[i]),
+                     missed = resolution_error(step->sample[i], enough);
         /* stages that see far more than the looks: these keep time with what they look at */
         const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->method->stiff;
         if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)
@@ -117,15 +120,17 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
 }
 
 /* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
-static double dip(Run *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
+static double refine_minimum(
+    Integrator *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
 {
     for (; width > 1e-6 && best >= 0.0 && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
-        const double left = margin_at(run, step, *s - width, k, p), right = margin_at(run, step, *s + width, k, p);
+        const double left = event_function_at(run, step, *s - width, k, p),
+                     right = event_function_at(run, step, *s + width, k, p);
         const double bend = left - 2.0 * best + right;
         double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
         if (bend > 0.0) {
             at[2] = min_of(at[1], max_of(at[0], *s + 0.5 * width * (left - right) / bend));
-            value[2] = margin_at(run, step, at[2], k, p);
+            value[2] = event_function_at(run, step, at[2], k, p);
         }
         for (int j = 0; j < 3; j++)
             if (value[j] < best) {
@@ -139,30 +144,30 @@ static double dip(Run *run, const Step *step, int k, double *s, double width, do
 }
 
 /* The first look, or dip between looks, at which watched margin i is below zero; 0: none. */
-static double first_look(Run *run, const Step *step, int i, const Parameters *p, double *value)
+static double first_negative_sample(Integrator *run, const Step *step, int i, const Parameters *p, double *value)
 {
-    const double *f = step->look[i];
-    for (int j = 1; j <= N_LOOKS && step->near[i]; j++) {
+    const double *f = step->sample[i];
+    for (int j = 1; j <= N_SAMPLES && step->near[i]; j++) {
         const double bend = j > 1 ? f[j - 2] - 2.0 * f[j - 1] + f[j] : 0.0;
         if (bend > 0.0 && f[j - 2] > f[j - 1] && f[j - 1] <= f[j]) {
             const double way = 0.5 * (f[j - 2] - f[j]) / bend, lowest = f[j - 1] - 0.5 * bend * way * way;
-            double at = (j - 1 + way) / N_LOOKS;
+            double at = (j - 1 + way) / N_SAMPLES;
             if (lowest < 0.1 * f[j - 1]) {
-                *value = margin_at(run, step, at, watched[i], p);
-                *value = dip(run, step, watched[i], &at, 0.5 / N_LOOKS, *value, p);
+                *value = event_function_at(run, step, at, watched[i], p);
+                *value = refine_minimum(run, step, watched[i], &at, 0.5 / N_SAMPLES, *value, p);
                 if (*value < 0.0)
                     return at;
             }
         }
         if (f[j] < 0.0) {
             *value = f[j];
-            return (double)j / N_LOOKS;
+            return (double)j / N_SAMPLES;
         }
     }
     return 0.0;
 }
 
-static void look_inside(const Run *run, Step *step, const Parameters *p)
+static void search_step(const Integrator *run, Step *step, const Parameters *p)
 {
     (void)run, (void)p;
     for (int i = 0; i < N_WATCHED; i++)
@@ -171,18 +176,19 @@ static void look_inside(const Run *run, Step *step, const Parameters *p)
 
 #else
 /* No switches of the user's expressions, and no events. */
-static inline int is_unresolved(const Run *run, const Step *step, const Parameters *p)
+static inline int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;
 }
 
-static inline void look_inside(const Run *run, const Step *step, const Parameters *p)
+static inline void search_step(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
 }
 
-static inline double first_look(const Run *run, const Step *step, int i, const Parameters *p, double *value)
+static inline double first_negative_sample(
+    const Integrator *run, const Step *step, int i, const Parameters *p, double *value)
 {
     (void)run, (void)step, (void)i, (void)p;
     return *value = 0.0;

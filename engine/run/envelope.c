@@ -1,8 +1,8 @@
 /*
- * What a picture needs of every step (TraceRow): kept while the run goes on.
+ * What a picture needs of every step (EnvelopeRow): kept while the run goes on.
  */
 /* A force of joint i, at an end of a step or within it. */
-static void trace_force(Run *run, int i, double t, double F)
+static void extend_force_envelope(Integrator *run, int i, double t, double F)
 {
     double *trail = run->envelope.rows[run->envelope.row].joint[i];
     if (F < trail[TRACE_F_low]) {
@@ -16,7 +16,7 @@ static void trace_force(Run *run, int i, double t, double F)
 }
 
 /* The same of a place, if it is the row's outermost. */
-static void trace_place(Run *run, int i, double t, const Clearance *joint)
+static void extend_path_envelope(Integrator *run, int i, double t, const Clearance *joint)
 {
     double *trail = run->envelope.rows[run->envelope.row].joint[i];
     if (!(joint->e * joint->e > trail[TRACE_ex_out] * trail[TRACE_ex_out] + trail[TRACE_ey_out] * trail[TRACE_ey_out]))
@@ -26,7 +26,7 @@ static void trace_place(Run *run, int i, double t, const Clearance *joint)
     trail[TRACE_t_out] = t;
 }
 
-static void begin_trace_row(Run *run)
+static void begin_envelope_row(Integrator *run)
 {
     run->envelope.steps = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -39,9 +39,9 @@ static void begin_trace_row(Run *run)
 }
 
 /* Row b, which follows a, becomes part of it. */
-static void join_rows(TraceRow *to, const TraceRow *a, const TraceRow *b)
+static void merge_envelope_rows(EnvelopeRow *to, const EnvelopeRow *a, const EnvelopeRow *b)
 {
-    TraceRow both = *b;
+    EnvelopeRow both = *b;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double *first = a->joint[i];
         double *trail = both.joint[i];
@@ -63,15 +63,15 @@ static void join_rows(TraceRow *to, const TraceRow *a, const TraceRow *b)
 }
 
 /* The present state as the end of a step. */
-static void trace_step(Run *run)
+static void extend_envelope(Integrator *run)
 {
-    TraceRow *row = &run->envelope.rows[run->envelope.row];
+    EnvelopeRow *row = &run->envelope.rows[run->envelope.row];
     row->t = run->t;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *joint = &run->aside.clearance[i];
+        const Clearance *joint = &run->rhs.clearance[i];
         double *trail = row->joint[i];
-        trace_force(run, i, run->t, total_force(joint));
-        trace_place(run, i, run->t, joint);
+        extend_force_envelope(run, i, run->t, total_force(joint));
+        extend_path_envelope(run, i, run->t, joint);
         trail[TRACE_ex] = joint->ex;
         trail[TRACE_ey] = joint->ey;
     }
@@ -81,19 +81,19 @@ static void trace_step(Run *run)
         run->envelope.row /= 2;
         run->envelope.stride *= 2;
         for (long i = 0; i < run->envelope.row; i++)
-            join_rows(run->envelope.rows + i, run->envelope.rows + 2 * i, run->envelope.rows + 2 * i + 1);
+            merge_envelope_rows(run->envelope.rows + i, run->envelope.rows + 2 * i, run->envelope.rows + 2 * i + 1);
     }
-    begin_trace_row(run);
+    begin_envelope_row(run);
 }
 
 /* Room for the trace of a run that is about to begin: an even number of rows. */
-static void start_trace(Run *run, TraceRow *trace, long rows)
+static void start_envelope(Integrator *run, EnvelopeRow *trace, long rows)
 {
     run->envelope.rows = trace;
     run->envelope.n_rows = rows;
     run->envelope.stride = 1;
-    begin_trace_row(run);
+    begin_envelope_row(run);
 }
 
 /* Rows of the trace so far; the last one may tell of fewer steps than the others. */
-static long count_trace_rows(const Run *run) { return run->envelope.row + (run->envelope.steps > 0); }
+static long count_envelope_rows(const Integrator *run) { return run->envelope.row + (run->envelope.steps > 0); }

@@ -14,15 +14,15 @@ enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60, FLAT_NODES = 4 };
  * left behind it some bend^2/step; a bend that is not much smaller than its step belongs to no root near by
  * (L. V. Kantorovich). Returns 0, or the number of a closure; `moved` is the way.
  */
-static int close_chains(double t, double *q, const Memory *memory, const Parameters *p, double *moved)
+static int close_chains(double t, double *q, const DiscreteState *discrete, const Parameters *p, double *moved)
 {
     double step[N_CHAIN], bend[N_CHAIN];
     int row = 1;
     *moved = 0.0;
-    chain_directions(t, q, memory, p, q);
+    chain_directions(t, q, discrete, p, q);
     for (int i = 0; i < MAX_CHAIN_STEPS; i++) {
         double size = 0.0, bent = 0.0, sum = 0.0;
-        const int status = chain_step(t, q, memory, p, step, bend, &row);
+        const int status = chain_step(t, q, discrete, p, step, bend, &row);
         if (status)
             return status;
         for (int k = 0; k < N_CHAIN; k++) {
@@ -33,7 +33,7 @@ static int close_chains(double t, double *q, const Memory *memory, const Paramet
         }
         *moved += size;
         if (size > TURN_SMALL) {
-            chain_directions(t, q, memory, p, q);
+            chain_directions(t, q, discrete, p, q);
         } else {
             turn_directions(q, step, p);
         }
@@ -78,30 +78,30 @@ static double chain_bend(double h, const Chain *a, const TreeState *b, const Par
 }
 
 /* From one place of the chains to another near by; 0, or the number of a closure where the way is not certain. */
-static int move_chains(double t, const Chain *from, const Memory *memory, const Parameters *p, TreeState *at)
+static int move_chains(double t, const Chain *from, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     const double h = t - from->t, *rate = from->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
     double moved;
     for (int k = 0; k < N_CHAIN; k++)
         at->q[N_X + k] = from->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
-    int status = close_chains(t, at->q, memory, p, &moved);
+    int status = close_chains(t, at->q, discrete, p, &moved);
     if (!status)
-        status = chain_rates(t, at->q, memory, p, at->v);
+        status = chain_rates(t, at->q, discrete, p, at->v);
     if (status)
         return status;
     return moved <= CHAIN_REACH && chain_bend(h, from, at, p) <= CHAIN_STRAIGHT ? 0 : 1;
 }
 
 /* The chains at time t where one step there is too long: in parts; 0, or the number of a closure that cannot follow. */
-static int follow_in_parts(double t, const Memory *memory, const Parameters *p, TreeState *at)
+static int follow_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
-    Chain here = memory->chain;
+    Chain here = discrete->chain;
     double h = 0.5 * (t - here.t);
     int status = 1;
     for (int part = 0; part < MAX_CHAIN_PARTS; part++) {
         const int last = fabs(h) >= fabs(t - here.t);
         const double next = last ? t : here.t + h;
-        status = move_chains(next, &here, memory, p, at);
+        status = move_chains(next, &here, discrete, p, at);
         if (!status && last)
             return 0;
         if (status) {
@@ -113,7 +113,7 @@ static int follow_in_parts(double t, const Memory *memory, const Parameters *p, 
             here.q[k] = at->q[N_X + k];
         for (int k = 0; k < 2 * N_CHAIN; k++)
             here.v[k] = at->v[N_X + k];
-        chain_third(next, at->q, at->v, memory, p, here.v + 2 * N_CHAIN);
+        chain_third(next, at->q, at->v, discrete, p, here.v + 2 * N_CHAIN);
         h *= 2.0;
     }
     return status ? status : 1;
@@ -123,12 +123,12 @@ static int follow_in_parts(double t, const Memory *memory, const Parameters *p, 
  * The chains at a time at which they lie flat, so that nothing closes them: smooth functions of time, from where they
  * are before and after. Directions are asked for elsewhere; 0, or the number of a closure where they do not pass.
  */
-static int pass_flat(double t, const Memory *memory, const Parameters *p, Chain *place)
+static int pass_flat(double t, const DiscreteState *discrete, const Parameters *p, Chain *place)
 {
     double fastest = 0.0, lower[N_CHAIN];
-    int status = memory->chain.failed;
+    int status = discrete->chain.failed;
     for (int k = 0; k < N_CHAIN; k++)
-        fastest = max_of(fastest, fabs(memory->chain.v[k]) * chain_share(p, k));
+        fastest = max_of(fastest, fabs(discrete->chain.v[k]) * chain_share(p, k));
     if (status || !(fastest > 0.0))
         return 1;
     *place = (Chain){.t = t};
@@ -138,9 +138,9 @@ static int pass_flat(double t, const Memory *memory, const Parameters *p, Chain 
         const int k = j / 2 + 1;
         const double when = t + (j % 2 ? -k : k) * FLAT_TURN / fastest;
         TreeState at;
-        status = move_chains(when, &memory->chain, memory, p, &at) ? follow_in_parts(when, memory, p, &at) : 0;
+        status = move_chains(when, &discrete->chain, discrete, p, &at) ? follow_in_parts(when, discrete, p, &at) : 0;
         if (!status)
-            status = chain_third(when, at.q, at.v, memory, p, at.v + N_X + 2 * N_CHAIN);
+            status = chain_third(when, at.q, at.v, discrete, p, at.v + N_X + 2 * N_CHAIN);
         for (int i = 0; i < N_CHAIN && !status; i++) {
             place->q[i] += weight_at(FLAT_NODES, k) * at.q[N_X + i];
             lower[i] += k < FLAT_NODES ? weight_at(FLAT_NODES - 1, k) * at.q[N_X + i] : 0.0;
@@ -154,17 +154,17 @@ static int pass_flat(double t, const Memory *memory, const Parameters *p, Chain 
 }
 
 /* The place of the chains from which they are followed, with third rates. */
-static int keep_chains(double t, const TreeState *at, Memory *memory, const Parameters *p)
+static int keep_chains(double t, const TreeState *at, DiscreteState *discrete, const Parameters *p)
 {
     Chain place = {0}, flat;
     note_chains(t, at, &place);
-    place.failed = chain_third(t, at->q, at->v, memory, p, place.v + 2 * N_CHAIN);
-    if (place.failed && !pass_flat(t, memory, p, &flat)) {
+    place.failed = chain_third(t, at->q, at->v, discrete, p, place.v + 2 * N_CHAIN);
+    if (place.failed && !pass_flat(t, discrete, p, &flat)) {
         for (int k = N_CHAIN; k < N_LED; k++)
             flat.q[k] = place.q[k];
         place = flat;
     }
-    memory->chain = memory->recent = place;
+    discrete->chain = discrete->recent = place;
     return place.failed;
 }
 
@@ -172,24 +172,24 @@ static int keep_chains(double t, const TreeState *at, Memory *memory, const Para
  * The chains at time t, as they were found there the last time, or from the last state that was accepted. Returns 0,
  * or the number of a closure that cannot follow.
  */
-static inline int follow_chains(double t, const Memory *memory, const Parameters *p, TreeState *at)
+static inline int follow_chains(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
-    if (memory->chain.failed)
-        return memory->chain.failed;
+    if (discrete->chain.failed)
+        return discrete->chain.failed;
 #if SMOOTH_CHAINS
-    if (memory->recent.t == t) {
-        recall_chains(&memory->recent, at);
+    if (discrete->recent.t == t) {
+        recall_chains(&discrete->recent, at);
         return 0;
     }
 #endif
-    if (!move_chains(t, &memory->chain, memory, p, at))
+    if (!move_chains(t, &discrete->chain, discrete, p, at))
         return 0;
-    const int status = follow_in_parts(t, memory, p, at);
+    const int status = follow_in_parts(t, discrete, p, at);
     Chain flat;
-    if (!status || pass_flat(t, memory, p, &flat))
+    if (!status || pass_flat(t, discrete, p, &flat))
         return status;
     recall_chains(&flat, at);
-    chain_directions(t, at->q, memory, p, at->q);
+    chain_directions(t, at->q, discrete, p, at->q);
     return 0;
 }
 
@@ -197,12 +197,12 @@ static inline int follow_chains(double t, const Memory *memory, const Parameters
  * All that the tree's kernels read at (t, y); several stages of a method lie at one time. A status counts on behind
  * the pivots.
  */
-static inline int tree_state(double t, const double *y, Memory *memory, const Parameters *p, TreeState *at)
+static inline int tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
-    const int status = follow_chains(t, memory, p, at);
+    const int status = follow_chains(t, discrete, p, at);
 #if SMOOTH_CHAINS
-    if (!status && memory->recent.t != t)
-        note_chains(t, at, &memory->recent);
+    if (!status && discrete->recent.t != t)
+        note_chains(t, at, &discrete->recent);
 #endif
     for (int k = 0; k < N_X; k++) {
         at->q[k] = y[k];
@@ -212,15 +212,15 @@ static inline int tree_state(double t, const double *y, Memory *memory, const Pa
 }
 
 /* The chains at t from a first guess (N_CHAIN) of their coordinates, as those from where they are followed. */
-void seat_chains(double t, const double *guess, Memory *memory, const Parameters *p)
+void seat_chains(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {
     TreeState at = {0};
     double moved;
     for (int k = 0; k < N_CHAIN; k++)
         at.q[N_X + k] = guess[k];
-    int status = close_chains(t, at.q, memory, p, &moved);
+    int status = close_chains(t, at.q, discrete, p, &moved);
     if (!status)
-        status = chain_rates(t, at.q, memory, p, at.v);
-    const int last = keep_chains(t, &at, memory, p);
-    memory->chain.failed = status ? status : last;
+        status = chain_rates(t, at.q, discrete, p, at.v);
+    const int last = keep_chains(t, &at, discrete, p);
+    discrete->chain.failed = status ? status : last;
 }

@@ -16,12 +16,13 @@ enum { SIDE_NODES = TREE ? 5 : 6, WIDE = 2, WIDER = 4 };
 #define WIDE_TO 1e-10
 
 /* A place on the way: closed, its right-hand side. 0, or why it is none; `far`: the longest way to there. */
-static int place_beside(double t, double *y, Memory *memory, const Parameters *p, double far, double *dy, Aside *aside)
+static int place_beside(
+    double t, double *y, DiscreteState *discrete, const Parameters *p, double far, double *dy, RhsOutputs *rhs)
 {
     double moved = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
         double dq[N_X], dv[N_X], worst, step = 0.0;
-        const int status = closing_here(t, y, memory, p, dq, dv, &worst);
+        const int status = closing_here(t, y, discrete, p, dq, dv, &worst);
         if (status)
             return status;
         for (int k = 0; k < N_X; k++) {
@@ -33,7 +34,7 @@ static int place_beside(double t, double *y, Memory *memory, const Parameters *p
         if (!(moved <= far))
             return LOST;
         if (worst < 1e-15 || (worst < 1e-12 && worst > 0.5 * before))
-            return motion_here(t, y, memory, p, dy, aside);
+            return motion_here(t, y, discrete, p, dy, rhs);
         before = worst;
     }
     return LOST;
@@ -44,7 +45,7 @@ typedef struct {
     double y[2 * N_X], dy[N_Y], lower[N_X], lambda[AT_LEAST_ONE(N_LOOPS)];
 } Continued;
 
-static void add_place(int k, const double *y, const double *dy, const Aside *aside, Continued *sum)
+static void add_place(int k, const double *y, const double *dy, const RhsOutputs *rhs, Continued *sum)
 {
     const double weight = weight_at(SIDE_NODES, k), lower = k < SIDE_NODES ? weight_at(SIDE_NODES - 1, k) : 0.0;
     for (int i = 0; i < 2 * N_X; i++)
@@ -54,7 +55,7 @@ static void add_place(int k, const double *y, const double *dy, const Aside *asi
     for (int i = 0; i < N_X; i++)
         sum->lower[i] += lower * dy[N_X + i];
     for (int i = 0; i < N_LOOPS; i++)
-        sum->lambda[i] += weight * aside->lambda[i];
+        sum->lambda[i] += weight * rhs->lambda[i];
 }
 
 /* Whether the polynomials of the last two degrees agree. */
@@ -71,7 +72,7 @@ static int agrees(const double *y, const Continued *sum, double to)
 }
 
 /* The motion at a state beside a singular position, from both sides. Whether it can be had. */
-static int continue_here(double t, const double *y, const Memory *memory, const Parameters *p, Continued *sum)
+static int continue_here(double t, const double *y, const DiscreteState *discrete, const Parameters *p, Continued *sum)
 {
     double fastest = 0.0;
     for (int k = 0; k < N_X; k++)
@@ -80,18 +81,18 @@ static int continue_here(double t, const double *y, const Memory *memory, const 
         return 0;
     for (int pass = -WIDE; pass < WIDER; pass++) {
         const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -WIDE - pass) : NODE_TURN * ldexp(1.0, pass);
-        int status = memory->asked && ask_now(memory->asked) ? STOPPED : 0;
+        int status = discrete->cancellation && poll_cancellation(discrete->cancellation) ? STOPPED : 0;
         *sum = (Continued){0};
         for (int k = 1; k <= SIDE_NODES && !status; k++)
-            for (int side = -1; side <= 1 && !status; side += 2) {
-                const double h = side * k * turn / fastest;
+            for (int branch = -1; branch <= 1 && !status; branch += 2) {
+                const double h = branch * k * turn / fastest;
                 double there[N_Y], dy[N_Y];
-                Memory now = *memory;
-                Aside aside;
+                DiscreteState now = *discrete;
+                RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
                     there[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = place_beside(t + (N_DRIVES ? h : 0.0), there, &now, p, 0.5 * k * turn, dy, &aside);
-                add_place(k, there, dy, &aside, sum);
+                status = place_beside(t + (N_DRIVES ? h : 0.0), there, &now, p, 0.5 * k * turn, dy, &rhs);
+                add_place(k, there, dy, &rhs, sum);
             }
         if (!status && agrees(y, sum, pass < 0 ? WIDE_TO : CONTINUED_TO))
             return 1;
@@ -102,64 +103,65 @@ static int continue_here(double t, const double *y, const Memory *memory, const 
 }
 
 /* As the memory is, where no more is asked of pivots than that they can be divided by. */
-static Memory with_usual_shares(const Memory *memory)
+static DiscreteState with_usual_shares(const DiscreteState *discrete)
 {
-    Memory now = *memory;
+    DiscreteState now = *discrete;
     now.least = NEARLY_SINGULAR;
     now.least_size = VANISHING;
     return now;
 }
 
 /* What is integrated, with what was found on the closed linkage or continued from beside it. */
-static int handed_over(const double *y, const Continued *at, double *dy, Aside *aside)
+static int handed_over(const double *y, const Continued *at, double *dy, RhsOutputs *rhs)
 {
     for (int k = 0; k < N_X; k++) {
         dy[k] = y[N_X + k];
         dy[N_X + k] = at->dy[N_X + k];
     }
     for (int k = 0; k < N_WORK; k++)
-        dy[2 * N_X + k] = aside->power[k] = at->dy[2 * N_X + k];
+        dy[2 * N_X + k] = rhs->power[k] = at->dy[2 * N_X + k];
     for (int k = 0; k < N_LOOPS; k++)
-        aside->lambda[k] = at->lambda[k];
+        rhs->lambda[k] = at->lambda[k];
     return 0;
 }
 
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     Continued at;
-    if (memory->way == CLOSES || memory->way == CLOSED) {
+    if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
         double there[N_Y];
         memcpy(there, y, sizeof there);
-        if (!place_beside(t, there, memory, p, LARGEST_WAY, dy, aside)) {
+        if (!place_beside(t, there, discrete, p, LARGEST_WAY, dy, rhs)) {
             for (int k = 0; k < N_X; k++)
                 dy[k] = y[N_X + k];
             return 0;
         }
     }
-    const int status = motion_here(t, y, memory, p, dy, aside);
-    const int open = memory->way == CLOSES || memory->way == CLOSED; /* near enough that it cannot be closed */
-    if (memory->way == TELLS || (status != NEAR && (status || !open)))
+    const int status = motion_here(t, y, discrete, p, dy, rhs);
+    const int open = discrete->singular_policy == SINGULAR_PROJECT
+        || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE; /* near enough that it cannot be closed */
+    if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR && (status || !open)))
         return status;
-    if (continue_here(t, y, memory, p, &at))
-        return handed_over(y, &at, dy, aside);
-    if (memory->way == CLOSES)
+    if (continue_here(t, y, discrete, p, &at))
+        return handed_over(y, &at, dy, rhs);
+    if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
-    Memory now = with_usual_shares(memory);
-    return motion_here(t, y, &now, p, dy, aside);
+    DiscreteState now = with_usual_shares(discrete);
+    return motion_here(t, y, &now, p, dy, rhs);
 }
 
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
-    int status = closing_here(t, y, memory, p, dq, dv, worst);
-    if (!status || memory->way == AS_EVER || memory->way == TELLS)
+    int status = closing_here(t, y, discrete, p, dq, dv, worst);
+    if (!status || discrete->singular_policy == SINGULAR_IGNORE || discrete->singular_policy == SINGULAR_DETECT)
         return status;
     double dy[N_Y];
-    Aside aside;
+    RhsOutputs rhs;
     Continued at;
-    Memory now = *memory;
-    if (motion_here(t, y, &now, p, dy, &aside) != NEAR || !continue_here(t, y, memory, p, &at)) {
-        now = with_usual_shares(memory);
+    DiscreteState now = *discrete;
+    if (motion_here(t, y, &now, p, dy, &rhs) != NEAR || !continue_here(t, y, discrete, p, &at)) {
+        now = with_usual_shares(discrete);
         return closing_here(t, y, &now, p, dq, dv, worst);
     }
     for (int k = 0; k < N_X; k++) {
@@ -172,14 +174,14 @@ int closing_of_state(double t, const double *y, Memory *memory, const Parameters
 
 #else
 /* No rows are dependent for a moment, or what is held changes: the motion as it is computed at a state itself. */
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return motion_here(t, y, memory, p, dy, aside);
+    return motion_here(t, y, discrete, p, dy, rhs);
 }
 
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
-    return closing_here(t, y, memory, p, dq, dv, worst);
+    return closing_here(t, y, discrete, p, dq, dv, worst);
 }
 #endif

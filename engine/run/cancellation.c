@@ -1,13 +1,13 @@
 /*
  * What a long computation asks on its way: whether it is still wanted, and whether it advances at all.
  */
-#include "asked.h"
+#include "cancellation.h"
 #include <time.h>
 
-enum { MOST_UNSEEN = 64, PACE_TIMES = 3, LEAST_DOUBLED = 1 << 18 };
+enum { MOST_UNSEEN = 64, MONITOR_TIMES = 3, LEAST_DOUBLED = 1 << 18 };
 #define TOO_MANY 1e8   /* steps still to make, beyond which one that crawls is given up */
 #define HOPELESS 1e11  /* the same, whatever the pace was before */
-#define CRAWL 1e-3     /* of the pace before, that is a crawl */
+#define SHORT_STEP_RATIO 1e-3     /* of the pace before, that is a crawl */
 
 double seconds_now(void)
 {
@@ -17,54 +17,57 @@ double seconds_now(void)
 }
 
 /* Reads the clock and asks if a question is due; whether to give up. What costs much is looked at more often. */
-int ask_now(Asked *x)
+int poll_cancellation(Cancellation *x)
 {
     x->count = 0;
     if (!x->ask)
-        x->look = LONG_MAX;
+        x->poll_after = LONG_MAX;
     if (x->ask && !x->stop) {
         const double now = seconds_now(), since = now - x->last;
         x->last = now;
         if (since < 0.1 * x->every)
-            x->look = x->look < MOST_UNSEEN / 2 ? 2 * x->look + 1 : MOST_UNSEEN;
+            x->poll_after = x->poll_after < MOST_UNSEEN / 2 ? 2 * x->poll_after + 1 : MOST_UNSEEN;
         else if (since > 0.5 * x->every)
-            x->look = (x->look + 1) / 2;
+            x->poll_after = (x->poll_after + 1) / 2;
         if (now >= x->next || since < 0.0) {
-            x->stop = x->ask(x->whom) != 0;
+            x->stop = x->ask(x->caller) != 0;
             x->last = seconds_now();
             x->next = x->last + x->every;
         }
     }
     if (x->stop)
-        x->look = 0;
+        x->poll_after = 0;
     return x->stop && !x->hold;
 }
 
-void set_asked(Asked *x, int (*ask)(void *), void *whom, double every)
+void start_cancellation(Cancellation *x, int (*ask)(void *), void *caller, double every)
 {
-    *x = (Asked){.ask = ask, .whom = whom, .every = every};
+    *x = (Cancellation){.ask = ask, .caller = caller, .every = every};
 }
 
 /* How many steps are left at the pace of the last ones. */
-static double steps_left(const Pace *x, double t, double t_end) { return (t_end - t) / x->gain * PACE_STEPS; }
+static double steps_left(const ProgressMonitor *x, double t, double t_end)
+{
+    return (t_end - t) / x->gain * MONITOR_STEPS;
+}
 
 /*
  * Whether something outruns all steps: where a drive grows at least exponentially, twice as many of them gain no more
  * time than a doubling did some doublings ago (methods may change meanwhile), so that so many doublings are left.
  */
-static int is_outrun(Pace *pace, double t, double t_end)
+static int grows_exponentially(ProgressMonitor *monitor, double t, double t_end)
 {
-    Doubling *x = &pace->doubling;
-    const double gain = t - x->t, steps = (double)pace->steps, earlier = x->gain[0];
-    if (pace->steps < x->next)
+    Doubling *x = &monitor->doubling;
+    const double gain = t - x->t, steps = (double)monitor->steps, earlier = x->gain[0];
+    if (monitor->steps < x->next)
         return 0;
     x->t = t;
     for (int k = 1; k < DOUBLINGS; k++)
         x->gain[k - 1] = x->gain[k];
     x->gain[DOUBLINGS - 1] = gain;
-    x->next = x->next ? 2 * pace->steps : 1024;
+    x->next = x->next ? 2 * monitor->steps : 1024;
     /* its steps do not become longer again meanwhile */
-    const int slows = pace->gain * steps <= 2.0 * gain * PACE_STEPS;
+    const int slows = monitor->gain * steps <= 2.0 * gain * MONITOR_STEPS;
     return steps >= LEAST_DOUBLED && gain <= earlier && slows && steps * exp2((t_end - t) / gain) > HOPELESS;
 }
 
@@ -72,14 +75,14 @@ static int is_outrun(Pace *pace, double t, double t_end)
  * Once a step, at its end: whether the run no longer advances. Steps that become longer again are given time, however
  * short they are: a fast motion that dies away is no standstill.
  */
-int creeps(Pace *x, double t, double t_end)
+int has_stalled(ProgressMonitor *x, double t, double t_end)
 {
     const long before_it = x->steps++;
-    if (is_outrun(x, t, t_end)) {
-        x->crawls = OUTRUN;
+    if (grows_exponentially(x, t, t_end)) {
+        x->crawls = GROWTH_DOUBLINGS;
         return 1;
     }
-    if (before_it % PACE_STEPS)
+    if (before_it % MONITOR_STEPS)
         return 0;
     const double before = x->gain;
     x->gain = x->steps > 1 ? t - x->t : INFINITY;
@@ -87,7 +90,7 @@ int creeps(Pace *x, double t, double t_end)
     if (x->steps == 1)
         return 0;
     const double left = steps_left(x, t, t_end);
-    x->crawls = left > TOO_MANY && x->gain * (double)x->good < CRAWL * x->sum;
+    x->crawls = left > TOO_MANY && x->gain * (double)x->good < SHORT_STEP_RATIO * x->sum;
     if (left > HOPELESS || x->crawls) {
         x->slow = x->gain > 1.1 * before ? 0 : x->slow + 1;
     } else {
@@ -95,13 +98,13 @@ int creeps(Pace *x, double t, double t_end)
         x->sum += x->gain;
         x->good++;
     }
-    return x->slow >= PACE_TIMES;
+    return x->slow >= MONITOR_TIMES;
 }
 
 /* How often in a row creeps() will do no more than count. */
-long unseen_steps(const Pace *x)
+long steps_before_check(const ProgressMonitor *x)
 {
     const long to_doubling = x->doubling.next - x->steps - 1;
-    const long to_look = x->steps % PACE_STEPS ? PACE_STEPS - x->steps % PACE_STEPS : 0;
+    const long to_look = x->steps % MONITOR_STEPS ? MONITOR_STEPS - x->steps % MONITOR_STEPS : 0;
     return to_doubling < 0 ? 0 : to_doubling < to_look ? to_doubling : to_look;
 }

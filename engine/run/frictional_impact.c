@@ -24,11 +24,11 @@ typedef struct {
     double way[N_RIGID][N_X];      /* velocities, each unit of P */
 } Rub;
 
-static void leave_out_friction(Memory *memory)
+static void without_friction(DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
-        memory->latch[i].smooth = 1;
-        memory->latch[i].along = 0.0;
+        discrete->contact[i].smooth = 1;
+        discrete->contact[i].along = 0.0;
     }
 }
 
@@ -36,17 +36,17 @@ static void leave_out_friction(Memory *memory)
  * What ends a run for which no step is small enough: contacts jam where friction lets their forces grow beyond all
  * bounds, or leaves them none (F. Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999) 653-677).
  */
-static int what_ends(const Run *run, int otherwise, const Parameters *p)
+static int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
 {
     double force[2][N_RIGID], most[2] = {0.0, 0.0};
     int none = 0;
     for (int smooth = 0; smooth < 2; smooth++) {
-        Memory now = run->memory;
-        Answer contacts;
+        DiscreteState now = run->discrete;
+        Delassus contacts;
         contacts.n = list_closed(&now, contacts.joint);
         if (smooth)
-            leave_out_friction(&now);
-        if (find_answer(motion_of_laws, N_Y, run->t, run->y, &now, p, &contacts))
+            without_friction(&now);
+        if (compute_delassus(motion_of_laws, N_Y, run->t, run->y, &now, p, &contacts))
             return otherwise;
         solve_part(&contacts, NULL, contacts.r, force[smooth]);
         for (int k = 0; k < contacts.n; k++) {
@@ -54,48 +54,48 @@ static int what_ends(const Run *run, int otherwise, const Parameters *p)
             none |= smooth && force[0][k] == 0.0 && force[1][k] != 0.0; /* the others took all of D */
         }
     }
-    return none || most[0] > UNLIKE * most[1] ? JAMMED : otherwise;
+    return none || most[0] > UNLIKE * most[1] ? FRICTION_INCONSISTENT : otherwise;
 }
 
 /* Sides of corners at velocities that have jumped: what friction does in a closed contact hangs on them. */
-static void see_slips(Run *run, const Parameters *p)
+static void update_slip_branches(Integrator *run, const Parameters *p)
 {
-    int changed = N_SWITCHES && run->memory.held;
+    int changed = N_SWITCHES && run->discrete.held;
     for (int pass = 0; pass < 6 && changed; pass++) {
         double dy[N_Y];
-        Aside aside;
+        RhsOutputs rhs;
         changed = 0;
         count_evaluations(run, 1);
-        if (motion_of_laws(run->t, run->y, &run->memory, p, dy, &aside))
+        if (motion_of_laws(run->t, run->y, &run->discrete, p, dy, &rhs))
             return; /* whoever asks next is told */
         for (int k = 0; k < N_SWITCHES; k++)
-            if (run->memory.side[k] * aside.g[k] < 0.0) {
-                run->memory.side[k] = -run->memory.side[k];
+            if (run->discrete.branch[k] * rhs.g[k] < 0.0) {
+                run->discrete.branch[k] = -run->discrete.branch[k];
                 changed = 1;
             }
     }
 }
 
 /* Slips behind normal impulses, and F_t/F_n of the friction laws there. */
-static int slips_behind(Run *run, const Answer *blow, const double *impulse, double unit, const Parameters *p,
-    double *slip, double *mu)
+static int slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
+    const Parameters *p, double *slip, double *mu)
 {
     double y[N_Y], dy[N_Y];
-    Memory now = run->memory;
-    Aside aside;
+    DiscreteState now = run->discrete;
+    RhsOutputs rhs;
     now.held = 0; /* corners of friction lie where this slip has them */
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
-    for (int k = 0; k < blow->n; k++) {
-        now.latch[blow->joint[k]].smooth = 0;
-        now.latch[blow->joint[k]].force = unit;
+    for (int k = 0; k < impact->n; k++) {
+        now.contact[impact->joint[k]].smooth = 0;
+        now.contact[impact->joint[k]].force = unit;
         for (int i = 0; i < N_X; i++)
-            y[N_X + i] += blow->way[k][N_X + i] * impulse[k];
+            y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
     }
     count_evaluations(run, 1);
-    const int status = motion_of_laws(run->t, y, &now, p, dy, &aside);
-    for (int k = 0; k < blow->n; k++) {
-        const Clearance *joint = &aside.clearance[blow->joint[k]];
+    const int status = motion_of_laws(run->t, y, &now, p, dy, &rhs);
+    for (int k = 0; k < impact->n; k++) {
+        const Clearance *joint = &rhs.clearance[impact->joint[k]];
         slip[k] = joint->v_t;
         mu[k] = impulse[k] > 0.0 ? fabs(joint->F_t) / unit : 0.0;
     }
@@ -103,33 +103,33 @@ static int slips_behind(Run *run, const Answer *blow, const double *impulse, dou
 }
 
 /* What a unit of P in contact j does. */
-static int answer_along(Run *run, const Answer *blow, int j, const double *base, const Aside *before, double unit,
-    const Parameters *p, Rub *rub)
+static int tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
+    const RhsOutputs *before, double unit, const Parameters *p, Rub *rub)
 {
     double pushed[N_Y], y[N_Y];
-    Memory now = run->memory;
-    Aside aside;
-    now.latch[blow->joint[j]].along = unit;
+    DiscreteState now = run->discrete;
+    RhsOutputs rhs;
+    now.contact[impact->joint[j]].along = unit;
     count_evaluations(run, 2);
-    int status = motion_of_laws(run->t, run->y, &now, p, pushed, &aside);
-    now.latch[blow->joint[j]].along = 0.0;
+    int status = motion_of_laws(run->t, run->y, &now, p, pushed, &rhs);
+    now.contact[impact->joint[j]].along = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int i = 0; i < N_X; i++) {
         rub->way[j][i] = (pushed[N_X + i] - base[N_X + i]) / unit;
         y[N_X + i] += rub->way[j][i] * unit;
     }
-    status = status ? status : motion_of_laws(run->t, y, &now, p, pushed, &aside);
-    for (int k = 0; k < blow->n; k++) {
-        const int i = blow->joint[k];
-        rub->meet[k][j] = (aside.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
-        rub->slip[k][j] = (aside.clearance[i].v_t - before->clearance[i].v_t) / unit;
+    status = status ? status : motion_of_laws(run->t, y, &now, p, pushed, &rhs);
+    for (int k = 0; k < impact->n; k++) {
+        const int i = impact->joint[k];
+        rub->meet[k][j] = (rhs.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
+        rub->slip[k][j] = (rhs.clearance[i].v_t - before->clearance[i].v_t) / unit;
     }
     return status;
 }
 
 /* The largest |P| of a sign that mu times what then presses allows: `rest` presses without it, `own` a unit of it. */
-static double most_of(double mu, double rest, double own)
+static double impulse_limit(double mu, double rest, double own)
 {
     if (rest <= 0.0)
         return 0.0;
@@ -140,10 +140,10 @@ static double most_of(double mu, double rest, double own)
  * P of all contacts: one after the other brings its slip to rest or is at its limit, until none changes (Gauss and
  * Seidel). Then all by one share, should a limit or the energy still ask for that: whatever comes, friction takes.
  */
-static void share_out(const Answer *blow, const double *impulse, Rub *rub)
+static void solve_friction_impulses(const Delassus *impact, const double *impulse, Rub *rub)
 {
-    const int n = blow->n;
-    double S[N_RIGID][N_RIGID], size = 0.0, change = INFINITY, share = 1.0, gone = 0.0, bent = 0.0;
+    const int n = impact->n;
+    double S[N_RIGID][N_RIGID], size = 0.0, change = INFINITY, fraction = 1.0, gone = 0.0, bent = 0.0;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             S[i][j] = rub->slip[i][j];
@@ -161,7 +161,7 @@ static void share_out(const Answer *blow, const double *impulse, Rub *rub)
                 rest += j != i ? rub->press[i][j] * rub->P[j] : 0.0;
             }
             const double way = slip > 0.0 ? -1.0 : 1.0;
-            const double most = most_of(rub->mu[i], rest, way * rub->press[i][i]);
+            const double most = impulse_limit(rub->mu[i], rest, way * rub->press[i][i]);
             const double next = way * min_of(fabs(slip) / S[i][i], most);
             change = max_of(change, fabs(next - rub->P[i]));
             size = max_of(size, fabs(next));
@@ -177,58 +177,58 @@ static void share_out(const Answer *blow, const double *impulse, Rub *rub)
         gone -= rub->P[i] * rub->plastic[i];
         const double over = fabs(rub->P[i]) - rub->mu[i] * more;
         if (rub->P[i] != 0.0 && over > rub->mu[i] * impulse[i])
-            share = min_of(share, rub->mu[i] * impulse[i] / over);
-        if (impulse[i] + share * more < 0.0)
-            share = min_of(share, impulse[i] / -more);
+            fraction = min_of(fraction, rub->mu[i] * impulse[i] / over);
+        if (impulse[i] + fraction * more < 0.0)
+            fraction = min_of(fraction, impulse[i] / -more);
     }
-    share = bent > 0.0 ? max_of(min_of(share, 2.0 * gone / bent), 0.0) : share;
+    fraction = bent > 0.0 ? max_of(min_of(fraction, 2.0 * gone / bent), 0.0) : fraction;
     for (int i = 0; i < n; i++)
-        rub->P[i] *= share;
+        rub->P[i] *= fraction;
 }
 
 /* Friction's part of a blow: its P, and what they change in the normal impulses of those that push. */
-static int rub_in_blow(Run *run, const Answer *blow, const double *meeting, double *impulse, const Parameters *p,
-    Rub *rub)
+static int friction_impulses(
+    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p, Rub *rub)
 {
     double base[N_Y], mass[N_Q], stop[N_RIGID], none[N_RIGID], unit = 0.0;
     unsigned char pushes[N_RIGID];
-    Aside before;
-    *rub = (Rub){.n = blow->n};
-    for (int k = 0; k < blow->n; k++)
+    RhsOutputs before;
+    *rub = (Rub){.n = impact->n};
+    for (int k = 0; k < impact->n; k++)
         pushes[k] = impulse[k] > 0.0;
     mass_matrix(p, mass);
     for (int k = 0; k < N_Q; k += 3)
         unit += mass[k];
-    for (int k = 0; k < blow->n; k++)
-        run->memory.latch[blow->joint[k]].force = 0.0;
+    for (int k = 0; k < impact->n; k++)
+        run->discrete.contact[impact->joint[k]].force = 0.0;
     count_evaluations(run, 1);
-    int status = motion_of_laws(run->t, run->y, &run->memory, p, base, &before);
-    solve_part(blow, pushes, meeting, stop);
-    status = status ? status : slips_behind(run, blow, stop, unit, p, rub->plastic, none);
-    status = status ? status : slips_behind(run, blow, impulse, unit, p, rub->after, rub->mu);
-    for (int j = 0; j < blow->n && !status; j++) {
+    int status = motion_of_laws(run->t, run->y, &run->discrete, p, base, &before);
+    solve_part(impact, pushes, meeting, stop);
+    status = status ? status : slips_after_impact(run, impact, stop, unit, p, rub->plastic, none);
+    status = status ? status : slips_after_impact(run, impact, impulse, unit, p, rub->after, rub->mu);
+    for (int j = 0; j < impact->n && !status; j++) {
         double column[N_RIGID], more[N_RIGID];
-        rub->before[j] = before.clearance[blow->joint[j]].v_t;
+        rub->before[j] = before.clearance[impact->joint[j]].v_t;
         if (rub->mu[j] <= 0.0)
             continue;
-        status = answer_along(run, blow, j, base, &before, unit, p, rub);
-        for (int k = 0; k < blow->n; k++)
+        status = tangential_response(run, impact, j, base, &before, unit, p, rub);
+        for (int k = 0; k < impact->n; k++)
             column[k] = rub->meet[k][j];
-        solve_part(blow, pushes, column, more);
-        for (int k = 0; k < blow->n; k++)
+        solve_part(impact, pushes, column, more);
+        for (int k = 0; k < impact->n; k++)
             rub->press[k][j] = more[k];
     }
     if (status)
         return status;
-    share_out(blow, impulse, rub);
-    for (int k = 0; k < blow->n; k++)
-        for (int j = 0; j < blow->n; j++)
+    solve_friction_impulses(impact, impulse, rub);
+    for (int k = 0; k < impact->n; k++)
+        for (int j = 0; j < impact->n; j++)
             impulse[k] = max_of(impulse[k] + rub->press[k][j] * rub->P[j], 0.0);
     return 0;
 }
 
 /* What P adds to the velocities; the work (J) that it, and normal impulses by what it changes, take. */
-static double rub_off(const Rub *rub, const double *impulse, double *y)
+static double apply_friction_impulses(const Rub *rub, const double *impulse, double *y)
 {
     double lost = 0.0;
     for (int j = 0; j < rub->n; j++) {
@@ -245,23 +245,23 @@ static double rub_off(const Rub *rub, const double *impulse, double *y)
 /* No friction between surfaces that do not give. */
 typedef char Rub;
 
-static inline void leave_out_friction(Memory *memory) { (void)memory; }
+static inline void without_friction(DiscreteState *discrete) { (void)discrete; }
 
-static inline int what_ends(const Run *run, int otherwise, const Parameters *p)
+static inline int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
 {
     return (void)run, (void)p, otherwise;
 }
 
-static inline void see_slips(Run *run, const Parameters *p) { (void)run, (void)p; }
+static inline void update_slip_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
 
-static inline int rub_in_blow(Run *run, const Answer *blow, const double *meeting, double *impulse, const Parameters *p,
-    Rub *rub)
+static inline int friction_impulses(
+    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p, Rub *rub)
 {
-    (void)run, (void)blow, (void)meeting, (void)impulse, (void)p, (void)rub;
+    (void)run, (void)impact, (void)meeting, (void)impulse, (void)p, (void)rub;
     return 0;
 }
 
-static inline double rub_off(const Rub *rub, const double *impulse, double *y)
+static inline double apply_friction_impulses(const Rub *rub, const double *impulse, double *y)
 {
     return (void)rub, (void)impulse, (void)y, 0.0;
 }

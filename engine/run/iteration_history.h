@@ -6,8 +6,8 @@
 
 #define FORCE_FOUND 5e2 /* of a film's force, times rtol: how well it is known where stages are found */
 
-/* Once a step, before it is tried; whether the motion goes on as it was, as run->newton.goes_on. */
-static inline void look_back(Run *run)
+/* Once a step, before it is tried; whether the motion goes on as it was, as run->newton.continues. */
+static inline void update_iteration_history(Integrator *run)
 {
     Beginning *now = &run->newton.now;
     if (run->newton.seen_steps != run->counts.steps || now->t != run->t) {
@@ -24,7 +24,7 @@ static inline void look_back(Run *run)
     }
     run->newton.last_h = run->t - run->newton.before_t;
     run->newton.force_found = min_of(1e-2, FORCE_FOUND / run->norm.inverse_scale[2 * N_X - 1]);
-    run->newton.goes_on = run->newton.last_h > 0.0 && !run->control.attempt.again;
+    run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.again;
 }
 
 #endif

@@ -4,11 +4,11 @@
 #include "speed.h"
 
 /* Add the works of a step, where it is taken, to the energy that was turned over; y: the state at its end. */
-static void note_works(RunOf *run, Truth taken, const Real *y)
+static void note_works(IntegratorOf *run, Mask taken, const Real *y)
 {
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
-        const Real more = run->norm.turned_over + real_abs(y[k] - run->y[k]);
-        run->norm.turned_over = pick(taken, more, run->norm.turned_over);
+        const Real more = run->norm.energy_scale + real_abs(y[k] - run->y[k]);
+        run->norm.energy_scale = pick(taken, more, run->norm.energy_scale);
     }
 }
 
@@ -17,7 +17,7 @@ static void note_works(RunOf *run, Truth taken, const Real *y)
  * the energy that was turned over: nothing in the motion feels them, but a balance of energy does. Those of inner
  * states of laws are set once (methods/begin.c).
  */
-static void weigh(RunOf *run)
+static void update_error_weights(IntegratorOf *run)
 {
     NormOf *norm = &run->norm;
     const Real lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
@@ -25,5 +25,5 @@ static void weigh(RunOf *run)
     for (int k = 0; k < 2 * N_X; k++)
         norm->weight[k] = k < N_X ? norm->inverse_scale[k] : norm->inverse_scale[k] * of_speed[is_angle[k - N_X]];
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++)
-        norm->weight[k] = 1.0 / (norm->work_scale * norm->turned_over);
+        norm->weight[k] = 1.0 / (norm->work_scale * norm->energy_scale);
 }
