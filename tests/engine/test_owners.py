@@ -68,7 +68,7 @@ def read_parts(texts: dict[str, str]) -> dict[str, Part]:
 
 def read_fields(texts: dict[str, str], parts: dict[str, Part]) -> dict[str, Part]:
     """Fields of the integrator that are parts."""
-    body = next(struct["body"] for struct in STRUCT.finditer(texts["run/run.h"]) if struct["name"] == "Run")
+    body = next(struct["body"] for struct in STRUCT.finditer(texts["run/run.h"]) if struct["name"] == "Integrator")
     return {name: parts[kind] for kind, name in re.findall(r"^    (\w+) (\w+);", bare(body), re.M) if kind in parts}
 
 
@@ -114,7 +114,7 @@ def is_of_another_struct(place: str, text: str) -> bool:
     """Whether the pointer at the beginning of a place is declared as one to something else than an integrator."""
     name = re.match(r"(\w+)->\w+", place)
     kinds = re.findall(rf"(\w+) \*(?:const )?{name[1]}\b", text) if name else []
-    return bool(kinds) and not {"Run", "RunOf", "LaneRun", "Moving"} & set(kinds)
+    return bool(kinds) and not {"Integrator", "IntegratorOf", "LaneIntegrator", "Moving"} & set(kinds)
 
 
 def writes(
@@ -171,7 +171,7 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
     for part in PARTS.values():
         for owner in part.owners:
             assert any(file == owner or (owner.endswith("/") and file.startswith(owner)) for file in TEXTS), owner
-    run = next(struct for struct in STRUCT.finditer(TEXTS["run/run.h"]) if struct["name"] == "Run")
+    run = next(struct for struct in STRUCT.finditer(TEXTS["run/run.h"]) if struct["name"] == "Integrator")
     state = re.search(r"State:(.*?)\.", run["head"], re.S)
     assert state is not None
     declared = re.sub(r"\[[^\]]*\]|^#.*$", "", bare(run["body"]), flags=re.M)
@@ -186,11 +186,11 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
         ("run->contacts.impacts[run->contacts.n_impacts++] = contact;", "Contacts"),
         ("flow->run[i]->control.attempt.open |= 1;", "StepControl"),
         ("--side->x.counts.steps;", "Counts"),
-        ("((Run *)memory)->events.stop = stop;", "EventList"),
+        ("((Integrator *)memory)->events.stop = stop;", "EventList"),
         ("memcpy(run->norm.speed, speed, sizeof speed);", "ErrorNorm"),
         ("double *h = &run->control.h;", "StepControl"),
-        ("frexp(x, &run->choice.votes);", "MethodChoice"),
-        ("*run = (Run){.t = t, .roots = {.skip = -1}};", "RootFinding"),
+        ("frexp(x, &run->choice.n_against);", "MethodChoice"),
+        ("*run = (Integrator){.t = t, .roots = {.skip = -1}};", "RootFinding"),
         ("static void f(StepControl *control) { control->h = 1.0; }", "StepControl"),
         ("if (run->contacts.n_impacts == 0 && run->control.h <= 1.0) return;", None),
         ("memcpy(speed, run->norm.speed, sizeof speed);", None),
@@ -200,5 +200,5 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
     ],
 )
 def test_writes_are_found(line: str, found: str | None) -> None:
-    told = strangers("run/stranger.c", f"static void g(Run *run)\n{{\n    {line}\n}}\n")
+    told = strangers("run/stranger.c", f"static void g(Integrator *run)\n{{\n    {line}\n}}\n")
     assert bool(told) == bool(found) and all(f"is of {found}," in row for row in told)
