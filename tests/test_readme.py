@@ -17,7 +17,8 @@ from tests.programs import needs_compiler
 from tests.scenes import patched
 
 ROOT = Path(__file__).resolve().parents[1]
-TOLD = ("README.md", *(f"docs/{name}.md" for name in ("describing", "python", "reading", "checks", "speed")))
+QUOTED = ("commands", "limits", "describing", "python", "reading", "checks", "speed")
+TOLD = ("README.md", *(f"docs/{name}.md" for name in QUOTED))
 README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
 Gudgeon = Callable[[str], Result]
 
