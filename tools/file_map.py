@@ -21,7 +21,7 @@ Use it to find the file that owns a subject; the browser's search within the pag
 The tests mirror these folders: `tests/integrators` tests `runtime/integrators`, for example.
 """
 MARKUP = re.compile(r"([\\*_<>|$\[\]{}#~])")
-END_OF_SENTENCE = re.compile(r"(?<=[a-z0-9)`'"][.!?])\s+(?=[A-Z`])|:\s*$")
+END_OF_SENTENCE = re.compile(r"(?<=[a-z0-9)`][.!?])\s+(?=[A-Z`])|:\s*$")
 COMMENT = re.compile(r"/\*(.*?)\*/|\{#-?(.*?)-?#\}", re.DOTALL)
 
 
