@@ -49,22 +49,31 @@ def _plain(line: str) -> str:
 
 
 def beyond(app, docname, source):  # type: ignore[no-untyped-def]
-    """A link to a file of the sources that is no page of the site is its name; pictures stay."""
-    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", r"\1", source[0])
+    """Replace links to files of the sources that are not pages of the site by their text; pictures stay."""
+    docs = Path(__file__).parent
+    folder = (docs / docname).parent
+
+    def shown(link: re.Match[str]) -> str:
+        file = (folder / link[2].partition("#")[0]).resolve()
+        return link[0] if file.suffix == ".md" and file.is_file() and docs in file.parents else link[1]
+
+    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\((\.\./[^)]*)\)", shown, source[0])
 
 
 # Pages whose text is another file's of the sources
-TAKEN = {"benchmarks": "benchmarks/README.md", "clearance": "benchmarks/clearance/README.md"}
+TAKEN = {"benchmarks": "benchmarks/README.md", "clearance": "benchmarks/clearance/README.md",
+         "contributing": "CONTRIBUTING.md"}  # fmt: skip
 
 
 def taken(app, docname, source):  # type: ignore[no-untyped-def]
-    """The page of benchmarks, and that of machines with play, are those of their folders, their links from here."""
+    """Fill the pages of TAKEN with the text of their files, with links as from docs/."""
     if docname not in TAKEN:
         return
     text = (Path(__file__).parents[1] / TAKEN[docname]).read_text("utf-8").partition("\n")[2]
     text = text.replace("](figures/", "](../benchmarks/figures/").replace("](clearance/README.md)", "](clearance.md)")
-    text = re.sub(r"\]\((\.\./)+docs/", "](", text)
-    own = {f"{path.stem}.md" for path in Path(__file__).parent.glob("*.md")}
+    text = re.sub(r"\]\((\.\./)*docs/", "](", text)
+    docs = Path(__file__).parent
+    own = {path.relative_to(docs).as_posix() for path in docs.rglob("*.md")}
 
     def shown(link: re.Match[str]) -> str:  # what is no page of the site is its name
         target = link[2].partition("#")[0]

@@ -29,4 +29,5 @@ if __name__ == "__main__":
     for own, made in PAGES.items():
         file = DOCS / own
         file.write_text(page(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")
-    runpy.run_path(str(ROOT / "tools" / "file_map.py"), run_name="__main__")
+    for tool in ("file_map", "quotes"):
+        runpy.run_path(str(ROOT / "tools" / f"{tool}.py"), run_name="__main__")
