@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tomllib
 from importlib.metadata import version as installed
 from pathlib import Path
 
@@ -15,6 +16,7 @@ exclude_patterns = ["build"]
 html_theme = "furo"
 html_title = f"gudgeon {version}"
 html_static_path: list[str] = []
+html_search_scorer = str(Path(__file__).with_name("scorer.js"))
 html_extra_path = ["../build/pages"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
@@ -105,6 +107,24 @@ def linked(app, docname, source):  # type: ignore[no-untyped-def]
         source[0] = WRITES.sub(RUNNING, source[0])
 
 
+def first_pages():  # type: ignore[no-untyped-def]
+    """Return the terms of search_terms.toml by the page that the search shows first for them."""
+    docs = Path(__file__).parent
+    pages: dict[str, list[str]] = {}
+    for term, candidates in tomllib.loads((docs / "search_terms.toml").read_text("utf-8")).items():
+        page = next(name for name in candidates if (docs / f"{name}.md").is_file())
+        pages.setdefault(page, []).append(term)
+    return pages
+
+
+def indexed(app, docname, source):  # type: ignore[no-untyped-def]
+    """Add the index entries of a page below its title; main entries ("!") come first in the search."""
+    if terms := first_pages().get(docname):
+        title, _, text = source[0].partition("\n")
+        entries = ", ".join(f"! {term}" for term in terms)
+        source[0] = f"{title}\n\n```{{index}} {entries}\n```\n{text}"
+
+
 def setup(app):  # type: ignore[no-untyped-def]
     """What is done at which moment."""
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
@@ -112,3 +132,4 @@ def setup(app):  # type: ignore[no-untyped-def]
     app.connect("source-read", taken)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
+    app.connect("source-read", indexed)

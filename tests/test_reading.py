@@ -1,4 +1,4 @@
-"""docs/reading.md: its quotations are what the files say, its sizes are those of the scene, its Python prints what it shows."""
+"""docs/reading.md: its quotations are current, its figures are those of the scene, its Python prints what it shows."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ def test_a_line_that_a_file_does_not_have_is_reported() -> None:
 
 @needs_compiler
 def test_its_python_prints_what_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
-    (python,), (text,) = (re.findall(rf"^```{kind}\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE) for kind in ("python", "text"))
+    kinds = ("python", "text")
+    (python,), (text,) = (re.findall(rf"^```{kind}\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE) for kind in kinds)
     exec(compile(python, "reading.md", "exec"), {})
     assert capsys.readouterr().out == text
 

@@ -1,7 +1,7 @@
 """docs/recipes: the steps of each recipe are followed in a copy of the sources, and its commands print what it shows.
 
-A block below "Create `FILE`" is that file. A `diff` block below "In `FILE`" is a change of that file. The commands of an
-`sh` block are run in order; a `text` block after it is a part of what they print.
+A block below "Create `FILE`" is that file. A `diff` block below a sentence with `FILE` is a change of that file. The
+commands of an `sh` block are run in order; a `text` block after it is a part of what they print.
 """
 
 from __future__ import annotations
@@ -101,7 +101,8 @@ def follow(page: str, copy: Path) -> int:
 
 def test_the_table_names_each_recipe() -> None:
     """Those that are followed have a mark."""
-    rows = re.findall(r"^\| \[[^\]]+\]\((\w+)\.md\) \| [^|]+ \| (✓|–) \|$", (RECIPES / "index.md").read_text("utf-8"), re.M)
+    index = (RECIPES / "index.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| \[[^\]]+\]\((\w+)\.md\) \| [^|]+ \| (✓|–) \|$", index, re.MULTILINE)
     pages = {path.stem for path in RECIPES.glob("*.md")} - {"index", "where_to_change"}
     assert {name for name, _ in rows} == pages and [name for name, mark in rows if mark == "✓"] == [
         name for name, _ in rows if name in TRIED

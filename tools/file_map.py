@@ -1,4 +1,4 @@
-"""Write docs/map.md: each source file with the first sentence of its docstring or of its head comment (`make tables`)."""
+"""Write docs/map.md: each source file with the first sentence of its docstring or head comment (`make tables`)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ This page lists each source file with the first sentence of its docstring or of 
 Use it to find the file that owns a subject; the browser's search within the page helps.
 `make tables` writes the page, and `tests/test_map.py` keeps it current.
 
-[Architecture](architecture.md) describes the layers. [Where to change what](recipes/where_to_change.md) maps tasks to files.
+[Architecture](architecture.md) describes the layers.
+[Where to change what](recipes/where_to_change.md) maps tasks to files.
 The tests mirror these folders: `tests/integrators` tests `runtime/integrators`, for example.
 """
 MARKUP = re.compile(r"([\\*_<>|$\[\]{}#~])")
