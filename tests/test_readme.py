@@ -191,5 +191,10 @@ def test_links_paths_and_targets_exist(name: str) -> None:
     assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
+@pytest.mark.parametrize(("name", "count"), [("README.md", 900), ("CONTRIBUTING.md", 1500)])
+def test_entry_pages_are_short(name: str, count: int) -> None:
+    assert len((ROOT / name).read_text(encoding="utf-8").split()) <= count
+
+
 def test_pictures_are_small() -> None:
     assert all(path.stat().st_size < 300_000 for path in (ROOT / "docs").glob("*.png"))
