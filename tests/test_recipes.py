@@ -109,6 +109,19 @@ def test_the_table_names_each_recipe() -> None:
     ]  # fmt: skip
 
 
+NAMED = re.compile(r"((?:`[\w.]+`(?:, | and | or )?)+) (?:of|in) `([\w/.]+/[\w.]+\.\w+)`")
+
+
+@pytest.mark.parametrize("page", [*sorted(RECIPES.glob("*.md")), ROOT / "CONTRIBUTING.md"], ids=lambda page: page.stem)
+def test_names_that_pages_find_in_a_file_are_there(page: Path) -> None:
+    """As in "`locate_zero` of `engine/watch/zeros.h`", but in files that a recipe creates."""
+    text = page.read_text(encoding="utf-8")
+    found = [(name, file) for names, file in NAMED.findall(text) for name in re.findall(r"`([\w.]+)`", names)]
+    found = [(name, file) for name, file in found if f"Create `{file}`" not in text]
+    texts = {file: (ROOT / file).read_text(encoding="utf-8") for _, file in found}
+    assert [(name, file) for name, file in found if name.rpartition(".")[2] not in texts[file]] == []
+
+
 def test_a_change_stands_in_a_file_once() -> None:
     assert changed("a\nb\nc\n", " a\n-b\n+d\n") == "a\nd\nc\n"
     with pytest.raises(AssertionError):
