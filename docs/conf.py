@@ -120,9 +120,9 @@ def first_pages():  # type: ignore[no-untyped-def]
 def indexed(app, docname, source):  # type: ignore[no-untyped-def]
     """Add the index entries of a page below its title; main entries ("!") come first in the search."""
     if terms := first_pages().get(docname):
-        title, _, text = source[0].partition("\n")
         entries = ", ".join(f"! {term}" for term in terms)
-        source[0] = f"{title}\n\n```{{index}} {entries}\n```\n{text}"
+        directive = f"\n\n```{{index}} {entries}\n```\n"
+        source[0] = re.sub(r"^# .*$", lambda title: title[0] + directive, source[0], count=1, flags=re.MULTILINE)
 
 
 def setup(app):  # type: ignore[no-untyped-def]
