@@ -108,7 +108,7 @@ generated: setup  ## derive and write generated/ anew for every shipped mechanis
 deviations: setup  ## docs/film_deviation.png and its table, each film law beside the solver of Reynolds' equation
 	@.venv/bin/python tools/deviations.py
 
-tables: setup  ## from declarations: tables of docs/format.md, docs/laws.md, engine/scene/function_table.h
+tables: setup  ## from declarations: tables of docs/format.md, docs/laws.md, docs/map.md, engine/scene/function_table.h
 	@.venv/bin/python tools/tables.py
 
 setup:

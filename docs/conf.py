@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tomllib
 from importlib.metadata import version as installed
 from pathlib import Path
 
@@ -15,6 +16,7 @@ exclude_patterns = ["build"]
 html_theme = "furo"
 html_title = f"gudgeon {version}"
 html_static_path: list[str] = []
+html_search_scorer = str(Path(__file__).with_name("scorer.js"))
 html_extra_path = ["../build/pages"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
@@ -49,22 +51,31 @@ def _plain(line: str) -> str:
 
 
 def beyond(app, docname, source):  # type: ignore[no-untyped-def]
-    """A link to a file of the sources that is no page of the site is its name; pictures stay."""
-    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", r"\1", source[0])
+    """Replace links to files of the sources that are not pages of the site by their text; pictures stay."""
+    docs = Path(__file__).parent
+    folder = (docs / docname).parent
+
+    def shown(link: re.Match[str]) -> str:
+        file = (folder / link[2].partition("#")[0]).resolve()
+        return link[0] if file.suffix == ".md" and file.is_file() and docs in file.parents else link[1]
+
+    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\((\.\./[^)]*)\)", shown, source[0])
 
 
 # Pages whose text is another file's of the sources
-TAKEN = {"benchmarks": "benchmarks/README.md", "clearance": "benchmarks/clearance/README.md"}
+TAKEN = {"benchmarks": "benchmarks/README.md", "clearance": "benchmarks/clearance/README.md",
+         "contributing": "CONTRIBUTING.md"}  # fmt: skip
 
 
 def taken(app, docname, source):  # type: ignore[no-untyped-def]
-    """The page of benchmarks, and that of machines with play, are those of their folders, their links from here."""
+    """Fill the pages of TAKEN with the text of their files, with links as from docs/."""
     if docname not in TAKEN:
         return
     text = (Path(__file__).parents[1] / TAKEN[docname]).read_text("utf-8").partition("\n")[2]
     text = text.replace("](figures/", "](../benchmarks/figures/").replace("](clearance/README.md)", "](clearance.md)")
-    text = re.sub(r"\]\((\.\./)+docs/", "](", text)
-    own = {f"{path.stem}.md" for path in Path(__file__).parent.glob("*.md")}
+    text = re.sub(r"\]\((\.\./)*docs/", "](", text)
+    docs = Path(__file__).parent
+    own = {path.relative_to(docs).as_posix() for path in docs.rglob("*.md")}
 
     def shown(link: re.Match[str]) -> str:  # what is no page of the site is its name
         target = link[2].partition("#")[0]
@@ -96,6 +107,24 @@ def linked(app, docname, source):  # type: ignore[no-untyped-def]
         source[0] = WRITES.sub(RUNNING, source[0])
 
 
+def first_pages():  # type: ignore[no-untyped-def]
+    """Return the terms of search_terms.toml by the page that the search shows first for them."""
+    docs = Path(__file__).parent
+    pages: dict[str, list[str]] = {}
+    for term, candidates in tomllib.loads((docs / "search_terms.toml").read_text("utf-8")).items():
+        page = next(name for name in candidates if (docs / f"{name}.md").is_file())
+        pages.setdefault(page, []).append(term)
+    return pages
+
+
+def indexed(app, docname, source):  # type: ignore[no-untyped-def]
+    """Add the index entries of a page below its title; main entries ("!") come first in the search."""
+    if terms := first_pages().get(docname):
+        entries = ", ".join(f"! {term}" for term in terms)
+        directive = f"\n\n```{{index}} {entries}\n```\n"
+        source[0] = re.sub(r"^# .*$", lambda title: title[0] + directive, source[0], count=1, flags=re.MULTILINE)
+
+
 def setup(app):  # type: ignore[no-untyped-def]
     """What is done at which moment."""
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
@@ -103,3 +132,4 @@ def setup(app):  # type: ignore[no-untyped-def]
     app.connect("source-read", taken)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
+    app.connect("source-read", indexed)

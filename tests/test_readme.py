@@ -15,7 +15,8 @@ from gudgeon.cli import app
 from tests.programs import needs_compiler
 
 ROOT = Path(__file__).resolve().parents[1]
-TOLD = ("README.md", *(f"docs/{name}.md" for name in ("reading", "checks", "speed")))
+QUOTED = ("commands", "limits", "checks", "speed")
+TOLD = ("README.md", *(f"docs/{name}.md" for name in QUOTED))
 README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
 Gudgeon = Callable[[str], Result]
 
@@ -39,8 +40,8 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 
 
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
-    assert len(blocks("c")) == len(blocks("python")) == len(blocks("yaml")) == 1
-    assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c"))
+    assert len(blocks("python")) >= 1 and len(blocks("yaml")) >= 1 and len(blocks("sh")) >= 1
+    assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "diff"))
     wanted = {"check", "draw", "run", "emit", "equations", "laws", "exercise", "bench", "map"}
     assert {shlex.split(line)[1] for line in COMMANDS} == wanted
 
@@ -86,12 +87,6 @@ def test_python_prints_what_is_shown(
     assert (tmp_path / "press.nc").exists() and (tmp_path / "orbit.png").exists()
 
 
-def test_the_c_is_quoted_from_committed_files() -> None:
-    folder = ROOT / "generated/nine_bar_press/dry"
-    lines = {line for path in folder.glob("*.c") for line in path.read_text(encoding="utf-8").splitlines()}
-    assert [line for line in blocks("c")[0].splitlines() if line and line not in lines] == []
-
-
 def test_every_test_that_the_table_names_exists() -> None:
     named = re.findall(r"`(test_\w+\.py)::(\w+)`", README)
     assert len(named) > 10
@@ -122,9 +117,15 @@ def test_links_paths_and_targets_exist(name: str) -> None:
     assert set(re.findall(r"`make ([a-z-]+)", text)) - targets == set()
     links = [link for link in re.findall(r"\]\(([^)]+)\)", text) if "://" not in link]
     folders = "runtime|engine|generator|templates|generated|mechanisms|tests|benchmarks|docs|tools"
-    paths = re.findall(rf"`((?:{folders})/[\w./-]*)`", text)
+    paths = re.findall(rf"(?<!Create )`((?:{folders})/[\w./-]*)`", text)
+    paths = [path for path in paths if f"Create `{path}`" not in text]  # by the steps of a recipe
     assert [link for link in links if not leads_somewhere(ROOT / name, link)] == []
     assert [path for path in paths if not (ROOT / path).exists()] == []
+
+
+@pytest.mark.parametrize(("name", "count"), [("README.md", 900), ("CONTRIBUTING.md", 1500)])
+def test_entry_pages_are_short(name: str, count: int) -> None:
+    assert len((ROOT / name).read_text(encoding="utf-8").split()) <= count
 
 
 def test_pictures_are_small() -> None:

@@ -1,7 +1,8 @@
-"""Write what declarations say: tables of docs/format.md, docs/laws.md and a header of the engine (`make tables`)."""
+"""Write what declarations say: tables of docs/format.md, docs/laws.md, docs/map.md, a header of C (`make tables`)."""
 
 from __future__ import annotations
 
+import runpy
 from collections.abc import Callable
 from pathlib import Path
 
@@ -28,3 +29,5 @@ if __name__ == "__main__":
     for own, made in PAGES.items():
         file = DOCS / own
         file.write_text(page(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")
+    for tool in ("file_map", "quotes"):
+        runpy.run_path(str(ROOT / "tools" / f"{tool}.py"), run_name="__main__")

@@ -187,7 +187,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
     run->counts.evaluations += stages - 1;
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5) {
-        run->counts.evaluations += (long)flow->x.newton.cancellation[k] - stages + 1;
+        run->counts.evaluations += (long)flow->x.newton.evaluations[k] - stages + 1;
         run->newton.falls = flow->x.newton.falls[k];
     }
 #endif

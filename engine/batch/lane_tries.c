@@ -125,7 +125,7 @@ static void look_around(LaneIntegrator *run) { (void)run; } /* gather_past has *
 
 static void count_rates(LaneIntegrator *run, LaneBits active, int n)
 {
-    run->newton.cancellation += pick(active, all_of(n), all_of(0.0));
+    run->newton.evaluations += pick(active, all_of(n), all_of(0.0));
 }
 
 static void begin_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, int n)
@@ -181,7 +181,7 @@ static int stages_lost(LaneIntegrator *run, LaneBits lost)
 static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
-    run->newton.cancellation = all_of(0.0);
+    run->newton.evaluations = all_of(0.0);
     run->newton.missed = (LaneBits){0};
     if (method == BY_RADAU5)
         return radau5_try(run, h, p, step);

@@ -192,7 +192,7 @@ typedef struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
         Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
-        Lanes cancellation; /* rates, of the step that is tried */
+        Lanes evaluations; /* rates, of the step that is tried */
         LaneBits continues, missed;
 #endif
     } newton;

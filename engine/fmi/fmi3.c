@@ -23,11 +23,11 @@ FMI3_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on
 }
 
 static Model *made(fmi3String name, fmi3String token, fmi3InstanceEnvironment environment,
-    fmi3LogMessageCallback tell)
+    fmi3LogMessageCallback log_message)
 {
     if (!token || strcmp(token, FMU_TOKEN)) {
-        if (tell)
-            unload_quiet_lane(environment, fmi3Error, "logStatusError", "the token is that of another model");
+        if (log_message)
+            log_message(environment, fmi3Error, "logStatusError", "the token is that of another model");
         return NULL;
     }
     Model *m = calloc(1, sizeof(Model));
@@ -41,7 +41,7 @@ static Model *made(fmi3String name, fmi3String token, fmi3InstanceEnvironment en
     }
     memcpy(m->name, name ? name : "", length);
     m->environment = environment;
-    m->tell = tell;
+    m->log_message = log_message;
     m->rtol = FMU_RTOL;
     m->t_end = TIME_CONSTANT;
     return m;
@@ -49,25 +49,25 @@ static Model *made(fmi3String name, fmi3String token, fmi3InstanceEnvironment en
 
 FMI3_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
     fmi3Boolean visible, fmi3Boolean logs, fmi3Boolean has_event_mode, fmi3Boolean returns_early,
-    const fmi3ValueReference required[], size_t n, fmi3InstanceEnvironment environment, fmi3LogMessageCallback tell,
-    fmi3IntermediateUpdateCallback update)
+    const fmi3ValueReference required[], size_t n, fmi3InstanceEnvironment environment,
+    fmi3LogMessageCallback log_message, fmi3IntermediateUpdateCallback update)
 {
     (void)resources, (void)visible, (void)logs, (void)has_event_mode, (void)returns_early, (void)required, (void)n;
     (void)update;
-    return made(name, token, environment, tell);
+    return made(name, token, environment, log_message);
 }
 
 FMI3_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
-    fmi3Boolean visible, fmi3Boolean logs, fmi3InstanceEnvironment environment, fmi3LogMessageCallback tell)
+    fmi3Boolean visible, fmi3Boolean logs, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message)
 {
     (void)resources, (void)visible, (void)logs;
 #if FMU_EXCHANGE
-    Model *m = made(name, token, environment, tell);
+    Model *m = made(name, token, environment, log_message);
     if (m)
         m->exchange = 1;
     return m;
 #else
-    return (void)name, (void)token, (void)environment, (void)tell, NULL;
+    return (void)name, (void)token, (void)environment, (void)log_message, NULL;
 #endif
 }
 

@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
     char *name;
     fmi3InstanceEnvironment environment;
-    fmi3LogMessageCallback tell;
+    fmi3LogMessageCallback log_message;
     double given[FMU_SLOTS], p[FMU_NUMBERS], motion[FMU_NUMBERS];
     unsigned char is_given[FMU_SLOTS];
     double t, t_end, rtol;
@@ -41,8 +41,8 @@ static fmi3Status refuses(const Model *m, const char *what)
 {
     char text[700];
     snprintf(text, sizeof text, "%s: %s", m->name, what);
-    if (m->tell)
-        m->tell(m->environment, fmi3Error, "logStatusError", text);
+    if (m->log_message)
+        m->log_message(m->environment, fmi3Error, "logStatusError", text);
     return fmi3Error;
 }
 

@@ -117,7 +117,7 @@ FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state
     *m = *copy;
     m->name = own.name;
     m->environment = own.environment;
-    m->tell = own.tell;
+    m->log_message = own.log_message;
     m->run = run;
     if (copy->run)
         memcpy(run, copy->run, copy->size);

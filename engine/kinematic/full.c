@@ -3,7 +3,7 @@
 /* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
 static int solve_motion(Course *course, const Position *here, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.cancellation = &course->cancellation, USUAL_SHARES};
+    const DiscreteState discrete = {.token = &course->cancellation, USUAL_SHARES};
     const int status = dynamics(beyond_jump(here->t), here->q, here->v, &discrete, course->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }

@@ -4,7 +4,7 @@
 /* Powers, accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(Course *course, const Position *here, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.cancellation = &course->cancellation};
+    const DiscreteState discrete = {.token = &course->cancellation};
     const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &discrete, course->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
 }
@@ -87,6 +87,6 @@ static int begin(Course *course, double t, const double *q, const double *v, Pos
         here->s_second[k] = 0.0;
     here->phi = here->phi_dot = 0.0;
     const int status =
-        dynamics(t, q, v, &(DiscreteState){.cancellation = &course->cancellation, USUAL_SHARES}, p, here->a, &rhs);
+        dynamics(t, q, v, &(DiscreteState){.token = &course->cancellation, USUAL_SHARES}, p, here->a, &rhs);
     return status > 0 ? N_LOOPS + status : status;
 }

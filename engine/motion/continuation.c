@@ -81,7 +81,7 @@ static int continue_here(double t, const double *y, const DiscreteState *discret
         return 0;
     for (int pass = -WIDE; pass < WIDER; pass++) {
         const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -WIDE - pass) : NODE_TURN * ldexp(1.0, pass);
-        int status = discrete->cancellation && poll_cancellation(discrete->cancellation) ? STOPPED : 0;
+        int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
         *sum = (Continued){0};
         for (int k = 1; k <= SIDE_NODES && !status; k++)
             for (int branch = -1; branch <= 1 && !status; branch += 2) {

@@ -245,7 +245,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     *run = (Integrator){.t = t};
     from_absolute(t, y, &run->discrete, (const Parameters *)p, run->y);
     read_discrete_state(latched, &run->discrete);
-    run->discrete.cancellation = &run->cancellation;
+    run->discrete.token = &run->cancellation;
     if (CONTINUES)
         run->discrete.least = run->discrete.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */

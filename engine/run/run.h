@@ -290,7 +290,7 @@ typedef struct {
 /*
  * The integrator: parts, of which each is written by the files alone that its struct's head comment names
  * (tests/engine/test_owners.py), and what all files may change.
- * State: t, y, dy, aside, memory, ready, began, step.
+ * State: t, y, dy, rhs, discrete, ready, began, step.
  */
 typedef struct {
     double t, y[N_Y], dy[N_Y];

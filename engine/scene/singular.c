@@ -280,7 +280,7 @@ int solve_dependent(double t, const double *q, const Parameters *p, const double
     int status = pivot;
     for (int pass = 0; w && status && pass < 2; pass++) {
         fill_workspace(w, t, q, p, force, rhs);
-        w->cancellation = discrete->cancellation;
+        w->cancellation = discrete->token;
         status = solve_independent(w, least[pass], tolerance[pass], lambda);
         if (status == STOPPED)
             break;

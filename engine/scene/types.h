@@ -99,7 +99,7 @@ typedef struct {
     double branch[AT_LEAST_ONE(N_SWITCHES)];
     signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each expression was; 0: nowhere yet */
     int held;
-    Cancellation *cancellation; /* NULL: nobody */
+    Cancellation *token; /* NULL: nobody */
     int singular_policy;                  /* what is done beside a singular position, one of those below */
     double least, least_size; /* share of a row, and of a joint's two, below which they are taken as dependent */
 #if N_CHAIN

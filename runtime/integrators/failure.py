@@ -38,7 +38,8 @@ from gudgeon.model.written import of_time, rate_reason, reason, steep_force, tre
 
 TOLD = {
     FRICTION_INCONSISTENT: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring "
-    "the surfaces nearer, or grow beyond all bounds (Painlevé)\n  less friction, or surfaces that give: another normal law",
+    "the surfaces nearer, or grow beyond all bounds (Painlevé)\n"
+    "  less friction, or surfaces that give: another normal law",
     NOT_FOUND: "the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
     "  a shorter step, or none: then it chooses its own",
 }

@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "4db8b33d3086a1e30375239d634c534f0c97b3e5beb0ab0bcc328669fa5b3ec6"  # SHA-256 of these declarations
+OF = "984f316389e1b13aec731ee655ffd94b0ff8acbcb2453529ef603dba48b48586"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
