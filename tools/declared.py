@@ -28,7 +28,7 @@ OF = "{of}"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
 '''
-WIDTH = 112
+WIDTH, LINE = 112, 120
 IN_JAVASCRIPT = ("Status", "Capacity", "Count", "Residual", "Peak", "ImpactColumn", "Work")
 
 
@@ -39,7 +39,8 @@ def declared() -> str:
     for name, value in _arguments(declarations).items():
         if isinstance(value, tuple):
             entries = "".join(f"        {_printed(entry)},\n" for entry in value)
-            lines.append(f"    {name}=(\n{entries}    ),\n")
+            whole = f"    {name}=({_printed(value[0])},),\n" if len(value) == 1 else ""
+            lines.append(whole if 0 < len(whole) <= LINE else f"    {name}=(\n{entries}    ),\n")
         elif isinstance(value, bytes):
             rows = "".join(f'        "{row}"\n' for row in textwrap.wrap(value.hex(), WIDTH - 4))
             lines.append(f"    {name}=bytes.fromhex(\n{rows}    ),\n")
@@ -76,8 +77,9 @@ def boundary_py() -> str:
     for name, members in enumerations().items():
         lines += ["", f"# enum {name}", *(f"{member}: Final = {value}" for member, value in members.items())]
         if names := columns(members):
-            rows = textwrap.wrap(", ".join(f'"{one}"' for one in names) + ",", WIDTH)
-            lines += [f"{_names_of(name)} = (", *(f"    {row}" for row in rows), ")"]
+            whole = f"{_names_of(name)} = ({', '.join(f'{one!r}' for one in names)})".replace("'", '"')
+            rows = [f"{_names_of(name)} = (", *(f'    "{one}",' for one in names), ")"]
+            lines += [whole] if len(names) > 1 and len(whole) <= LINE else rows
     return "\n".join([*lines, ""])
 
 

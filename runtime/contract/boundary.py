@@ -105,23 +105,14 @@ RESIDUAL_phi_dot_max: Final = 1
 RESIDUAL_ratio_min: Final = 2
 RESIDUAL_ratio_max: Final = 3
 N_RESIDUALS: Final = 4
-RESIDUAL_NAMES = (
-    "phi_max",
-    "phi_dot_max",
-    "ratio_min",
-    "ratio_max",
-)
+RESIDUAL_NAMES = ("phi_max", "phi_dot_max", "ratio_min", "ratio_max")
 
 # enum Peak
 PEAK_F: Final = 0
 PEAK_t: Final = 1
 PEAK_e_max: Final = 2
 N_PEAK: Final = 3
-PEAK_NAMES = (
-    "F",
-    "t",
-    "e_max",
-)
+PEAK_NAMES = ("F", "t", "e_max")
 
 # enum StepEnd
 END_CONTACT: Final = 0
@@ -129,12 +120,7 @@ END_SWITCH: Final = 1
 END_FRICTION: Final = 2
 END_EVENT: Final = 3
 N_STEP_ENDS: Final = 4
-STEP_END_NAMES = (
-    "CONTACT",
-    "SWITCH",
-    "FRICTION",
-    "EVENT",
-)
+STEP_END_NAMES = ("CONTACT", "SWITCH", "FRICTION", "EVENT")
 
 # enum ImpactColumn
 IMPACT_t_on: Final = 0
@@ -143,22 +129,13 @@ IMPACT_deltadot: Final = 2
 IMPACT_F_peak: Final = 3
 IMPACT_t_peak: Final = 4
 N_IMPACT_COLUMNS: Final = 5
-IMPACT_COLUMN_NAMES = (
-    "t_on",
-    "t_off",
-    "deltadot",
-    "F_peak",
-    "t_peak",
-)
+IMPACT_COLUMN_NAMES = ("t_on", "t_off", "deltadot", "F_peak", "t_peak")
 
 # enum TapeColumn
 TAPE_JUMPED: Final = 0
 TAPE_T: Final = 1
 N_TAPE_HEAD: Final = 2
-TAPE_COLUMN_NAMES = (
-    "JUMPED",
-    "T",
-)
+TAPE_COLUMN_NAMES = ("JUMPED", "T")
 
 # enum TraceColumn
 TRACE_F_low: Final = 0
@@ -171,39 +148,21 @@ TRACE_t_out: Final = 6
 TRACE_ex: Final = 7
 TRACE_ey: Final = 8
 N_TRACE_COLUMNS: Final = 9
-TRACE_COLUMN_NAMES = (
-    "F_low",
-    "t_F_low",
-    "F_high",
-    "t_F_high",
-    "ex_out",
-    "ey_out",
-    "t_out",
-    "ex",
-    "ey",
-)
+TRACE_COLUMN_NAMES = ("F_low", "t_F_low", "F_high", "t_F_high", "ex_out", "ey_out", "t_out", "ex", "ey")
 
 # enum Work
 WORK_drives: Final = 0
 WORK_forces: Final = 1
 WORK_clearances: Final = 2
 N_WORK: Final = 3
-WORK_NAMES = (
-    "drives",
-    "forces",
-    "clearances",
-)
+WORK_NAMES = ("drives", "forces", "clearances")
 
 # enum ReactionColumn
 REACTION_Fx: Final = 0
 REACTION_Fy: Final = 1
 REACTION_M: Final = 2
 N_REACTION_COLUMNS: Final = 3
-REACTION_COLUMN_NAMES = (
-    "Fx",
-    "Fy",
-    "M",
-)
+REACTION_COLUMN_NAMES = ("Fx", "Fy", "M")
 
 # enum ClearanceColumn
 CLEARANCE_Fx: Final = 0
@@ -217,45 +176,25 @@ CLEARANCE_deltadot: Final = 7
 CLEARANCE_vt: Final = 8
 CLEARANCE_delta: Final = 9
 N_CLEARANCE_COLUMNS: Final = 10
-CLEARANCE_COLUMN_NAMES = (
-    "Fx",
-    "Fy",
-    "Fn",
-    "Ft",
-    "ex",
-    "ey",
-    "e",
-    "deltadot",
-    "vt",
-    "delta",
-)
+CLEARANCE_COLUMN_NAMES = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt", "delta")
 
 # enum FrictionColumn
 FRICTION_force: Final = 0
 FRICTION_slip: Final = 1
 N_FRICTION_COLUMNS: Final = 2
-FRICTION_COLUMN_NAMES = (
-    "force",
-    "slip",
-)
+FRICTION_COLUMN_NAMES = ("force", "slip")
 
 # enum Energy
 ENERGY_kinetic: Final = 0
 ENERGY_potential: Final = 1
 N_ENERGY: Final = 2
-ENERGY_NAMES = (
-    "kinetic",
-    "potential",
-)
+ENERGY_NAMES = ("kinetic", "potential")
 
 # enum Drift
 DRIFT_phi: Final = 0
 DRIFT_phi_dot: Final = 1
 N_DRIFT: Final = 2
-DRIFT_NAMES = (
-    "phi",
-    "phi_dot",
-)
+DRIFT_NAMES = ("phi", "phi_dot")
 
 # enum ValueReference
 VR_TIME: Final = 0
