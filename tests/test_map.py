@@ -1,4 +1,4 @@
-"""docs/map.md: it is what `make tables` writes, and each source file says in its first sentence what it owns."""
+"""docs/map.md and docs/notation.md: they are what `make tables` writes, and each source file says in its first sentence what it owns."""
 
 from __future__ import annotations
 
@@ -12,6 +12,13 @@ NO_COMMENT = (".jinja",)  # what a template writes first may be its `else`
 
 def test_the_map_is_current() -> None:
     assert (ROOT / "docs" / "map.md").read_text(encoding="utf-8") == MAP["file_map"]()
+
+
+def test_the_notation_is_current() -> None:
+    written = runpy.run_path(str(ROOT / "tools" / "notation.py"))["notation"]()
+    assert (ROOT / "docs" / "notation.md").read_text(encoding="utf-8") == written
+    for row in ("| $c$ | radial clearance", "`JOINT.deltadot` | `deltadot` | m/s |", "| `hertz` |"):
+        assert row in written
 
 
 def test_each_source_file_has_a_first_sentence() -> None:

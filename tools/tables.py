@@ -1,4 +1,4 @@
-"""Write what declarations say: tables of docs/format.md, docs/laws.md, docs/map.md, a header of C (`make tables`)."""
+"""Write what declarations say: tables of docs/format.md, docs/laws.md, notation.md, map.md, a header of C (`make tables`)."""
 
 from __future__ import annotations
 
@@ -29,5 +29,5 @@ if __name__ == "__main__":
     for own, made in PAGES.items():
         file = DOCS / own
         file.write_text(page(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")
-    for tool in ("file_map", "quotes"):
+    for tool in ("notation", "file_map", "quotes"):
         runpy.run_path(str(ROOT / "tools" / f"{tool}.py"), run_name="__main__")
