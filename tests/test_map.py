@@ -1,4 +1,4 @@
-"""docs/map.md and docs/notation.md: they are what `make tables` writes, and each source file says in its first sentence what it owns."""
+"""docs/map.md and docs/notation.md are what `make tables` writes; each source file says in a sentence what it owns."""
 
 from __future__ import annotations
 

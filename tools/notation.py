@@ -23,8 +23,9 @@ from gudgeon.results.series import CLEARANCE
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "notation.md"
 LEAD = """# Notation
 
-One letter, one sign and one unit for each quantity, in the paper, the equations, YAML, Python and C. A teacher finds here
-which name in the generated C belongs to a letter on the blackboard. `make tables` writes this page from the declarations.
+One letter, one sign and one unit for each quantity, in the paper, the equations, YAML, Python and C. A teacher finds
+here which name in the generated C belongs to a letter on the blackboard. `make tables` writes this page from the
+declarations.
 
 All values are in SI units, angles in radians. `JOINT`, `BODY` and `NAME` stand for names of the file.
 """
@@ -88,7 +89,7 @@ def notation() -> str:
         "",
         "## Parameters of the file",
         "",
-        "Python: `parameters={KEY: value}`. In C `model.h` declares each parameter with its key in a comment: `p->pin_radius_`.",
+        "Python: `parameters={KEY: value}`. In C `model.h` declares each parameter, with its key in a comment.",
         "",
     ]
     parameter_head = ("letter", "quantity", "in the paper", "YAML and Python", "unit")
@@ -135,7 +136,6 @@ def _of_laws() -> Iterator[tuple[str, ...]]:
                     field.meaning,
                     f"`{law.name}`",
                     f"`{key}`",
-                    f"`p->{_in_c(key)}`",
                     _unit(field),
                 )
 

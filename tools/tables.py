@@ -1,4 +1,4 @@
-"""Write what declarations say: tables of docs/format.md, docs/laws.md, notation.md, map.md, a header of C (`make tables`)."""
+"""Write tables of docs/format.md, laws.md, notation.md, map.md and a header of C from declarations (`make tables`)."""
 
 from __future__ import annotations
 
