@@ -20,7 +20,7 @@ from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURC
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
-from gudgeon.generator.targets.latex.law_page import laws_page
+from gudgeon.generator.targets.latex.law_page import laws_in_order, laws_page
 from gudgeon.generator.targets.latex.letters import of_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
@@ -243,5 +243,5 @@ def test_the_page_of_laws_is_current() -> None:
     page = (Path(__file__).resolve().parents[2] / "docs" / "laws.md").read_text("utf-8")
     assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == page_of_laws()
     assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
-        law.name for role in RESULTS for law in house().values() if law.role == role
+        law.name for role in RESULTS for law in laws_in_order(role)
     ]

@@ -34,6 +34,11 @@ LAW = Law(
     name="bengisu_akay",
     role="friction",
     title="Bengisu and Akay's friction: static friction at v0, then a decay to kinetic friction",
+    equation=(
+        r"F_t = -c_d F_n\, \mathrm{sgn}(v_t), \quad u = |v_t|",
+        r"c_d = c_s \left[1 - (u/v_0 - 1)^2\right], \quad u \le v_0",
+        r"c_d = c_f + (c_s - c_f)\, e^{-(u - v_0)/v_d}, \quad u \ge v_0",
+    ),
     source="M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557-570",
     reference="M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "
     "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "

@@ -27,6 +27,10 @@ LAW = Law(
     name="brown_mcphee",
     role="friction",
     title="Brown and McPhee's friction: a smooth peak of static friction",
+    equation=(
+        r"F_t = -F_n \left[c_f \tanh\frac{4 v_t}{v_0} + \frac{(c_s"
+        r" - c_f)\, v_t/v_0}{\left(\frac{1}{4} (v_t/v_0)^2 + \frac{3}{4}\right)^2}\right]",
+    ),
     source="P. Brown, J. McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502",
     reference="P. Brown, J. McPhee, A continuous velocity-based friction model for dynamics and control with "
     "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "

@@ -24,6 +24,7 @@ LAW = Law(
     name="coulomb",
     role="friction",
     title="Coulomb's friction, smoothed by a hyperbolic tangent",
+    equation=(r"F_t = -c_f F_n \tanh\frac{v_t}{v_0}",),
     source="C. A. Coulomb (1785); smoothed as in E. Pennestri et al., Nonlinear Dynamics 83 (2016) 1785-1801",
     reference="C. A. Coulomb (1785), smoothed as in E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Review and "
     "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "

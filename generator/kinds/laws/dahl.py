@@ -32,6 +32,10 @@ LAW = Law(
     name="dahl",
     role="friction",
     title="Dahl's friction, with the deflection of bristles",
+    equation=(
+        r"F_t = -c_f F_n\, \frac{z}{z_s}",
+        r"\dot z = v_t - |v_t|\, \frac{z}{z_s}",
+    ),
     source="P. R. Dahl (1968), exponent 1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
     reference="P. R. Dahl, A solid friction model, report TOR-0158(3107-18)-1, Aerospace Corporation (1968), exponent "
     "1; load as in C. Canudas de Wit, P. Tsiotras (1999)",

@@ -27,6 +27,11 @@ LAW = Law(
     name="esdu_78035",
     role="normal",
     title="ESDU 78035: cylinders with parallel axes, with a choice of hysteresis damping",
+    equation=(
+        r"\delta = \frac{F_e}{\pi L E^{*}}\left[\ln\frac{4\pi L E^{*} c}{F_e} + 1\right]",
+        r"F_n = F_e \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
+        r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
+    ),
     source="ESDU 78035 (1978), as in Pereira et al. (2011)",
     reference="ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded "
     "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "

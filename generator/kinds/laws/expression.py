@@ -36,6 +36,7 @@ LAW = Law(
     name="expression",
     role="normal",
     title="An elastic force as an expression of the penetration, with a choice of hysteresis damping",
+    equation=(r"F_n = F_e(\delta) \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",),
     source="the file; the damping as K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="The elastic force is the file's own; its damping has the form of K. H. Hunt, F. R. E. Crossley, Journal "
     "of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",

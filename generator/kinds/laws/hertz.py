@@ -29,6 +29,11 @@ LAW = Law(
     name="hertz",
     role="normal",
     title="Hertz contact with a choice of hysteresis damping",
+    equation=(
+        r"F_n = K \delta^n \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
+        r"K = \frac{4}{3} E^{*} \sqrt{\frac{R_i R_j}{R_i + R_j}}",
+        r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
+    ),
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
     "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",

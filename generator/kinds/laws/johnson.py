@@ -26,6 +26,11 @@ LAW = Law(
     name="johnson",
     role="normal",
     title="Johnson: cylinders with parallel axes, with a choice of hysteresis damping",
+    equation=(
+        r"\delta = \frac{F_e}{\pi L E^{*}}\left[\ln\frac{4\pi L E^{*} c}{F_e} - 1\right]",
+        r"F_n = F_e \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
+        r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
+    ),
     source="K. L. Johnson, Contact mechanics (1985), section 5.6, as in Pereira et al. (2011)",
     reference="K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form C. "
     "Pereira, A. Ramalho, J. Ambrosio, A critical overview of internal and external cylinder contact force "

@@ -35,6 +35,7 @@ LAW = Law(
     name="kelvin_voigt",
     role="normal",
     title="Kelvin and Voigt: a linear spring and a damper side by side",
+    equation=(r"F_n = \max(0, K \delta + D \dot\delta)",),
     source="W. Goldsmith, Impact (1960); T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469",
     reference="W. Goldsmith, Impact: the theory and physical behaviour of colliding solids, Edward Arnold, London "
     "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "

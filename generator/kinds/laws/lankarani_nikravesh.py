@@ -25,6 +25,11 @@ LAW = Law(
     name="lankarani_nikravesh",
     role="normal",
     title="Lankarani and Nikravesh: Hertz stiffness with hysteresis damping",
+    equation=(
+        r"F_n = K \delta^n \max\left(0, 1 + \frac{3 (1 - c_e^2)}{4}\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
+        r"K = \frac{4}{3} E^{*} \sqrt{\frac{R_i R_j}{R_i + R_j}}",
+        r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
+    ),
     source="H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376",
     reference=SOURCES["lankarani_nikravesh"],
     validity="c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal",

@@ -114,6 +114,7 @@ class Law:
     states: tuple[State, ...] = ()
     also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
+    equation: tuple[str, ...] = ()  # LaTeX, a line each: the law as its source writes it, for docs/laws.md
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
     limits: Limits = Limits()  # of a film
     in_hole: bool = False  # of a pin in a hole alone: it reads the radial clearance or the pin's length

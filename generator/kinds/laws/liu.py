@@ -28,6 +28,11 @@ LAW = Law(
     name="liu",
     role="normal",
     title="Liu, Zhang and Yang: conforming cylinders, with a choice of hysteresis damping",
+    equation=(
+        r"F_n = \frac{\pi}{2} L E^{*} \delta \sqrt{\frac{\delta}{2 (c + \delta)}}\, \max\left(0, 1"
+        r" + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
+        r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
+    ),
     source="C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183-197",
     reference="C. S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with "
     "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",

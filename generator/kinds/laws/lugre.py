@@ -42,6 +42,11 @@ LAW = Law(
     name="lugre",
     role="friction",
     title="LuGre friction, with the deflection of bristles",
+    equation=(
+        r"F_t = -F_n (\sigma_0 z + \sigma_1 \dot z)",
+        r"\dot z = v_t - \sigma_0 |v_t|\, \frac{z}{g}",
+        r"g = c_f + (c_s - c_f)\, e^{-(v_t/v_s)^2}",
+    ),
     source="C. Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425; load as in C. Canudas de Wit, "
     "P. Tsiotras (1999)",
     reference="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with "

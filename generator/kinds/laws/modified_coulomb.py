@@ -39,6 +39,10 @@ LAW = Law(
     name="modified_coulomb",
     role="friction",
     title="modified Coulomb friction",
+    equation=(
+        r"F_t = -c_d c_f F_n\, \mathrm{sgn}(v_t)",
+        r"c_d = \min\left[1, \max\left(0, \frac{|v_t| - v_0}{v_1 - v_0}\right)\right]",
+    ),
     source="physics.md section 3, after J. A. C. Ambrosio",
     reference="J. A. C. Ambrosio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4",
     validity="sliding; creeps below v1 where Coulomb's law would stick",

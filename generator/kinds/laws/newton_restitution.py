@@ -36,6 +36,10 @@ LAW = Law(
     name="newton_restitution",
     role="normal",
     title="Newton's restitution between surfaces that do not give",
+    equation=(
+        r"\dot\delta^{+} = -e_n \dot\delta^{-} \quad \text{in an impact}",
+        r"0 \le F_n \perp -\ddot\delta \ge 0 \quad \text{in a closed contact}",
+    ),
     source="I. Newton, Principia (1687); J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988) 1-82",
     reference="J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, in: J. J. Moreau, P. D. "
     "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "

@@ -62,6 +62,12 @@ LAW = Law(
     name="ocvirk",
     role="film",
     title="Ocvirk: short journal bearing, half film, with squeeze",
+    equation=(
+        r"\begin{pmatrix} F_r \\ F_t \end{pmatrix} = \frac{\mu R_j L^3}{c^2} \int_{\theta_1}^{\theta_1"
+        r" + \pi} \frac{\frac{1}{2} \omega_s \varepsilon \sin\theta - \dot\varepsilon \cos\theta}{(1"
+        r" + \varepsilon \cos\theta)^3} \begin{pmatrix} \cos\theta \\ \sin\theta \end{pmatrix} d\theta",
+        r"\theta_1 = \mathrm{atan2}\left(\dot\varepsilon, \tfrac{1}{2} \omega_s \varepsilon\right)",
+    ),
     source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
     "with squeeze: the half film lies where the pressure is above that of the ends",

@@ -54,6 +54,12 @@ LAW = Law(
     name="pinkus_sternlicht",
     role="film",
     title="Pinkus and Sternlicht: long journal bearing, half film",
+    equation=(
+        r"F_r = -\frac{S}{s^3} \left[\frac{4 \varepsilon s W}{2 + \varepsilon^2} + \pi w_n f\right]",
+        r"F_t = -\frac{2 \pi S w_t f}{(2 + \varepsilon^2)\, s}",
+        r"f = 1 + \frac{3 \varepsilon w_n}{2 s W + 3 \varepsilon |w_n|}",
+        r"S = \frac{6 \mu R_j^3 L}{c^2}, \quad s = \sqrt{1 - \varepsilon^2}, \quad W = \sqrt{w_n^2 + w_t^2}",
+    ),
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
     reference="O. Pinkus, B. Sternlicht, Theory of hydrodynamic lubrication, McGraw-Hill, New York (1961), sign "
     "corrected",

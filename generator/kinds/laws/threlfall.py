@@ -27,6 +27,7 @@ LAW = Law(
     name="threlfall",
     role="friction",
     title="Threlfall's friction: an exponential rise with the slip",
+    equation=(r"F_t = -c_f F_n \left(1 - e^{-3 u/v_r}\right) \mathrm{sgn}(v_t), \quad u = \min(|v_t|, v_r)",),
     source="A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475-483",
     reference="A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
     "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "

@@ -20,11 +20,29 @@ ASKED = (0.9, 0.7, 0.5)  # coefficients of restitution
 _HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 
 
+# Laws that most scenes use come first in their role; the others follow by name.
+_FIRST = (
+    "lankarani_nikravesh",
+    "hertz",
+    "kelvin_voigt",
+    "modified_coulomb",
+    "coulomb",
+    "stribeck",
+    "pinkus_sternlicht",
+)
+
+
+def laws_in_order(role: str) -> list[Law]:
+    """Return the laws of a role, those that most scenes use first."""
+    laws = [law for law in house().values() if law.role == role]
+    return sorted(laws, key=lambda law: (_FIRST.index(law.name) if law.name in _FIRST else len(_FIRST), law.name))
+
+
 def laws_page() -> str:
-    """All laws, a heading a role and a law."""
+    """Return docs/laws.md below its introduction: a heading for each role and law."""
     found = []
     for role in RESULTS:
-        some = [law for law in house().values() if law.role == role]
+        some = laws_in_order(role)
         found += [f"## {_HEADS[role]}", ""]
         found += [line for law in some for line in _of_law(law)]
         found += _damping() if role == "normal" else ()
@@ -55,7 +73,7 @@ def _of_law(law: Law) -> Iterator[str]:
     if law.also:
         yield from (f"Also as {', '.join(f'`{name}`' for name in law.also)}.", "")
     first, *others = forms(law, law.name)
-    yield from _block(first.equations)
+    yield from _typeset(law) if law.equation else _block(first.equations)
     for form in others:
         if DISSIPATION.name not in form.chosen:
             yield from _choice(form)
@@ -75,6 +93,11 @@ def _choice(form: Form) -> Iterator[str]:
         yield from (f"With `{told}`: `{in_a_line(form.equations[0])}`.", "")
     elif form.equations:
         yield from (f"With `{told}`:", "", *_block(form.equations))
+
+
+def _typeset(law: Law) -> Iterator[str]:
+    """Yield the law as its source writes it, a displayed equation each."""
+    yield from (line for one in law.equation for line in ("$$", one, "$$", ""))
 
 
 def _block(equations: Iterable[Equation]) -> Iterator[str]:
