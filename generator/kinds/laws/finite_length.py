@@ -76,8 +76,7 @@ LAW = Law(
         r"V = S q^2 (a_0 + a_1 x + a_2 x^2 + a_3 x^3), \quad S = \frac{\mu L R_j^3}{c^2}",
         r"q = \sqrt{w_n^2 + s^2 w_t^2}, \quad x = \varepsilon w_n/q, \quad s = \sqrt{1"
         r" - \varepsilon^2}, \quad \Lambda = L/D",
-        r"F_r = -\frac{1}{2} \frac{\partial V}{\partial w_n}, \quad F_t = -\frac{1}{2}"
-        r" \frac{\partial V}{\partial w_t}",
+        r"F_r = -\frac{\partial V}{\partial w_n}, \quad F_t = -\frac{\partial V}{\partial w_t}",
     ),
     source="fit to gudgeon.reynolds by tools/finite_length.py; limits: F. W. Ocvirk, NACA TN 2808 (1952)",
     reference="A potential of four terms, fitted to Reynolds' equation (p above 0, open ends); the impedance of short, "
