@@ -9,9 +9,13 @@ import tomllib
 from importlib.metadata import version as installed
 from pathlib import Path
 
+from docutils.nodes import SkipNode
+from latex2mathml.converter import convert
+
 project, author, version = "gudgeon", "The gudgeon authors", installed("gudgeon")
 copyright = author
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+html_math_renderer = "mathml"  # of setup(): no page loads a script from elsewhere
 exclude_patterns = ["build"]
 html_theme = "furo"
 html_title = f"gudgeon {version}"
@@ -63,8 +67,11 @@ def beyond(app, docname, source):  # type: ignore[no-untyped-def]
 
 
 # Pages whose text is another file's of the sources
-TAKEN = {"benchmarks": "benchmarks/README.md", "clearance": "benchmarks/clearance/README.md",
-         "contributing": "CONTRIBUTING.md"}  # fmt: skip
+TAKEN = {
+    "benchmarks": "benchmarks/README.md",
+    "clearance": "benchmarks/clearance/README.md",
+    "contributing": "CONTRIBUTING.md",
+}
 
 
 def taken(app, docname, source):  # type: ignore[no-untyped-def]
@@ -125,8 +132,21 @@ def indexed(app, docname, source):  # type: ignore[no-untyped-def]
         source[0] = re.sub(r"^# .*$", lambda title: title[0] + directive, source[0], count=1, flags=re.MULTILINE)
 
 
+def inline_math(writer, node):  # type: ignore[no-untyped-def]
+    """Write a formula within a line as MathML."""
+    writer.body.append(convert(node.astext()))
+    raise SkipNode
+
+
+def displayed_math(writer, node):  # type: ignore[no-untyped-def]
+    """Write a formula in a line of its own as MathML."""
+    writer.body.append(f'<div class="math">{convert(node.astext(), display="block")}</div>')
+    raise SkipNode
+
+
 def setup(app):  # type: ignore[no-untyped-def]
-    """What is done at which moment."""
+    """Connect the functions of this file to the stages of a build."""
+    app.add_html_math_renderer("mathml", (inline_math, None), (displayed_math, None))
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
     app.connect("source-read", linked)
     app.connect("source-read", taken)

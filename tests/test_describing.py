@@ -133,9 +133,9 @@ def test_a_slider_has_play_as_it_describes_it(file: Path) -> None:
     assert run["piston.y"][0] == pytest.approx(0.05e-3, abs=1e-12)
     assert run["piston.theta"][0] == pytest.approx(1e-3, abs=1e-12)
     assert len(run.impacts) and abs(run["piston.y"]).max() < 0.13e-3 and "cylinder.front_upper.Fn" in run
-    assert run["cylinder.Fy"] == pytest.approx(sum(
-        run[f"cylinder.{end}_{wall}.Fy"] for end in ("front", "rear") for wall in ("upper", "lower")
-    ), abs=1e-12)  # fmt: skip
+    assert run["cylinder.Fy"] == pytest.approx(
+        sum(run[f"cylinder.{end}_{wall}.Fy"] for end in ("front", "rear") for wall in ("upper", "lower")), abs=1e-12
+    )
 
 
 def test_a_mistake_looks_as_shown(call: Gudgeon, tmp_path: Path) -> None:

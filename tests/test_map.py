@@ -33,5 +33,7 @@ def test_the_first_sentence_of_a_comment(tmp_path: Path) -> None:
     (tmp_path / "b.py").write_text('"""Numbers of J. Doe: x. Further ones."""\n', encoding="utf-8")
     (tmp_path / "c.py").write_text("x = 1\n", encoding="utf-8")
     assert [MAP["first_sentence"](tmp_path / name) for name in ("a.c", "b.py", "c.py")] == [
-        "Steps of a run", "Numbers of J. Doe: x", "",
-    ]  # fmt: skip
+        "Steps of a run",
+        "Numbers of J. Doe: x",
+        "",
+    ]

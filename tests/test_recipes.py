@@ -22,8 +22,20 @@ from tests.programs import needs_compiler
 
 ROOT = Path(__file__).resolve().parents[1]
 RECIPES = ROOT / "docs" / "recipes"
-COPIED = ("runtime", "generator", "engine", "templates", "mechanisms", "studies", "generated", "src", "tools", "tests",
-          "docs", "benchmarks")  # fmt: skip
+COPIED = (
+    "runtime",
+    "generator",
+    "engine",
+    "templates",
+    "mechanisms",
+    "studies",
+    "generated",
+    "src",
+    "tools",
+    "tests",
+    "docs",
+    "benchmarks",
+)
 FILES = ("pyproject.toml", "Makefile", "README.md", "CONTRIBUTING.md", "constraints.txt", "LICENSE")
 BLOCK = re.compile(r"^( *)```(\w+)\n(.*?)^\1```$", re.DOTALL | re.MULTILINE)
 MAKE = {"make tables": "python tools/tables.py", "make generated": "python tools/regenerate.py"}
@@ -67,9 +79,13 @@ def typed(line: str, copy: Path) -> str:
         (shims / name).write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} {call} "$@"\n', encoding="utf-8")
         (shims / name).chmod(0o755)
     environment = os.environ | {
-        "PATH": f"{shims}:{os.environ['PATH']}", "PYTHONPATH": str(copy / "src"), "GUDGEON_QUICK": "0",
-        "GUDGEON_CACHE": str(copy.parent / "cache"), "NO_COLOR": "1", "COLUMNS": "100",
-    }  # fmt: skip
+        "PATH": f"{shims}:{os.environ['PATH']}",
+        "PYTHONPATH": str(copy / "src"),
+        "GUDGEON_QUICK": "0",
+        "GUDGEON_CACHE": str(copy.parent / "cache"),
+        "NO_COLOR": "1",
+        "COLUMNS": "100",
+    }
     done = subprocess.run(
         ["bash", "-c", MAKE.get(line, line)], cwd=copy, env=environment, capture_output=True, text=True, check=False
     )
@@ -106,7 +122,7 @@ def test_the_table_names_each_recipe() -> None:
     pages = {path.stem for path in RECIPES.glob("*.md")} - {"index", "where_to_change"}
     assert {name for name, _ in rows} == pages and [name for name, mark in rows if mark == "✓"] == [
         name for name, _ in rows if name in TRIED
-    ]  # fmt: skip
+    ]
 
 
 NAMED = re.compile(r"((?:`[\w.]+`(?:, | and | or )?)+) (?:of|in) `([\w/.]+/[\w.]+\.\w+)`")

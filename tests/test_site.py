@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import tomllib
@@ -53,13 +54,26 @@ def test_the_search_shows_the_right_page_first(site: Path) -> None:
 
 
 @needs_node
-@pytest.mark.parametrize(("query", "page"), [
-    ("restitution", ("physics", "limits", "laws")), ("how to install", ("installing",)),
-    ("tolerance", ("methods", "error_control")), ("lyapunov", ("predictability", "methods")),
-    ("add a joint", ("recipes/joint",)), ("hertz", ("laws", "physics")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("query", "page"),
+    [
+        ("restitution", ("physics", "limits", "laws")),
+        ("how to install", ("installing",)),
+        ("tolerance", ("methods", "error_control")),
+        ("lyapunov", ("predictability", "methods")),
+        ("add a joint", ("recipes/joint",)),
+        ("hertz", ("laws", "physics")),
+    ],
+)
 def test_parts_of_terms_find_pages_too(site: Path, query: str, page: tuple[str, ...]) -> None:
     """Within the first five."""
     line = [str(node()), str(ROOT / "tests/search.js"), str(site), query]
     (found,) = json.loads(subprocess.run(line, capture_output=True, text=True, check=True).stdout)
     assert set(found) & set(page), found
+
+
+def test_formulas_are_mathml_and_no_page_loads_a_script_from_elsewhere(site: Path) -> None:
+    laws = (site / "laws.html").read_text(encoding="utf-8")
+    assert laws.count('<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">') >= 30
+    for page in site.rglob("*.html"):
+        assert not re.search(r"<script[^>]*src=\"(https?:)?//", page.read_text(encoding="utf-8")), page
