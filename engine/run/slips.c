@@ -1,9 +1,14 @@
-/* Slips of friction that sticks: put to rest, as exactly as their velocities are evaluated. */
-#define RESTS 1e-15    /* m/s: a slip that is no larger is none */
-#define LEFT_OVER 10.0 /* tolerances of a velocity, that a slip may be a rest of a step by, or */
-#define LEFT_SLIP 2e-9 /* m/s, what its place is located to */
+/*
+ * Removal of residual slip in friction elements that stick, to the accuracy with which their velocities are evaluated.
+ */
+#define RESTS 1e-15    /* m/s: smaller slips count as zero */
+#define LEFT_OVER 10.0 /* tolerances of a velocity up to which a slip is an error of the step */
+#define LEFT_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
-/* By how much the rate of slip i, and all rates (dy), change with the direction of its force; 0: that is not known. */
+/*
+ * Return the change of the rate of slip i, and in dy of all rates, when its friction force changes from +1 to -1 times
+ * the limit. 0: the change is not known.
+ */
 static double slip_response(Integrator *run, double t, const double *y, int i, const Parameters *p, double *dy)
 {
     double *mode = &run->discrete.mode[i], other[N_Y];
@@ -19,7 +24,10 @@ static double slip_response(Integrator *run, double t, const double *y, int i, c
     return status ? 0.0 : along.friction[i].rate - against.friction[i].rate;
 }
 
-/* Whether velocities that change so are a rest of a step: a slip may be small because its arm is, not its speed. */
+/*
+ * Return whether the velocity change `times` * `way` is a residual error of a step. The velocities are tested, not the
+ * slip: a slip may be small because its lever arm is.
+ */
 static int is_slip_residual(const Integrator *run, const double *way, double times)
 {
     int small = 1;
@@ -34,8 +42,8 @@ static int is_slip_residual(const Integrator *run, const double *way, double tim
 }
 
 /*
- * Stops the slips of friction that sticks, which are left over or which a step let drift: by impulses of the friction.
- * Whether there were any. One of them leaves the others at rest.
+ * Remove the residual slips of sticking friction by impulses of that friction and return whether there were any. The
+ * impulse of one element leaves the others at rest.
  */
 static int remove_slip_residuals(Integrator *run, double t, double *y, const RhsOutputs *rhs, const Parameters *p)
 {
@@ -55,14 +63,14 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
     return some;
 }
 
-/* The right-hand side at a state; friction that sticks is at rest there. */
+/* Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. */
 static int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     const int status = rates(run, t, y, p, dy, rhs);
     return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);
 }
 
-/* The same of a state alone. */
+/* Remove residual slips of sticking friction from a state y. */
 static void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     double dy[N_Y];
