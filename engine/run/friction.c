@@ -53,28 +53,28 @@ static int begin_at_rest(Integrator *run, const Parameters *p)
 
 /*
  * Correct the friction mode with the largest violation and return whether there was one. Violations are a sticking
- * force beyond its limit, or a slip from rest against its own rate. If another element is held, it sticks before one
- * gives way.
+ * force beyond its limit, or a slip from rest against its own rate. If an element would start to slip while another is
+ * held, the held one slips instead, so that its force helps first.
  */
 static int correct_worst_mode(Integrator *run)
 {
     int worst = -1, held = -1;
-    double most = 1e-9, mode = 0.0;
+    double largest = 1e-9, mode = 0.0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
         const double now = run->discrete.mode[i];
-        double wrong = 0.0, next = 0.0;
+        double violation = 0.0, next = 0.0;
         if (now == 0.0) {
-            wrong = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
+            violation = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
             next = friction->force > 0.0 ? -1.0 : 1.0;
         } else if (fabs(friction->v) <= AT_REST && fabs(friction->rate) > AT_REST) {
-            wrong = now == MODE_HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
+            violation = now == MODE_HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
             next = now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
-        held = now == MODE_HELD && wrong == 0.0 ? i : held;
-        if (wrong > most) {
+        held = now == MODE_HELD && violation == 0.0 ? i : held;
+        if (violation > largest) {
             worst = i;
-            most = wrong;
+            largest = violation;
             mode = next;
         }
     }
