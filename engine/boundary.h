@@ -1,101 +1,127 @@
 /*
- * The numbers that the engine shares with its callers: statuses, and the sizes and columns of the arrays that functions
- * of scene/calls.h read and fill. Python and JavaScript use the same names: tools/declared.py (`make generated`) writes
- * them into runtime/contract/boundary.py and runtime/web/boundary.js. Columns are SI.
+ * The constants that the engine shares with its callers: statuses, and the sizes and columns of the arrays that the
+ * functions of scene/calls.h read and fill. Python and JavaScript use the same names: tools/declared.py (`make
+ * generated`) writes them into runtime/contract/boundary.py and runtime/web/boundary.js. Columns are in SI units.
  */
 #ifndef GUDGEON_BOUNDARY_H
 #define GUDGEON_BOUNDARY_H
 
-/* Status of a time loop, and of the kinematic analysis; 0: it reached its end, positive: the pivot that vanished. */
+/*
+ * Status of a time loop and of the kinematic analysis. 0: the end was reached. Positive: the number of the pivot that
+ * vanished, counted from 1.
+ */
 enum Status {
-    NEWTON_FAILED = -1, /* kinematic analysis: no position was found */
+    NEWTON_FAILED = -1, /* kinematic analysis: Newton's method found no position */
     NOT_FINITE = -2,
-    EVENTS_FULL = -3,   /* the lists are to be fetched before the run goes on */
+    EVENTS_FULL = -3,   /* the caller must fetch the lists of events and contacts before the run resumes */
     CHATTERING = -4, TOO_SMALL = -5, LOST = -6,
-    ENDED = -7,         /* by an event of the user */
-    OUTSIDE = -8,       /* a contact is deeper than its law holds */
-    NOT_CLOSED = -9,    /* a run of a batch whose start is left to Python */
-    STOPPED = -10,      /* the caller asked to stop */
+    ENDED = -7,         /* a user-defined event ended the run */
+    OUTSIDE = -8,       /* a penetration exceeds the range of validity of its contact law */
+    NOT_CLOSED = -9,    /* Python must compute the start of this run of a batch */
+    STOPPED = -10,      /* the caller requested cancellation */
     STALLED = -11, UNBOUNDED = -12, FRICTION_INCONSISTENT = -13, NOT_FOUND = -14, AUDITED = -15,
     EVENT_STOPS = 1     /* of gudgeon_kinematic_events: an event ends the run */
 };
 
-/* Phase of a run in a batch, and what a call that moves runs of a batch forward returns. */
+/* Phases of a run in a batch, and the results of a call that advances the runs of a batch. */
 enum RunPhase { NEW, BEGUN, OVER };
+/* Result of a call that advances a batch: all runs ended, lists are full, one run ended, or more to do. */
 enum BatchResult { ALL_OVER, LISTS, RUN_OVER, GOES_ON };
 
 /* Contact code of a joint with play in a sample: an impact lasts until the penetration first stops growing. */
 enum ContactCode { CODE_FREE, CODE_IMPACT, CODE_CONTACT };
 
-/* Levels of the audit, and its checks at steps. */
+/* Levels of the audit. */
 enum AuditLevel { AUDIT_OFF, AUDIT_ON, AUDIT_FULL };
+
+/* Checks of the audit: each compares a value of an accepted step with its limit. */
 enum AuditCheck {
     CHECK_defect,       /* the dense output against the right-hand side, between the ends of a step */
-    CHECK_gap,          /* penetration of a joint that is not listed as in contact */
-    CHECK_free,         /* force of a joint that is not in contact */
-    CHECK_position,     /* all rows of Phi of all bodies */
-    CHECK_velocity,     /* all rows of Phi_q v - nu of all bodies */
-    CHECK_acceleration, /* accelerations of the tree against those of all bodies */
-    CHECK_branch,       /* branches of switching functions against their signs */
-    CHECK_event,        /* events that were recorded against the signs of their expressions */
-    CHECK_force,        /* forces of films against accelerations of the dense output */
-    CHECK_rate,         /* rates of the dense output, as a share of the largest, whatever the step's length */
-    CHECK_step,         /* local errors of steps by the integral of the defect of the dense output */
+    CHECK_gap,          /* penetration of a joint whose contact is open */
+    CHECK_free,         /* force in a joint whose contact is open */
+    CHECK_position,     /* all constraint equations Phi = 0 of all bodies */
+    CHECK_velocity,     /* all velocity constraints Phi_q v - nu = 0 of all bodies */
+    CHECK_acceleration, /* accelerations of the reduced formulation against those of the full one */
+    CHECK_branch,       /* active branches of switching functions against their signs */
+    CHECK_event,        /* recorded user-defined events against the signs of their expressions */
+    CHECK_force,        /* film forces against the accelerations of the dense output */
+    CHECK_rate,         /* rates of the dense output, relative to the largest rate, for any step length */
+    CHECK_step,         /* local error of a step from the integral of the defect of the dense output */
     N_CHECKS
 };
 
-/* A check of the audit whose value is so many times its limit ends the run. */
+/* Multiple of its limit at which a check of the audit ends the run. */
 #define AUDIT_FAILS 10.0
 
-/* m: a joint with play has not touched where surfaces overlap by less. */
+/* Penetration in m below which surfaces of a joint with play do not count as touching. */
 #define SHALLOW 1e-13
 
-/* m/s: a slip below it may stick. */
+/* Slip speed in m/s below which friction may stick. */
 #define AT_REST 1e-9
 
-/* Mode of a dry_friction element: 0 sticks, -1 and 1 slip, and this one is held at rest by drives or other friction. */
+/*
+ * Mode of a dry_friction element: 0 stick, -1 or 1 the sign of its slip, MODE_HELD at rest by drives or other friction.
+ */
 enum FrictionMode { MODE_HELD = 2 };
 
-/* Events and contacts that the lists of a run hold. */
+/* Number of events, and of contacts, at which the lists of a run count as full. */
 enum Capacity { MAX_LISTED = 256 };
 
-/* Report of a run: counts, residuals and ratios, three numbers of each joint with play. */
+/*
+ * Columns of the report of a run: counts, residuals with restitution ratios, and three values of each joint with play.
+ */
 enum Count {
     COUNT_steps, COUNT_right_hand_sides, COUNT_onsets, COUNT_ratio_outside, COUNT_switches,
     COUNT_rejected, COUNT_jacobians, COUNT_stiff_steps, N_COUNTS
 };
+
+/* Columns of the largest residuals of a run, and of the extremes of deltadot/deltadot_minus. */
 enum Residual { RESIDUAL_phi_max, RESIDUAL_phi_dot_max, RESIDUAL_ratio_min, RESIDUAL_ratio_max, N_RESIDUALS };
+
+/* Columns of the peak of a joint with play: largest force (N), its time (s), largest eccentricity (m). */
 enum Peak { PEAK_F, PEAK_t, PEAK_e_max, N_PEAK };
 
-/* What steps of a run that no longer advances ended at. */
+/* Kinds of event that end the steps of a run that no longer advances. */
 enum StepEnd { END_CONTACT, END_SWITCH, END_FRICTION, END_EVENT, N_STEP_ENDS };
 
-/* A listed contact, beside the number of its joint. */
+/* Columns of a listed contact; the number of its joint is in an array of its own. */
 enum ImpactColumn { IMPACT_t_on, IMPACT_t_off, IMPACT_deltadot, IMPACT_F_peak, IMPACT_t_peak, N_IMPACT_COLUMNS };
 
-/* A row of the tape begins with these; the state of all bodies, memory and contact codes follow. */
+/*
+ * First columns of a row of the step record; the state of all bodies, the discrete state and the contact codes follow.
+ */
 enum TapeColumn { TAPE_JUMPED, TAPE_T, N_TAPE_HEAD };
 
-/* A row of the trace begins with its time; so many numbers of each joint with play follow. */
+/* Columns of each joint with play in a row of the envelope; the row begins with its time. */
 enum TraceColumn {
     TRACE_F_low, TRACE_t_F_low, TRACE_F_high, TRACE_t_F_high, TRACE_ex_out, TRACE_ey_out, TRACE_t_out, TRACE_ex,
     TRACE_ey, N_TRACE_COLUMNS
 };
 
-/* Arrays of gudgeon_evaluate, at one sample. */
+/* Works that are integrated with the state: of drives, of force elements, of joints with play. */
 enum Work { WORK_drives, WORK_forces, WORK_clearances, N_WORK };
+
+/* Columns of a joint reaction in the results of gudgeon_evaluate: force in N, moment in N m. */
 enum ReactionColumn { REACTION_Fx, REACTION_Fy, REACTION_M, N_REACTION_COLUMNS };
+
+/* Columns of a joint with play in the results of gudgeon_evaluate. */
 enum ClearanceColumn {
     CLEARANCE_Fx, CLEARANCE_Fy,
     CLEARANCE_Fn, /* positive: pushes the surfaces apart */
     CLEARANCE_Ft, CLEARANCE_ex, CLEARANCE_ey, CLEARANCE_e, CLEARANCE_deltadot, CLEARANCE_vt, CLEARANCE_delta,
     N_CLEARANCE_COLUMNS
 };
+
+/* Columns of a friction element in the results of gudgeon_evaluate: force in N, slip speed in m/s. */
 enum FrictionColumn { FRICTION_force, FRICTION_slip, N_FRICTION_COLUMNS };
+
+/* Columns of the energies in the results of gudgeon_evaluate, J. */
 enum Energy { ENERGY_kinetic, ENERGY_potential, N_ENERGY };
+
+/* Columns of the largest constraint residuals in the results of gudgeon_evaluate. */
 enum Drift { DRIFT_phi, DRIFT_phi_dot, N_DRIFT };
 
-/* Value references of an FMU: the first of each kind. */
+/* Value references of an FMU: the first reference of each kind of variable. */
 enum ValueReference {
     VR_TIME = 0, VR_RTOL = 1, VR_PARAMETERS = 16, VR_OUTPUTS = 1 << 20, VR_STATES = 1 << 24, VR_RATES = 1 << 25,
     VR_INDICATORS = 1 << 26

@@ -1,6 +1,6 @@
 /*
- * The time loops of a scene, as one translation unit; the other one is scene.c, which holds what was derived. Read
- * run/run.h first, then methods/adaptive.c; what a scene does not have is left out.
+ * The time loops of a scene as one translation unit; the other unit is scene.c, which contains the derived equations.
+ * Read run/run.h first, then methods/adaptive.c. The preprocessor omits what a scene does not need.
  */
 #include "model.h"
 #include "scene/kernels.h"

@@ -1,12 +1,12 @@
 /*
- * Methods that choose their step (step_length.c): what a step that is accepted changes, events on its way, samples from
- * its interpolant.
+ * The time loop of all methods: attempts at a step (methods/step_length.c), events in the accepted step, samples from
+ * its dense output, and what changes at its end.
  */
-enum { SIDE_PARTS = 4, MAX_AGAIN = 8 /* times that a step is taken again to end close behind an event */ };
+enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just after an event */ };
 
 /*
- * Sides of user events that were held at zero up to a step and are again from its end on, where friction or a contact
- * holds them: wherever they are between.
+ * Set signs of user-defined events that were held at zero before a step and are again from its end on, held by friction
+ * or a contact: the signs of their values inside the step.
  */
 static void update_event_signs_inside(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -16,9 +16,9 @@ static void update_event_signs_inside(Integrator *run, Step *step, double fracti
         unknown |= run->discrete.event_sign[i] == 0;
     if (!unknown || event < 0 || !(event < N_CLEARANCES || is_friction) || make_dense(run, p, step))
         return;
-    for (int part = 1; part < SIDE_PARTS; part++) {
+    for (int part = 1; part < N_SIGN_PARTS; part++) {
         double y[N_Y], dy[N_Y];
-        const double s = fraction * part / SIDE_PARTS;
+        const double s = fraction * part / N_SIGN_PARTS;
         RhsOutputs rhs;
         if (state_at(run, step, s, p, y, dy, &rhs))
             return;
@@ -26,11 +26,14 @@ static void update_event_signs_inside(Integrator *run, Step *step, double fracti
     }
 }
 
-/* Takes a step, or its part up to an event, as the new state. */
+/*
+ * Make the end of a step, or the point at `fraction` of it where an event occurs, the new state at time t_new. Then
+ * apply the event (-1: none). Return 0 or the status.
+ */
 static int commit_step(Integrator *run, Step *step, double fraction, double t_new, int event, const Parameters *p)
 {
     update_event_signs_inside(run, step, fraction, event, p);
-    /* the interpolant is made already where the step ends early: its end may be replaced */
+    /* the dense output exists if the step ends early: its end may be replaced */
     int status = fraction < 1.0 ? state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
@@ -52,11 +55,11 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     update_error_weights(run);
     for (int i = 0; i < N_CLEARANCES; i++)
         note_turn(run, i, run->rhs.clearance[i].deltadot);
-    const double drift = run->residuals.phi_dot_max; /* at the corner of a drive rates are those before the impulse */
+    const double drift = run->residuals.phi_dot_max; /* at a jump of a drive, rates are those before the impulse */
     status = watch(run, p);
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
-    if (!status && event < 0 && run->roots.skip >= 0) { /* away from the corner, on whichever side */
+    if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */
         watch_every_switch(run);
         status = update_branches(run, -1, p);
     }
@@ -66,13 +69,13 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     return status ? status : check_contacts(run, p);
 }
 
-/* How close (s) to the end t of a fixed step a sample is the end's own: both are products of rounded numbers. */
+/* Return the time difference in s within which a sample is at the end t of a fixed step: both are rounded products. */
 static double rounded_end(const Integrator *run, double t)
 {
     return run->control.fixed > 0.0 ? rounded(t, run->control.fixed) : 0.0;
 }
 
-/* Samples of the step before `t_new`, from its interpolant. */
+/* Store the samples of a step before time t_new from its dense output. Return 0 or the status. */
 static int sample_step(Integrator *run, Step *step, double t_new, const Parameters *p, const Samples *out)
 {
     const long evaluations = run->counts.evaluations;
@@ -92,32 +95,35 @@ static int sample_step(Integrator *run, Step *step, double t_new, const Paramete
 }
 
 /*
- * Rows of the tape inside a step, up to a share of it, before it is taken: the ends of parts, and right beside its own
- * ends where something changes there (`jumps`: at the last one).
+ * Append rows inside a step, up to `fraction`, to the step record before the step is committed. Rows are the ends of
+ * its parts, and points next to its ends if something jumps there (`jumps`: at the last end).
  */
 static int record_inside_step(Integrator *run, Step *step, double fraction, int jumps, const Parameters *p)
 {
     const long evaluations = run->counts.evaluations;
     const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
-    const double beside = max_of(BESIDE * fraction, located);
+    const double offset = max_of(JUMP_OFFSET * fraction, located);
     if (!run->step_record.rows)
         return 0;
     int status = make_dense(run, p, step);
     for (int k = !run->step_record.jumped; k < TAPE_PARTS + jumps && !status; k++) {
-        const double s = k == 0 ? beside : k == TAPE_PARTS ? fraction - beside : fraction * k / TAPE_PARTS;
+        const double s = k == 0 ? offset : k == TAPE_PARTS ? fraction - offset : fraction * k / TAPE_PARTS;
         const double t = step->t + s * step->h;
         double now[N_Y];
         if (!(s > 0.0 && s < fraction && t > step->t))
-            continue; /* so short a step is all beside the jump */
+            continue; /* so short a step has no such rows */
         interpolate(run, step, s, now);
         project_state(run, t, now, p);
         record_state(run, t, now, p);
     }
-    restore_evaluations(run, evaluations); /* as of samples */
+    restore_evaluations(run, evaluations); /* output, not integration */
     return status;
 }
 
-/* The end of a step that is taken; where something changed there, it follows with the next step if there is one. */
+/*
+ * Append the end of a step to the step record. After a change the row follows with the next step, unless this is the
+ * last.
+ */
 static void record_step_end_state(Integrator *run, int jumped, int is_last, const Parameters *p)
 {
     mark_jump(run, jumped);
@@ -128,14 +134,14 @@ static void record_step_end_state(Integrator *run, int jumped, int is_last, cons
 #ifndef PERIODS
 #define PERIODS 0
 #endif
-#define NEAR_END 1.02 /* times the fraction of the event: as long is a step that ends close behind it, */
-#define PERIOD_END 1.1 /* and one that reads periods */
+#define NEAR_END 1.02 /* times the fraction of the event: length of a repeated step that ends just after it */
+#define PERIOD_END 1.1 /* the same for scenes with periodic functions */
 #ifndef KNOTS
 #define KNOTS 0
 #endif
-#define KNOT_REACH 0.4 /* of a piece of a curve: further behind its end it is read as another one (curves.h) */
+#define KNOT_REACH 0.4 /* of a piece of a curve: it is extrapolated this far beyond its knot (scene/curves.h) */
 
-/* A step of length h instead, and its first event. */
+/* Repeat a step with length h (s), and find its first event. Return 0 or the status. */
 static int step_again(
     Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
 {
@@ -148,7 +154,7 @@ static int step_again(
     return status;
 }
 
-/* Whether the interpolant of a step is needed, for an event or a sample, and could not be made. */
+/* Return whether the dense output of a step is needed, for an event or a sample, and cannot be computed. */
 static int lacks_dense(Integrator *run, Step *step, const Parameters *p, const Samples *out)
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
@@ -158,7 +164,10 @@ static int lacks_dense(Integrator *run, Step *step, const Parameters *p, const S
     return failed;
 }
 
-/* Whether a step leads so far beyond a knot that it may not have read one piece alone; pieces are about as long. */
+/*
+ * Return whether a step extends so far beyond a knot at `fraction` that it may have evaluated another piece of the
+ * curve.
+ */
 static int reaches_far(const Integrator *run, const Step *step, double fraction)
 {
     const double piece = step->t + fraction * step->h - run->roots.t_crossed;
@@ -166,11 +175,10 @@ static int reaches_far(const Integrator *run, const Step *step, double fraction)
 }
 
 /*
- * The first event of a step that was accepted, as its share; 1 and -1 where there is none. A step so long that its
- * interpolant cannot be made is taken again, shorter. A period of mod is held half a period beyond its end: a step that
- * reaches further ends on rows of another one, which its interpolant then leads to. Taken again from before, it ends
- * close behind the event, wherever that is. So does a step that reaches far beyond a knot of a curve, and one inside of
- * which forces of films are wrong at the event.
+ * Find the first event of an accepted step and its fraction; 1 and -1: none. Three kinds of steps are repeated to end
+ * just after the event: steps far beyond a period of mod, whose branch is extended by half a period only; steps far
+ * beyond a knot of a curve; steps whose film forces are wrong at the event. A step without dense output is repeated
+ * with a shorter length. Return 0 or the status.
  */
 static int event_of_step(
     Integrator *run, const Samples *out, const Parameters *p, Step *step, double *fraction, int *event)
@@ -179,14 +187,14 @@ static int event_of_step(
     const int free = run->control.fixed <= 0.0;
     int status = 0;
     *fraction = first_event(run, step, p, event);
-    for (int k = 0; k < SHORTENED && !status && free && lacks_dense(run, step, p, out); k++)
+    for (int k = 0; k < MAX_SHORTENED && !status && free && lacks_dense(run, step, p, out); k++)
         status = step_again(run, 0.25 * step->h, t_end, p, step, fraction, event);
-    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *fraction < 1.0; k++) {
+    for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && longer * *fraction < 1.0; k++) {
         const double next = run->control.h, h = longer * *fraction * step->h;
         if (h <= run->roots.time_resolution)
-            break; /* it lies at the step's beginning, where no row is another one */
+            break; /* the event is at the beginning of the step, where constraints do not differ */
         if (free && !PERIODS && !reaches_far(run, step, *fraction) && !misses_film_at(run, step, *fraction, p))
-            break; /* a fixed step ends by the method itself there: its interpolant may be of low order */
+            break; /* a fixed step is repeated: its dense output may be of low order */
         status = step_again(run, h, t_end, p, step, fraction, event);
         set_length(run, next);
     }
@@ -194,8 +202,9 @@ static int event_of_step(
 }
 
 /*
- * What comes before a step: the start, samples that are due. Whether a step is wanted (run->control.attempt has it) and
- * not, as `last` says, to be left to another call; if not *status is 0, EVENTS_FULL, STOPPED, or what went wrong.
+ * Prepare a step: begin the run if needed, and store samples that are due. Return whether a step must be computed
+ * (run->control.attempt), which `last` leaves to another call. If not, *status is 0, EVENTS_FULL, STOPPED or another
+ * status.
  */
 static int needs_step(Integrator *run, int last, const Parameters *p, const Samples *out, int *status)
 {
@@ -206,7 +215,7 @@ static int needs_step(Integrator *run, int last, const Parameters *p, const Samp
         record_after_jump(run, p);
     mark_jump(run, begins);
     if (run->control.attempt.open)
-        return !last; /* it was under way */
+        return !last; /* attempts continue */
     if (*status)
         return 0;
     const double here = run->t + rounded_end(run, run->t);
@@ -226,8 +235,8 @@ static int needs_step(Integrator *run, int last, const Parameters *p, const Samp
 }
 
 /*
- * An accepted step, up to its first event: samples, and what changes at its end. Whatever it returns, the run is at
- * the end of a whole step, with what changes there.
+ * Complete an accepted step up to its first event: samples, step record, audit, commit, and changes at its end.
+ * Afterwards the run is at the end of a step with its changes, whatever the status.
  */
 static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
 {
@@ -238,13 +247,13 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
     choose_method(run, p);
     int status = event_of_step(run, out, p, step, &fraction, &event);
     if (status || run->cancellation.stop)
-        return status ? status : STOPPED; /* what was found meanwhile means nothing */
+        return status ? status : STOPPED; /* results of a cancelled search are invalid */
     if (run->control.fixed > 0.0)
         run->discrete.held = 1;
     const double t_whole = run->control.fixed > 0.0 ? run->control.attempt.end
         : step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = fraction < 1.0 ? run->t + fraction * step->h : t_whole;
-    /* what is so near is at the event */
+    /* samples this close to the event are at it */
     const double close = event < 0 ? rounded_end(run, t_new)
         : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.time_resolution);
     status = sample_step(run, step, t_new - close, p, out);
@@ -264,7 +273,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
         status = first_step_after_event(run, t_end - run->t, p);
     run->discrete.held = 1;
     if (may_jump && !status) {
-        set_phi_dot_max(run, drift); /* which branch a rate has at a jump's own time says nothing */
+        set_phi_dot_max(run, drift); /* the branch of a rate exactly at the jump is arbitrary */
         status = pass_drive_jumps_here(run, p);
     }
     if (!status && run->t == t_end)
@@ -278,8 +287,8 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
 }
 
 /*
- * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
- * or to be called again), EVENTS_FULL, STOPPED, or what went wrong.
+ * Integrate towards the last of n output times t, with at most `limit` steps; samples are stored from row *done on.
+ * Return 0 (at the end, or to be called again), EVENTS_FULL, STOPPED or another status.
  */
 int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done)

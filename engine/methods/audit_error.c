@@ -1,16 +1,16 @@
-/*
- * The audit of the errors of whole steps (run/audit.c), and what it needs to know of a step. The sums of errors in the
- * audit's record are its own.
- */
-#define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
-#define AUDIT_STEP 15.0 /* tolerances that a step may err by, */
-#define AUDIT_ORDER 1e-3 /* of the change of rates over a step, that it may err by, times the root of */
-#define AUDIT_LOOSE 1e-6 /* tolerances in units of this, if more; and errors of all steps together in tolerances, */
-#define AUDIT_SUM 100.0  /* from which on they count */
-#define AUDIT_FINEST 1e-9 /* and these are never finer: below, stiff forces are rounding */
-enum { AUDIT_ENOUGH = 3 }; /* steps whose mean error says something */
+/* The audit of the errors of whole steps (run/audit.c), and the scales of these errors. */
+#define AUDIT_DIGITS 1e-10 /* of a state: smaller differences are rounding */
+#define AUDIT_STEP 15.0 /* tolerances: allowed error of a step */
+#define AUDIT_ORDER 1e-3 /* of the change of rates over a step: allowed mean error */
+#define AUDIT_LOOSE 1e-6 /* tolerance above which that limit grows with its root */
+#define AUDIT_SUM 100.0  /* tolerances: sum of errors of all steps from which on they count */
+#define AUDIT_FINEST 1e-9 /* smallest tolerance of the check: below, stiff forces are rounding */
+enum { AUDIT_ENOUGH = 3 }; /* measured steps for a mean error */
 
-/* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
+/*
+ * Return whether the frozen branches and contacts agree with a state. Near a switching point or a separation they may
+ * not.
+ */
 static int branches_fit(const Integrator *run, const RhsOutputs *rhs)
 {
     int fit = 1;
@@ -21,14 +21,14 @@ static int branches_fit(const Integrator *run, const RhsOutputs *rhs)
     return fit;
 }
 
-/* One over the tolerance of coordinate or velocity k, from scales and speeds as both/error_weights.h describes it. */
+/* Return the error weight, 1/tolerance, of coordinate or velocity k, computed independently of both/error_weights.h. */
 static double audit_weight(const Integrator *run, int k)
 {
     const int kind = is_angle[k % N_X];
     return run->norm.inverse_scale[k] / (k < N_X ? 1.0 : run->norm.speed[kind] + run->norm.speed_floor[kind]);
 }
 
-/* Whether a drive's second rate jumps, or is unbounded, where a step begins or ends: no polynomial follows it. */
+/* Return whether the second rate of a drive jumps, or is unbounded, at the beginning or end of a step. */
 static int meets_jump(const Integrator *run, const Step *step, const Parameters *p)
 {
     for (int end = 0; end < 2 && N_DRIVES; end++) {
@@ -42,9 +42,9 @@ static int meets_jump(const Integrator *run, const Step *step, const Parameters 
 }
 
 /*
- * The order of a method: in the mean of the steps that are measured, it errs by little of the change of rates over a
- * step, unless stability bounds that. A method that has lost its order takes so many short steps that errors within the
- * tolerance add up. `error`, `change`: of a step, in tolerances.
+ * Check the order of the method: the mean error of the measured steps must be small compared with the change of rates
+ * over a step, unless stability limits it. A method that has lost its order takes so many short steps that errors
+ * within the tolerance add up. error, change: of a step, in tolerances.
  */
 static void check_order(Integrator *run, double error, double change)
 {
@@ -59,12 +59,12 @@ static void check_order(Integrator *run, double error, double change)
         record(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
 }
 
-/* Nodes and weights of Gauss's quadrature of order 8 over (0, 1). */
+/* Nodes and weights of Gauss quadrature of order 8 over (0, 1). */
 static const double gauss_node[] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
 static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
     0.17392742256872692};
 
-/* The largest of errors e of a step, as a multiple of `limit` tolerances; in `most` in tolerances. */
+/* Return the largest error e of a step as a multiple of `limit` tolerances, and in *most its value in tolerances. */
 static double largest_error(const Integrator *run, const Step *step, const double *e, double limit, double *most)
 {
     double worst = 0.0;
@@ -79,23 +79,22 @@ static double largest_error(const Integrator *run, const Step *step, const doubl
 }
 
 /*
- * The local error of a step, from the integral of the defect of its dense output u,
- *     e = y(t + h) - y(t) - int f(s, u(s)) ds,
- * which uses neither the method's error estimate nor its coefficients. In stiff components u itself errs: e is divided
- * by 1 - h J there; of an explicit step, too, if it is too large otherwise, for it may be as long as it is stable. A
- * step over which a force has another branch, or is made elsewhere (lanes), is left out.
+ * Check the local error of a step by the integral of the defect of its dense output u: e = y(t + h) - y(t) - int f(s,
+ * u(s)) ds. It uses neither the method's error estimate nor its coefficients. In stiff components u itself has errors:
+ * there e is divided by 1 - h J. This also applies to explicit steps near the stability limit. Steps over which a force
+ * has another branch, or that were computed in lanes, are omitted.
  */
 static void check_length(Integrator *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], most, change = 0.0; /* of the defect, 1/s */
+    double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], most, change = 0.0; /* mean defect, 1/s */
     RhsOutputs rhs;
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
             return;
     if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE || make_dense(run, p, step))
-        return; /* a start off its constraints is projected by the first step */
+        return; /* the first step projects a start that violates the constraints */
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);

@@ -1,35 +1,35 @@
 /*
- * The audit of a run inside its steps (run/audit.c): at a place drawn in some of them, at every event that ends one,
- * and in those that are much longer than the one before: defect of the dense output, gaps, branches. Where the draw
- * fell, in addition: all rows, accelerations by the equations of all bodies, forces of films.
+ * The audit of a run inside its steps (run/audit.c): at a random point of some steps, at every event that ends a step,
+ * and in steps much longer than the one before. Checks: defect of the dense output, gaps, branches. At random points in
+ * addition: all constraint equations, accelerations by the equations of all bodies, film forces.
  */
-#define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
-#define AUDIT_RATE 1e-3 /* of the largest rate: how far others may be from the right-hand side */
-#define AUDIT_CHANGE 0.1 /* of their change over the step: the same */
-#define AUDIT_SLIP 1e-9 /* m/s: slips below it are none where friction sticks */
-#define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
-#define AUDIT_BOUNDED 10.0 /* tolerances of a step whose length stability bounds */
-#define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
-#define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
-#define AUDIT_SHORT 1e-3 /* of the longest step: in shorter ones an event function may grow to a pole without a scale */
+#define AUDIT_LONGER 8.0 /* times the step before: longer steps are always checked */
+#define AUDIT_RATE 1e-3 /* of the largest rate: allowed error of rates */
+#define AUDIT_CHANGE 0.1 /* of their change over the step: allowed error of rates */
+#define AUDIT_SLIP 1e-9 /* m/s: smaller slips of sticking friction count as zero */
+#define AUDIT_DRIFT 1e2 /* tolerances: allowed sum of errors of rates */
+#define AUDIT_BOUNDED 10.0 /* tolerances: allowed error of a step limited by stability */
+#define AUDIT_DEFECT 1e4 /* tolerances: allowed defect of the dense output */
+#define AUDIT_LONGEST 1.5 /* times the longest measured step: longer steps are measured */
+#define AUDIT_SHORT 1e-3 /* of the longest step: shorter ones near a pole do not define the scale of events */
 #define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
-#define AUDIT_SHARE 0.008 /* of the evaluations of a run, that checks of drawn steps may cost */
-#define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
-#define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
-#define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */
-/* halvings that locate a zero; places inside a step */
+#define AUDIT_SHARE 0.008 /* of the evaluations of a run: cost of the checks of drawn steps */
+#define AUDIT_COST 8.0   /* typical evaluations of one check */
+#define AUDIT_ITERATIONS 4.0 /* evaluations of an iterated stage */
+#define AUDIT_LEAST_STAGES 8.0 /* smallest number of evaluations of a step */
+/* bisections that locate a zero; points inside a step */
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /*
- * How far rates `rate` are from `dy` at a state y of a step of length h, in multiples of a limit of many tolerances; 0
- * where that is less than the largest so far. A stiff component within its tolerance may have any rate: there h times
- * the difference is divided by 1 - h J.
+ * Return the defect of rates `rate` against `dy` at a state y of a step, in multiples of its limit, 0 if it is not the
+ * largest so far. A stiff component within its tolerance may have any rate: there h times the difference is divided by
+ * 1 - h J.
  */
 static double defect_of(Integrator *run, const Step *step, const double *y, const double *rate, const double *dy,
     const Parameters *p)
 {
     const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
-    const int rows = has_films() ? N_X : 2 * N_X; /* velocities of films: check_forces */
+    const int rows = has_films() ? N_X : 2 * N_X; /* check_forces() checks velocities with films */
     const ErrorNorm *norm = &run->norm;
     const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
     const double fast[2] = {1.0 / lengths, 1.0 / angles};
@@ -57,11 +57,10 @@ static double defect_of(Integrator *run, const Step *step, const double *y, cons
 }
 
 /*
- * Rates of the dense output against the right-hand side: steps so short that the tolerance allows any error add up to a
- * wrong motion where a method is not consistent. Allowed is a share of the largest rate, and of the change of rates
- * over the step, and what adds up to few tolerances over the time that has passed, or over as many steps of this
- * length: iterations find stages up to a share of a tolerance, however short a step is. An explicit step that stability
- * bounds errs by tolerances, however little moves. Positions and velocities apart.
+ * Check the rates of the dense output against the right-hand side, positions and velocities separately. Steps so short
+ * that the tolerance allows any error accumulate errors if the method is inconsistent. The limit is a fraction of the
+ * largest rate and of the change of rates, plus errors that add up to few tolerances over the time passed. Iterations
+ * leave a fraction of a tolerance in every step. An explicit step limited by stability has errors of some tolerances.
  */
 static void check_rate(Integrator *run, const Step *step, double t, const double *y, const double *rate,
     const double *dy, const Parameters *p)
@@ -82,7 +81,7 @@ static void check_rate(Integrator *run, const Step *step, double t, const double
     }
 }
 
-/* The end of a step: what it took for the rates there. */
+/* Check the rates that a step used at its end against the right-hand side. */
 static void check_end(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y];
@@ -91,7 +90,7 @@ static void check_end(Integrator *run, Step *step, const Parameters *p)
         record(&run->audit, CHECK_defect, defect_of(run, step, step->y, step->dy, dy, p), 1.0, step->t + step->h, -1);
 }
 
-/* Forces of films, by the accelerations that they give; which none of a step follow that begins or ends at a jump. */
+/* Check film forces by the accelerations that they cause, except in steps that begin or end at a jump of a drive. */
 static void check_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
     const double *dy, const Parameters *p)
 {
@@ -106,7 +105,7 @@ static void check_forces(Integrator *run, const Step *step, double t, const RhsO
         record(&run->audit, CHECK_force, fraction, limit, t, where);
 }
 
-/* What is checked of each state inside a step; `drawn`: of one whose place was drawn. */
+/* Check a state at fraction theta of a step; drawn: at a random point, with an additional check. */
 static void check_state_inside(Integrator *run, Step *step, double theta, int drawn, const double *y, const double *dy,
     const RhsOutputs *rhs, const Parameters *p)
 {
@@ -116,14 +115,16 @@ static void check_state_inside(Integrator *run, Step *step, double theta, int dr
     const double defect = has_tolerance(run) ? defect_of(run, step, y, rate, dy, p) : 0.0;
     if (has_tolerance(run) && (defect <= 1.0 || !meets_jump(run, step, p)))
         record(&run->audit, CHECK_defect, defect, 1.0, t, -1);
-    if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
+    if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
         check_rate(run, step, t, y, rate, dy, p);
     check_forces(run, step, t, rhs, rate, dy, p);
     check_joints(run, t, rhs, p);
     check_branches(run, step, t, y, rhs, p);
 }
 
-/* One place inside a step, up to the event that ends it. */
+/*
+ * Check the state at fraction theta of a step from its dense output; drawn: at a random point, with additional checks.
+ */
 static void check_inside(Integrator *run, Step *step, double theta, int drawn, const Parameters *p)
 {
     const double t = step->t + theta * step->h;
@@ -131,12 +132,12 @@ static void check_inside(Integrator *run, Step *step, double theta, int drawn, c
     RhsOutputs rhs;
     if (make_dense(run, p, step))
         return;
-    if (run->counts.steps == 0) { /* a start off its constraints is projected by the first step alone */
+    if (run->counts.steps == 0) { /* the first step projects a start that violates the constraints */
         interpolate(run, step, theta, y);
         if (rates(run, t, y, p, dy, &rhs))
             return;
     } else if (state_at(run, step, theta, p, y, dy, &rhs))
-        return; /* what lies beyond an event need not be computable */
+        return; /* states after an event may be undefined */
     check_state_inside(run, step, theta, drawn, y, dy, &rhs, p);
     if (!drawn)
         return;
@@ -146,7 +147,7 @@ static void check_inside(Integrator *run, Step *step, double theta, int drawn, c
         check_accelerations(run, t, y, dy, all, p);
 }
 
-/* Whether the value of event i changes its sign in a step at a zero, and not where it grows beyond all bounds. */
+/* Return whether user-defined event i changes sign in a step at a zero, and not at a pole, by bisection. */
 static int event_has_zero(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
     double low = 0.0, high = fraction, y[N_Y], dy[N_Y];
@@ -166,7 +167,7 @@ static int event_has_zero(Integrator *run, Step *step, double fraction, int i, c
     return nearest < 0.01 * min_of(fabs(before), fabs(after));
 }
 
-/* Whether the value of event i at the beginning of a step, or at its end, is larger than its uncertainty. */
+/* Return whether user-defined event i exceeds its uncertainty at the beginning of a step, or at its end (`end`). */
 static int is_known(Integrator *run, const Step *step, int end, int i, const Parameters *p)
 {
     const int k = N_EVENT_FUNCTIONS - N_USER_EVENTS + i;
@@ -174,7 +175,7 @@ static int is_known(Integrator *run, const Step *step, int end, int i, const Par
         : is_resolved(run, run->t, run->y, &run->rhs, k, p);
 }
 
-/* Notes how far expressions of events are from zero in a step, and finds zeros that end none, before it is taken. */
+/* Record the magnitudes of user-defined events in a step before it is committed, and find zeros that end no step. */
 static void find_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
@@ -182,16 +183,16 @@ static void find_zeros(Integrator *run, Step *step, double fraction, int event, 
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double before = run->rhs.event[i], after = step->rhs.event[i];
         const StageValues seen = stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
-        double inside = fabs(after); /* the beginning may be a pole that was located */
+        double inside = fabs(after); /* the beginning may be a located pole */
         for (int k = 0; k < step->n_seen; k++)
             inside = max_of(inside, fabs(stage_value(seen, k)));
         if (step->h > AUDIT_SHORT * audit->longest && isfinite(inside))
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->away[i] |= max_of(fabs(before), inside) > noise;
-        /* begin_beyond */
+        /* start_just_after() set the sign already */
         const int begins_beyond = run->counts.steps == 0 && run->discrete.event_sign[i] * after > 0.0;
-        /* from a pole too: nearer, it grows and falls at once */
+        /* also from a pole, near which it grows and falls at once */
         const int far = fraction * step->h > located_within(run);
         audit->event_before[i] = audit->ended == i && far && is_known(run, step, 0, i, p) ? before : 0.0;
         audit->crossed[i] = fraction >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
@@ -202,8 +203,8 @@ static void find_zeros(Integrator *run, Step *step, double fraction, int event, 
 }
 
 /*
- * Steps between two that are drawn, in the mean, so that their checks cost no more than a share of the evaluations. It
- * depends on the method alone: a run in a batch is checked where it is checked alone.
+ * Return the mean number of steps between two drawn ones, which limits the cost of their checks. It depends on the
+ * method alone, so that a run in a batch is checked at the same steps.
  */
 static double mean_interval(const Method *method)
 {
@@ -212,8 +213,8 @@ static double mean_interval(const Method *method)
 }
 
 /*
- * The inside of a step that is accepted up to `fraction`, before it is taken. An event's state is known: it is checked
- * without another right-hand side.
+ * Check the inside of an accepted step up to `fraction` before it is committed. The state at an event is known, and its
+ * check needs no right-hand side.
  */
 static void audit_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -254,7 +255,7 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
         audit->longer += is_longer;
         run->discrete = discrete;
     }
-    /* a check is not integration: what it made is made again, and counted, by others */
+    /* checks do not count as integration: the dense output is computed and counted again when needed */
     restore_evaluations(run, evaluations);
     step->dense_ready = dense_ready;
 }

@@ -1,8 +1,6 @@
-/*
- * How a run by a method that chooses its step begins: tolerances, what counts as a speed, sides of what is watched.
- */
+/* The start of a run by any method: tolerances, smallest relevant speeds, branches and signs of watched functions. */
 #if N_USER_EVENTS
-/* The side of what is watched and begins on a zero: that to which it goes, as soon as that is known. */
+/* Set the signs of user-defined events that begin at zero: those of their values shortly after the start. */
 static int set_initial_branches(Integrator *run, const Parameters *p)
 {
     for (double fraction = 1e-6; fraction < 0.1; fraction *= 100.0) {
@@ -20,10 +18,13 @@ static int set_initial_branches(Integrator *run, const Parameters *p)
     return 0;
 }
 #else
+/* Return 0: the scene has no user-defined events. */
 static inline int set_initial_branches(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 
-/* 1/s: over one time that speeds of the state and accelerations `dy` take for the smallest length that matters. */
+/*
+ * Return the rate in 1/s at which the motion crosses the smallest relevant length, by speeds and by accelerations `dy`.
+ */
 static double fastest_rate(const Integrator *run, const double *dy)
 {
     double rate = 0.0;
@@ -34,14 +35,13 @@ static double fastest_rate(const Integrator *run, const double *dy)
     return rate;
 }
 
-#define AT_ALL 1e-5   /* 1/s: what is slower does not move */
-#define TOO_FAST 1e6 /* rates in the time of a run: more may be a drive whose second rate is unbounded at the start */
+#define MIN_RATE 1e-5   /* 1/s: slower motion counts as rest */
+#define TOO_FAST 1e6 /* per time of the run: higher rates may come from a second rate of a drive unbounded at start */
 
 /*
- * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
- * that the start's speeds and accelerations take for it. Accelerations that are unbounded at the start are those right
- * after it. Only where these lead nowhere (a pulse is yet to come) the run's own time has to tell. Rounding is measured
- * by speeds that do not depend on how long the run is.
+ * Set the smallest relevant speeds: 0.01 of the speed that crosses the smallest relevant length at the fastest rate of
+ * the start. Rates that may be unbounded at the start are evaluated just after it. If the start hardly moves, as before
+ * a transient, the length `left` of the run (s) determines them. Speeds for rounding do not depend on `left`.
  */
 static void set_speed_floors(Integrator *run, double left, const Parameters *p)
 {
@@ -51,11 +51,11 @@ static void set_speed_floors(Integrator *run, double left, const Parameters *p)
         rate = min_of(rate, fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
-        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > AT_ALL ? 0.01 * rate : 1.0 / left);
+        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > MIN_RATE ? 0.01 * rate : 1.0 / left);
     }
 }
 
-/* Whether a run begins in a contact whose surfaces give. */
+/* Return whether a run begins in a contact of elastic surfaces. */
 static int begins_in_contact(const Integrator *run)
 {
     int found = 0;
@@ -64,7 +64,9 @@ static int begins_in_contact(const Integrator *run)
     return found;
 }
 
-/* Errors of inner states: relative to the deflection at which a joint slides, or as those of lengths where it is 0. */
+/*
+ * Set the error weights of inner states: relative to the deflection at which a joint slides, or as lengths if it is 0.
+ */
 static void set_inner_state_weights(Integrator *run, const Parameters *p)
 {
 #if LAW_STATES
@@ -79,7 +81,10 @@ static void set_inner_state_weights(Integrator *run, const Parameters *p)
 #endif
 }
 
-/* A run; one that starts at a drive's jump, or right before it, beyond: on the rows that hold there, without work. */
+/*
+ * Begin a run. A start at a jump of a drive's rate, or just before it, is projected onto the constraints after the
+ * jump, without work.
+ */
 static int begin_run(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
@@ -90,11 +95,14 @@ static int begin_run(Integrator *run, const Parameters *p)
     }
     const int status = begin(run, p);
     if (DRIVE_IMPULSES)
-        set_phi_dot_max(run, 0.0); /* rates are those beyond the jump */
+        set_phi_dot_max(run, 0.0); /* rates are those after the jump */
     return status;
 }
 
-/* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
+/*
+ * Begin the integration: first right-hand side, contacts, friction modes and branches, which are frozen from now on,
+ * and first step length. left: time to the end of the run, s.
+ */
 static int begin_adaptive(Integrator *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
@@ -105,17 +113,17 @@ static int begin_adaptive(Integrator *run, double left, const Parameters *p)
         status = update_branches(run, -1, p);
     set_speed_floors(run, left, p);
     note_speed(run);
-    /* weights are its inverse */
+    /* error weights are its inverse */
     run->norm.energy_scale = max_of(initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
     set_inner_state_weights(run, p);
     update_error_weights(run);
     if (!status)
-        status = pass_drive_jumps_here(run, p); /* to the sides that hold there */
+        status = pass_drive_jumps_here(run, p); /* to the branches after the jumps */
     if (!status)
         status = begin_beyond(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
         status = initial_step(run, left, p);
-        if (!status && begins_in_contact(run)) { /* its force may have begun right before the start: as at an onset */
+        if (!status && begins_in_contact(run)) { /* the contact force may have just begun: as at an onset */
             set_first_length(run, &run->control.after_contact[count_closed(run)][0], ROUGH);
             status = first_step_after_event(run, left, p);
         }
@@ -128,9 +136,9 @@ static int begin_adaptive(Integrator *run, double left, const Parameters *p)
 }
 
 /*
- * method: that begins, as gudgeon_method counts; automatic: the stiff one that it may change to, 0: it may not change;
- * scale (2 N_X): tolerances, those of velocities a unit of speed; least: the smallest length (m) and angle (rad) that
- * matter.
+ * Set the method and tolerances of a run. method: its number (gudgeon_method); automatic: number of the stiff method to
+ * which the run may change, 0: none; scale (2 N_X): tolerances, of velocities relative to speed; least: smallest
+ * relevant length (m) and angle (rad); fixed: length of fixed steps, s, 0: step-size control.
  */
 void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
     double fixed)
@@ -141,7 +149,7 @@ void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const d
     start_roots(run);
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
-    run->norm.work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
+    run->norm.work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
     run->norm.least[0] = least[0];
     run->norm.least[1] = least[1];
     start_series(run, scale[2 * N_X - 1]);

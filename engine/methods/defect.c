@@ -1,10 +1,8 @@
-/*
- * Defect of the dense output: by how much the interpolant of a step fails the equations of motion between its ends.
- */
+/* Defect of the dense output: by how much the interpolant of a step fails the equations of motion between its ends. */
 
 /*
- * Rates of the interpolant at fraction theta of a step, whose coefficients are made: of the nested polynomial
- * y0 + w0 (d0 + w1 (d1 + ...)), each w being theta or 1 - theta, and of its derivative by Horner's scheme.
+ * Compute the rates of the dense output at fraction theta of a step. The nested polynomial is y0 + w0 (d0 + w1 (d1 +
+ * ...)), each w being theta or 1 - theta; its derivative follows by Horner's scheme.
  */
 static inline void interpolate_rates(const Step *step, double theta, int rows, double *restrict dy)
 {
@@ -22,11 +20,7 @@ static inline void interpolate_rates(const Step *step, double theta, int rows, d
     }
 }
 
-/*
- * Forces of films: accelerations `dy` that follow from a state inside a step differ from those of the interpolant,
- * `rate`, by the error of the forces there.
- */
-/* The largest force of a film, N, and the joint that has it, -1 of none. */
+/* Return the largest film force in N, and in *where its joint, -1: none. */
 static double largest_film_force(const RhsOutputs *rhs, int *where)
 {
     double most = 0.0;
@@ -37,11 +31,12 @@ static double largest_film_force(const RhsOutputs *rhs, int *where)
     return most;
 }
 
-#define RATE_ROUNDED (64.0 * DBL_EPSILON) /* of velocities, that a step's interpolant may err by rounding */
+#define RATE_ROUNDED (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
 
 /*
- * A defect as a share of what a film's force, `most`, gives the lightest body, or of a part of the largest acceleration
- * of its kind if that is more. Of very short steps rates are differences of rounded velocities.
+ * Return the relative error of film forces from the accelerations `dy` of a state and `rate` of the dense output there.
+ * The difference is divided by the acceleration that a film force `most` (N) gives the lightest body, or by `part` of
+ * the largest acceleration of its kind, if larger. Rounding of velocities over short steps is subtracted.
  */
 static double film_share(const Integrator *run, const Step *step, const double *rate, const double *dy, double most,
     double part)
@@ -60,20 +55,25 @@ static double film_share(const Integrator *run, const Step *step, const double *
     return fraction;
 }
 
-#define FILM_FORCE 1e4 /* times rtol: share of a film's force that may be wrong inside a step */
-#define RODAS5P_FILM 3.0 /* times that: its interpolant errs all along the step, those of others between few nodes */
-#define FILM_PART 0.03 /* of the largest acceleration: forces of films that give less are no better known */
-#define FILM_FADED 1e-3 /* of the largest force of a film in a run: the audit measures errors of smaller ones by that */
-#define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least; ten times that of explicit methods, without control */
+#define FILM_FORCE 1e4 /* times rtol: allowed relative error of a film force inside a step */
+#define RODAS5P_FILM 3.0 /* factor for rodas5p, whose dense output has errors all along the step */
+#define FILM_PART 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */
+#define FILM_FADED 1e-3 /* of the largest film force of a run: smallest scale of film errors in the audit */
+#define FILM_AUDIT 1e5 /* times rtol: limit in the audit, at least 1e-3; explicit methods: tenfold, no control */
 
+/* Return the allowed relative error of film forces inside a step. */
 static double film_limit(const Integrator *run) { return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
 
+/* Return the limit of the relative error of film forces in the audit. */
 static double film_audit_limit(const Integrator *run, const Step *step)
 {
     return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * tolerance_of(run)));
 }
 
-/* The share of films' forces that is wrong at a place inside a step; most: a force of theirs. -1: there is no state. */
+/*
+ * Return the relative error of film forces at fraction theta of a step, -1 if the state is undefined. most: a film
+ * force in N as a smallest scale.
+ */
 static double film_share_at(Integrator *run, const Step *step, double theta, double most, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], rate[N_Y];
@@ -86,8 +86,8 @@ static double film_share_at(Integrator *run, const Step *step, double theta, dou
 }
 
 /*
- * The error of films' forces inside a step, in multiples of their limit: where the interpolant errs most. A velocity
- * that is as good as the tolerance, times the damping of a thin film, may be any force.
+ * Return the error of film forces inside a step in multiples of its limit, at the fraction where the dense output has
+ * its largest error. A velocity within the tolerance, times the damping of a thin film, may give any force.
  */
 static double film_error(Integrator *run, Step *step, const Parameters *p)
 {
@@ -104,15 +104,18 @@ static double film_error(Integrator *run, Step *step, const Parameters *p)
 }
 
 /*
- * Whether forces of films are wrong at an event inside a step: the error inside a step is measured at one place of the
- * whole step, and the state at the event is the start of what follows.
+ * Return whether film forces of a stiff method are wrong at an event at `fraction` of a step. The state there is the
+ * start of the next step.
  */
 static int misses_film_at(Integrator *run, const Step *step, double fraction, const Parameters *p)
 {
     return has_films() && step->method->stiff && film_share_at(run, step, fraction, 0.0, p) > film_limit(run);
 }
 
-/* Rates of velocities of a stiff method's interpolant at an end of a step, by weights of its stages and of y - y0. */
+/*
+ * Compute the rates of velocities of a stiff method's dense output at an end of a step. weight: of its n stages;
+ * of_end: of y - y0.
+ */
 static void rates_at_end(
     const Integrator *run, const Step *step, const double *weight, int n, double of_end, double *rate)
 {
@@ -126,14 +129,14 @@ static void rates_at_end(
     }
 }
 
-#define FILM_SMALL 0.02 /* of the limit: with so small errors at the ends, that inside a step is seldom measured, */
-#define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
-enum { FILM_STEPS = 16 /* in each 16th */ };
+#define FILM_SMALL 0.02 /* of the limit: with smaller errors at the ends, the error inside is measured rarely */
+#define FILM_LONGER 1.5 /* times the last measured step: longer steps are measured */
+enum { FILM_STEPS = 16 /* steps between two measurements */ };
 
 /*
- * The error of films' forces at the ends of a step, in multiples of their limit, where it costs no right-hand side: at
- * its begin what the interpolant misses, at its end what iterations have left of a velocity. film_error has been seen
- * to be up to 37 times as large, of errors that were far below the limit.
+ * Return the error of film forces at the ends of a step in multiples of the limit, without a right-hand side. At the
+ * beginning it is the error of the dense output, at the end that of the iteration of velocities. film_error() was
+ * observed to be up to 37 times as large, for errors far below the limit.
  */
 static double film_error_at_ends(const Integrator *run, const Step *step, double part)
 {
@@ -152,7 +155,7 @@ static double film_error_at_ends(const Integrator *run, const Step *step, double
     return fraction / film_limit(run);
 }
 
-/* Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. */
+/* Return whether the errors of film forces are, and were recently, so small that this step need not be measured. */
 static int is_film_known(const Integrator *run, const Step *step, double at_ends)
 {
     if (!step->method->stiff || !has_films())
@@ -162,15 +165,15 @@ static int is_film_known(const Integrator *run, const Step *step, double at_ends
 }
 
 /*
- * Whether a step that begins with a force of a film which fades at once, or rises, leads over that: where the
- * interpolant begins with other accelerations than the motion does, forces inside the step are wrong.
+ * Return whether a step passes over a film force that decays or rises at its beginning. Then the accelerations of the
+ * dense output differ from those of the motion there.
  */
 static int misses_film(const Integrator *run, const Step *step, double at_ends)
 {
     return at_ends > 1.0 && film_error_at_ends(run, step, 1.0) > 1.0;
 }
 
-/* The least mass of a body that has one, kg. */
+/* Return the smallest non-zero mass of a body, kg. */
 static double lightest_mass(const Parameters *p)
 {
     double m[N_Q], lightest = INFINITY;
@@ -180,6 +183,7 @@ static double lightest_mass(const Parameters *p)
     return lightest;
 }
 
+/* Set the smallest mass by which errors of film forces are scaled. */
 static void start_films(Integrator *run, const Parameters *p)
 {
     run->films.lightest = has_films() ? lightest_mass(p) : INFINITY;

@@ -5,10 +5,11 @@
 
 #include "../both/dop853.h"
 
-/* Shares of a step, in their order, at which the estimate of its error hears of the equations. */
+/* Fractions of a step, ascending, at which the error estimate evaluates the equations. */
 static const double dop853_error_nodes[] = {0.0, 0.25, 0.3076923076923077, 0.3333333333333333, 0.6, 0.6512820512820513,
     0.8571428571428571, 1.0};
 
+/* Compute the state y at fraction s of a step from its dense output of order 7. */
 static void dop853_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
@@ -18,8 +19,10 @@ static void dop853_interpolate(const Integrator *run, const Step *step, double s
             + u * (d[5][i] + s * d[6][i]))))));
 }
 
-/* At h rho = 5.65 the estimate of order 5 vanishes for a decaying mode, at 6.4 the mode grows (both are zeros of
- * polynomials that follow from the coefficients). */
+/*
+ * The method dop853. At h rho = 5.65 the estimate of order 5 vanishes for a decaying mode, at 6.4 the mode grows. Both
+ * are zeros of polynomials that follow from the coefficients.
+ */
 static const Method dop853 = {.name = "dop853", .try = dop853_try, .dense = dop853_dense,
     .interpolate = dop853_interpolate, .power = 0.125, .unstable = 4.8, .bounded = 4.0, .stages = DOP853_STAGES,
     .more = DOP853_MORE, .degree = 7, .turned = 0x2a,

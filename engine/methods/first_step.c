@@ -1,22 +1,23 @@
-/*
- * How long a first step is: of a run, and after something changed.
- */
-#define ONSET 500.0 /* tolerances of velocity, that straight motion into a contact misses it by in a step that fits */
-#define ONSET_STIFF 80.0
-#define RELAXED 2.0 /* share of the accelerations that straight motion changes in a step that fits: explicit, linear */
-#define RELAXED_STIFF 0.7
-#define LONG_TIME 1e100 /* s: what takes longer to change does not change */
-#define CURVED 0.5  /* the same of motion without a contact that has begun */
-#define FIRST_SHARE 1e-2 /* of what is left of the run: the longest trial step, and the first step if rates stay */
-#define FIT_FAILED 0.1 /* where straight motion of a step's length ends in no number: the share to try next */
-#define MIN_FIT 1e-3 /* least share by which a trial changes the length */
-#define MAX_FIT 30.0 /* largest one */
-#define MAX_LAST_FIT 3.0 /* largest one of the last trial */
-#define MIN_CLOSE 0.3 /* a share between this and MAX_CLOSE: the length is kept without another trial */
+/* The length of a first step: of a run, and after an event. */
+#define ONSET 500.0 /* velocity tolerances: error of straight motion into a contact over a fitting first step */
+#define ONSET_STIFF 80.0 /* the same for stiff methods */
+#define RELAXED 2.0 /* relative change of accelerations over a fitting first step at a switching point */
+#define RELAXED_STIFF 0.7 /* the same for stiff methods */
+#define LONG_TIME 1e100 /* s: changes that take longer are none */
+#define CURVED 0.5  /* the same after other events */
+#define FIRST_SHARE 1e-2 /* of the time left: longest trial step, and first step if rates are constant */
+#define FIT_FAILED 0.1 /* factor on the length if straight motion over it is not finite */
+#define MIN_FIT 1e-3 /* smallest factor of one trial on the length */
+#define MAX_FIT 30.0 /* largest factor */
+#define MAX_LAST_FIT 3.0 /* largest factor of the last trial */
+#define MIN_CLOSE 0.3 /* factor between this and MAX_CLOSE: no other trial is needed */
 #define MAX_CLOSE 3.0
 enum { MAX_FITTED = 3 };
 
-/* A first step from the size of the motion's first two rates. */
+/*
+ * Estimate the length of the first step of a run from the sizes of the first two derivatives of the motion. left: time
+ * to the end, s. Return 0 or the status.
+ */
 static int initial_step(Integrator *run, double left, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
@@ -31,13 +32,16 @@ static int initial_step(Integrator *run, double left, const Parameters *p)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
-    /* in the time one / two rates change by themselves: so many tolerances are gone in it; two may be subnormal */
+    /* rates change completely in the time one / two; way: tolerances passed in it; two may be subnormal */
     const double time = min_of(one / two, LONG_TIME), way = max_of(1.0, time * one);
     run->control.h = two > 0.0 ? max_of(time * pow(way, -run->choice.method->power), h) : FIRST_SHARE * left;
     return 0;
 }
 
-/* How accelerations change over h of straight motion: in tolerances of velocity a second, and their size. */
+/*
+ * Compute the change of accelerations over a time h (s) of straight motion, and their size, in velocity tolerances per
+ * s.
+ */
 static int acceleration_change(Integrator *run, double h, const Parameters *p, double *change, double *size)
 {
     double y[N_Y], dy[N_Y];
@@ -54,9 +58,9 @@ static int acceleration_change(Integrator *run, double h, const Parameters *p, d
 }
 
 /*
- * By which share a step of length h fits better, of which straight motion changes that much. An onset misses velocities
- * by a power of the length, for forces begin as delta^n; elsewhere accelerations change in proportion to it, and what
- * is less than a tolerance is no change.
+ * Return the factor by which a step of length h must change to fit. fits: allowed error; change, size: of the
+ * accelerations (acceleration_change). At an onset the error grows as h^(rough - 1), since forces begin as delta^n.
+ * Elsewhere accelerations change in proportion to h, and changes below one tolerance do not count.
  */
 static double length_ratio(const Integrator *run, double h, double change, double size, double fits)
 {
@@ -68,8 +72,9 @@ static double length_ratio(const Integrator *run, double h, double change, doubl
 }
 
 /*
- * After an event: as long a step as fits what straight motion changes. Each onset is as fast as it is, by the
- * tolerances that fitted the last one; of others the length is known once their like was there. left: to the run's end.
+ * Fit the length of the first step after an event by the change of accelerations along straight motion. At an onset the
+ * allowed error is that of the last onset. After other events the length is known once an event of that kind has
+ * occurred. left: time to the end of the run, s.
  */
 static int first_step_after_event(Integrator *run, double left, const Parameters *p)
 {
@@ -92,7 +97,7 @@ static int first_step_after_event(Integrator *run, double left, const Parameters
             run->control.onset_share = change * rough_power(h, 2.0 - run->control.rough);
         }
         if (h < run->control.h && by >= 1.0)
-            break; /* to the run's end: more is not asked */
+            break; /* the step reaches the end of the run */
         by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? MAX_FIT : MAX_LAST_FIT, max_of(MIN_FIT, by));
         run->control.h = by * h;
         if (by > MIN_CLOSE && by < MAX_CLOSE)

@@ -1,30 +1,31 @@
 /*
- * The methods. A file of each says how a step is tried and what lies between its ends; its last lines are all that
- * adaptive.c, and what looks inside steps, ask of it. A new one is included and listed here; of an explicit
- * Runge-Kutta method nothing is needed but its coefficients (runge_kutta.c).
+ * The table of integration methods. The file of a method defines how a step is tried and interpolated; its last lines
+ * are the Method that methods/adaptive.c and the dense output use. A new method is included and listed here. An
+ * explicit Runge-Kutta method needs only its coefficients (methods/runge_kutta.c).
  */
 #include <string.h>
 
+/* An integration method: its functions, and the constants of its error estimate, stability and dense output. */
 struct Method {
-    const char *name;                                           /* as in runtime/contract/methods.py */
-    int (*try)(Integrator *, double h, const Parameters *, Step *); /* a step of length h into Step, with its error */
-    int (*dense)(Integrator *, const Parameters *, Step *);            /* makes the interpolant of an accepted one */
+    const char *name;                                           /* name as in runtime/contract/methods.py */
+    int (*try)(Integrator *, double h, const Parameters *, Step *); /* computes a step of length h with its error */
+    int (*dense)(Integrator *, const Parameters *, Step *);            /* computes the dense output of a step */
     void (*interpolate)(const Integrator *, const Step *, double fraction, double *y);
-    const struct Tableau *tableau; /* of runge_kutta.c */
-    int drifts;               /* whether Baumgarte's terms keep the rows, and no step is projected onto them */
-    int lane;                 /* which of those that lanes know (run.h) */
-    double power;             /* of the error, that a step's length goes by: 1 / (order of the estimate + 1) */
-    int stiff;                /* whether it takes the Jacobian */
-    double unstable, bounded; /* h rho beyond which no step is taken; at which stability bounds its steps */
-    int stages, more;         /* that a try makes, that its interpolant makes besides (batch/) */
+    const struct Tableau *tableau; /* coefficients of an explicit method, methods/runge_kutta.c */
+    int drifts;               /* whether Baumgarte's terms stabilise the constraints, instead of projection */
+    int lane;                 /* its code in lanes (BY_..., run/run.h) */
+    double power;             /* exponent of the step-size control: 1 / (order of the error estimate + 1) */
+    int stiff;                /* whether it uses the Jacobian */
+    double unstable, bounded; /* h rho at which steps are rejected; at which stability limits the steps */
+    int stages, more;         /* stages of a step, additional stages of its dense output (batch/) */
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
-    const double *error_nodes;      /* shares of a step, in their order, at which its error hears of the equations */
+    const double *error_nodes;      /* fractions of a step, ascending, of its error estimate */
     int n_error_nodes;
-    double between;           /* of a stiff one: the share of a step at which its interpolant errs most */
-    double begins[8], begins_end; /* h times its rates at a step's begin, by stages and by y - y0 */
-    double ends[4], ends_end; /* the same at its end, where stages are found by iterations */
+    double between;           /* of a stiff method: fraction with the largest error of its dense output */
+    double begins[8], begins_end; /* weights of stages and of y - y0 for h times the rates at the begin */
+    double ends[4], ends_end; /* the same at the end, for methods with iterated stages */
     int n_begins, n_ends;
-    int own_length;           /* whether a step that is tried is made as long as it may be */
+    int own_length;           /* whether the method itself chooses the length of a step */
 };
 #define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))
 
@@ -36,6 +37,7 @@ struct Method {
 #include "taylor.c"
 #include "runge_kutta.c"
 
+/* All methods; gudgeon_method() returns the index of a method. */
 static const Method *const METHODS[] = {
     &dop853, &rodas5p, &rk4, &dopri5,
 #if IMPLICIT_STAGES
@@ -45,11 +47,12 @@ static const Method *const METHODS[] = {
     &taylor,
 #endif
 };
-#define EXPLICIT (&dop853)  /* what the automatic choice is between, and the run's `implicit` */
+#define EXPLICIT (&dop853)  /* the explicit method of the automatic choice; run->choice.implicit is the stiff one */
 
+/* Return whether the method of a run lets the constraints drift, since Baumgarte's terms stabilise them. */
 static int drifts(const Integrator *run) { return run->choice.method->drifts; }
 
-/* A method's number, as gudgeon_adaptive_setup takes it; -1: none has that name. */
+/* Return the number of the method with this name for gudgeon_adaptive_setup(), -1: unknown. */
 int gudgeon_method(const char *name)
 {
     for (int i = 0; i < COUNT_OF(METHODS); i++)
@@ -58,7 +61,7 @@ int gudgeon_method(const char *name)
     return -1;
 }
 
-/* What others have found of a step that they tried. */
+/* Copy `rows` states of a step computed in lanes, with a stride of `lanes` numbers, into `to`. */
 static void copy_from_lane(const double *lane, int lanes, int rows, double (*to)[N_Y])
 {
     for (int k = 0; k < rows; k++)
@@ -68,7 +71,7 @@ static void copy_from_lane(const double *lane, int lanes, int rows, double (*to)
 
 static void forget_samples(Integrator *run); /* watch/roots.c */
 
-/* The interpolant of a step, made once. 0, or why there is none: a stage of its own may not be computable. */
+/* Compute the dense output of a step once, and return 0 or the status: an additional stage may not be computable. */
 static int make_dense(Integrator *run, const Parameters *p, Step *step)
 {
     const int there = step->dense_ready == ELSEWHERE;

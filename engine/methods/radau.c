@@ -1,5 +1,8 @@
+/* Radau IIA of orders 5 and 9: dense output and method tables, and the functions of one run that both/radau.h needs. */
+
 /*
- * Radau IIA of orders 5 and 9 (both/radau.h), and what lies between the ends of its steps.
+ * Factorize Newton's matrix at the complex number eta + i eta_i, for the linearization of the run. Return 0 or
+ * NOT_FINITE.
  */
 static int make_pair(Integrator *run, double eta, double eta_i, ComplexLinear *pair)
 {
@@ -8,18 +11,20 @@ static int make_pair(Integrator *run, double eta, double eta_i, ComplexLinear *p
     return newton_factor_complex(eta, eta_i, pair) ? NOT_FINITE : 0;
 }
 
+/* Update the iteration history before a step. */
 static void look_around(Integrator *run) { update_iteration_history(run); }
 
-/* Rates that were asked for are counted where they are made. */
+/* Do nothing: for one run, rates() counts its evaluations. */
 static void count_rates(Integrator *run, int active, int n) { (void)run, (void)active, (void)n; }
 
-/* An iteration begins; what is seen at a stage of it. */
+/* Begin an iteration of the stages: discard what the last iteration recorded of the stages. */
 static void begin_pass(Integrator *run, Step *step, int active, int n)
 {
     (void)run, (void)active, (void)n;
     forget_stages(step);
 }
 
+/* Record the state and the outputs of the right-hand side at a stage of an iteration. */
 static void note_pass(Integrator *run, Step *step, int active, const double *y, const RhsOutputs *rhs, double node)
 {
     (void)active;
@@ -27,15 +32,15 @@ static void note_pass(Integrator *run, Step *step, int active, const double *y, 
     record_stage(run, step, rhs, node);
 }
 
-/* Where stages were not found the step is refused. */
+/* Return the status of a step whose iteration of stages failed (`lost`): the step is rejected. */
 static int stages_lost(Integrator *run, int lost) { return (void)run, lost ? NOT_FOUND : 0; }
 
 #include "../both/radau.h"
 
 /*
- * The collocation polynomial. Without films, positions are Hermite's quintic through both ends with their
- * accelerations, and with three stages velocities are its derivative: of a higher order. With films accelerations have
- * the errors of velocities times the film's damping: the quintic would have those times h rho between the ends.
+ * Compute the dense output: the collocation polynomial. Without films, positions are Hermite's quintic through both
+ * ends with their accelerations; with three stages velocities are its derivative, of a higher order. With films,
+ * accelerations have the errors of velocities times the damping of the film, which the quintic would multiply by h rho.
  */
 static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int stages)
 {
@@ -57,7 +62,7 @@ static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int
         d[2][i] = d[0][i] - d[1][i] - h * step->y[v];
         d[3][i] = 0.5 * h * h * run->dy[v] + d[1][i] - d[2][i];
         d[4][i] = 0.5 * h * h * step->dy[v] + d[1][i] + 2.0 * d[2][i] - d[3][i];
-        /* rounding of positions over h */
+        /* the derivative would divide the rounding of positions by h */
         if (stages > 3 || 64.0 * DBL_EPSILON * fabs(run->y[i]) * run->norm.weight[v] > h)
             continue;
         d[0][v] = step->y[v] - run->y[v];
@@ -68,16 +73,19 @@ static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int
     return 0;
 }
 
+/* Compute the dense output of a step of radau5. */
 static int radau5_dense(Integrator *run, const Parameters *p, Step *step)
 {
     return (void)p, radau_dense(run, step, &RADAU5, 3);
 }
 
+/* Compute the dense output of a step of radau9. */
 static int radau9_dense(Integrator *run, const Parameters *p, Step *step)
 {
     return (void)p, radau_dense(run, step, &RADAU9, 5);
 }
 
+/* Compute the state y at fraction s of a step from its dense output. */
 static void radau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense, r = 1.0 - s;
@@ -85,10 +93,12 @@ static void radau_interpolate(const Integrator *run, const Step *step, double s,
         y[i] = run->y[i] + s * (d[0][i] + r * (d[1][i] + s * (d[2][i] + r * (d[3][i] + s * d[4][i]))));
 }
 
+/* Fractions of a step, ascending, at which radau5 and radau9 evaluate the equations. */
 static const double radau5_error_nodes[] = {0.0, 0.15505102572168219, 0.64494897427831781, 1.0};
 static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.27684301363812383, 0.58359043236891682,
     0.86024013565621945, 1.0};
 
+/* The methods Radau IIA of order 5 with three stages, and of order 9 with five stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,

@@ -3,7 +3,10 @@
  * G. Steinebach, BIT 63:27 (2023). (1/(h gamma) - J) u_i = f(y + sum a_ij u_j) + sum c_ij/h u_j + d_i h f_t.
  */
 
-/* The equations linearized at the run's state, and Newton's matrix for a step. A Jacobian counts once a step. */
+/*
+ * Linearize the equations at the run's state once, and factorize Newton's matrix for hg = h gamma (s). Return 0 or the
+ * status. A linearization counts once in a step.
+ */
 static int make_linear(Integrator *run, double hg, const Parameters *p)
 {
     if (run->newton.ready != HERE) {
@@ -19,18 +22,20 @@ static int make_linear(Integrator *run, double hg, const Parameters *p)
     return newton_factor(hg, &run->newton.linear) ? NOT_FINITE : 0;
 }
 
-/* From a new state on. */
+/* Discard the linearization when the state changes. */
 static void forget_linear(Integrator *run) { run->newton.ready = 0; }
 
 #include "../both/rodas5p.h"
 
-/* Shares of a step, in their order, at which it is evaluated. */
+/* Fractions of a step, ascending, at which the method evaluates the equations. */
 static const double rodas5p_error_nodes[] = {0.0, 0.4095798393397535, 0.4288403609558664, 0.6358126895828704,
     0.9769306725060716, 1.0};
 
+/* Weights of the stages for h times the rates of the dense output at the beginning of a step. */
 #define RODAS5P_BEGINS 25.948786856663858, -2.5579724845846235, 10.433815404888879, -2.3679251022685204, \
     0.524948541321073, 1.1241088310450404, 0.4272876194431874, -0.17202221070155493
 
+/* Compute the dense output of order 4 of a step from its stages. */
 static int rodas5p_dense(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
@@ -50,6 +55,7 @@ static int rodas5p_dense(Integrator *run, const Parameters *p, Step *step)
     return 0;
 }
 
+/* Compute the state y at fraction s of a step from its dense output. */
 static void rodas5p_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
@@ -57,6 +63,7 @@ static void rodas5p_interpolate(const Integrator *run, const Step *step, double 
         y[i] = run->y[i] + s * (d[0][i] + (1.0 - s) * (d[1][i] + s * (d[2][i] + s * d[3][i])));
 }
 
+/* The Rosenbrock method rodas5p. */
 static const Method rodas5p = {.name = "rodas5p",
     .try = rodas5p_try,
     .dense = rodas5p_dense,

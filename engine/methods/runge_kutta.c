@@ -1,14 +1,16 @@
 /*
- * Explicit Runge-Kutta methods of which nothing but their coefficients is here: a new one is a Tableau, its source, and
- * a line of METHODS. The last stage lies at the step's end, at which rates are known once more behind all stages.
+ * Explicit Runge-Kutta methods that are defined by their coefficients: a new method is a Tableau, its source, and a
+ * line of METHODS. The last stage is at the end of the step, where rates are evaluated once more after all stages.
  */
 #include "../both/runge_kutta.h"
 
+/* Compute a step of length h by the tableau of the method, with its error. */
 static int tableau_try(Integrator *run, double h, const Parameters *p, Step *step)
 {
     return runge_kutta_try(run, step->method->tableau, h, p, step);
 }
 
+/* Compute the dense output of a step by the tableau of the method. */
 static int tableau_dense(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;
@@ -16,6 +18,7 @@ static int tableau_dense(Integrator *run, const Parameters *p, Step *step)
     return 0;
 }
 
+/* Compute the state y at fraction s of a step: y0 + s (d0 + u (d1 + s (d2 + u d3))), u = 1 - s. */
 static void tableau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     const double u = 1.0 - s;
@@ -24,16 +27,17 @@ static void tableau_interpolate(const Integrator *run, const Step *step, double 
             + u * step->dense[3][i])));
 }
 
+/* Fields of a Method that is defined by a tableau. */
 #define BY_TABLEAU .try = tableau_try, .dense = tableau_dense, .interpolate = tableau_interpolate, .degree = 4, \
     .turned = 0xa
 
-/* In absolute coordinates Baumgarte's terms keep the rows. */
+/* The classical method of order 4, for fixed steps. In the full formulation Baumgarte's terms stabilise it. */
 static const double rk4_error_nodes[] = {0.0, 0.5, 1.0};
 static const Method rk4 = {.name = "rk4", BY_TABLEAU, .tableau = &classical, .stages = RK4_STAGES, .lane = BY_RK4,
     .drifts = !TREE, .power = 1.0 / 4.0, .unstable = 2.8, .bounded = 2.5, .error_nodes = rk4_error_nodes,
     .n_error_nodes = COUNT_OF(rk4_error_nodes)};
 
-/* A decaying mode grows from h rho = 3.3 on. */
+/* The method of order 5 of Dormand and Prince. A decaying mode grows for h rho > 3.3. */
 static const double dopri5_error_nodes[] = {0.0, 0.3, 0.8, 8.0 / 9.0, 1.0};
 static const Method dopri5 = {.name = "dopri5", BY_TABLEAU, .tableau = &dormand_prince, .stages = DOPRI5_STAGES,
     .lane = BY_DOPRI5, .power = 1.0 / 5.0, .unstable = 3.3, .bounded = 2.7, .error_nodes = dopri5_error_nodes,

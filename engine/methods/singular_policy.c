@@ -1,54 +1,63 @@
 /*
- * Steps that come near a singular position (motion/continuation.c). Off the constraints, where stages lie, the
- * right-hand side may be continued in more than one way, and a method has its order if it meets one of them in all of a
- * step. So a step is first tried as ever, and where it meets such a position again with all stages brought back onto
- * the constraints; where that cannot be had, as if nobody had looked.
+ * Steps near a singular position (motion/continuation.c). Off the constraints, where stages lie, the right-hand side
+ * can be continued in several ways; a method keeps its order only if the whole step uses one of them. A step is first
+ * tried with detection. Near a singular position it is repeated with all stages projected onto the constraints, or, if
+ * that fails, without any treatment.
  */
 #if CONTINUES
-enum { MOST_SKIPPED = 6 }; /* its power of two: steps for which nobody looks, once some were in vain */
+enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without detection after failed attempts */
 
-static void set_singular_policy(Integrator *run, int way)
+/* Set the policy near singular positions and its thresholds in the discrete state. */
+static void set_singular_policy(Integrator *run, int policy)
 {
-    run->discrete.singular_policy = way;
-    run->discrete.least = way == SINGULAR_IGNORE ? NEARLY_SINGULAR : NEARBY;
-    run->discrete.least_size = way == SINGULAR_IGNORE ? VANISHING : NEARBY;
+    run->discrete.singular_policy = policy;
+    run->discrete.least = policy == SINGULAR_IGNORE ? NEARLY_SINGULAR : NEARBY;
+    run->discrete.least_size = policy == SINGULAR_IGNORE ? VANISHING : NEARBY;
 }
 
-/* Before a step is tried. */
+/* Set the policy of a new step before its first attempt: detection, unless steps without detection are due. */
 static void begin_singular_policy(Integrator *run)
 {
     set_singular_policy(run, run->near.unlooked ? SINGULAR_IGNORE : SINGULAR_DETECT);
 }
 
-/* Once it was, with this status: whether it is to be tried again, another way. */
+/*
+ * Return whether a step with this status must be repeated with another policy, which is set; otherwise prepare the
+ * next.
+ */
 static int next_singular_policy(Integrator *run, int status)
 {
-    const int way = run->discrete.singular_policy;
+    const int policy = run->discrete.singular_policy;
     if (status == NEAR) {
-        set_singular_policy(run, way == SINGULAR_DETECT ? SINGULAR_PROJECT : SINGULAR_IGNORE);
+        set_singular_policy(run, policy == SINGULAR_DETECT ? SINGULAR_PROJECT : SINGULAR_IGNORE);
         return 1;
     }
-    if (way != SINGULAR_IGNORE)
-        set_singular_policy(run, way == SINGULAR_DETECT ? SINGULAR_CONTINUE : SINGULAR_PROJECT_OR_IGNORE);
-    if (way != SINGULAR_IGNORE) {
+    if (policy != SINGULAR_IGNORE)
+        set_singular_policy(run, policy == SINGULAR_DETECT ? SINGULAR_CONTINUE : SINGULAR_PROJECT_OR_IGNORE);
+    if (policy != SINGULAR_IGNORE) {
         run->near.in_vain = 0;
     } else if (run->near.unlooked) {
         run->near.unlooked--;
     } else {
-        run->near.in_vain += run->near.in_vain < MOST_SKIPPED;
+        run->near.in_vain += run->near.in_vain < MAX_SKIPPED_LOG2;
         run->near.unlooked = (1L << run->near.in_vain) - 1;
     }
     return 0;
 }
 
-/* After a step that others have tried, and that met none. */
+/* Reset the policy after a step computed in lanes that met no singular position. */
 static inline void reset_singular_policy(Integrator *run)
 {
     begin_singular_policy(run);
     next_singular_policy(run, 0);
 }
 #else
+/* Do nothing: the scene does not continue its motion past singular positions. */
 static inline void reset_singular_policy(Integrator *run) { (void)run; }
+
+/* Do nothing: the scene does not continue its motion past singular positions. */
 static void begin_singular_policy(Integrator *run) { (void)run; }
+
+/* Return 0: no step is repeated for a singular position. */
 static int next_singular_policy(Integrator *run, int status) { return (void)run, (void)status, 0; }
 #endif

@@ -1,11 +1,14 @@
 /*
- * One attempted step of a method that looks ahead: how near it came to what may end it, its tolerances, and its
- * end, brought back onto the constraints.
+ * Parts of one tried step of any method: values at its stages, event functions, error weights, and its end, which is
+ * projected onto the constraints.
  */
-#define ROWS_ROUNDED 2e-9  /* relative distance that may be rounding near a singular position */
-enum { MAX_STRAYED = 4 }; /* attempts of a step that are refused for that */
+#define ROWS_ROUNDED 2e-9  /* relative distance from the constraints that may be rounding near a singular position */
+enum { MAX_STRAYED = 4 }; /* attempts of a step rejected for their distance from the constraints */
 
-/* Not negative while things go on as they are; NaN: does not act. */
+/*
+ * Return event function k at a state: non-negative while the discrete state stays as it is, NaN if it is inactive.
+ * Order: contacts, switching functions, friction elements, user-defined events.
+ */
 static double event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
@@ -19,7 +22,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 
-/* All of them. */
+/* Evaluate all event functions at a state into out (N_EVENT_FUNCTIONS). */
 static void evaluate_event_functions(const DiscreteState *discrete, const RhsOutputs *rhs, double *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -30,27 +33,29 @@ static void evaluate_event_functions(const DiscreteState *discrete, const RhsOut
         out[k] = event_function(discrete, rhs, k);
 }
 
-/* The tolerance of a step, as a share; 0 where its length is given. */
+/* Return the relative tolerance of the steps of a run, 0 for fixed steps. */
 static double tolerance_of(const Integrator *run)
 {
     return run->control.fixed > 0.0 ? 0.0 : 1.0 / run->norm.inverse_scale[2 * N_X - 1];
 }
 
-/* What the stages saw of one margin, or of another number: the first's, and how far apart the others' are. */
+/* Values of one event function, or another seen value, at the stages of a step: first value and stride. */
 typedef struct {
     const double *first;
-    int apart;
+    int stride;
 } StageValues;
 
+/* Return the values number k, an event function or SEEN_..., of all stages of a step. */
 static StageValues stage_values(const Step *step, int k)
 {
     return step->seen_lane ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
         : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_SEEN)};
 }
 
-/* That of the i-th stage that was seen. */
-static double stage_value(StageValues of, int i) { return of.first[i * of.apart]; }
+/* Return the value of the i-th stage. */
+static double stage_value(StageValues of, int i) { return of.first[i * of.stride]; }
 
+/* Discard what is stored of the stages of a step. */
 static void forget_stages(Step *step)
 {
     step->n_seen = 0;
@@ -71,7 +76,7 @@ static void forget_stages(Step *step)
     }
 }
 
-/* What a stage at `node` saw. */
+/* Store event functions, forces and gap rates of a stage at fraction `node` of a step. */
 static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rhs, double node)
 {
     double *const seen = step->seen[step->n_seen];
@@ -88,7 +93,7 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
     }
 }
 
-/* Where a stage was, if something is watched. */
+/* Extend the range of the state in a step by a stage y, if functions are watched. */
 static void record_stage_state(Step *step, const double *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
@@ -99,7 +104,10 @@ static void record_stage_state(Step *step, const double *y)
 
 #include "../both/error_weights.h"
 
-/* The step that closes the rows at a state, if there is one. */
+/*
+ * Compute the corrections dq, dv that close the constraints at a state, if `open`. *worst: the largest residual. Return
+ * whether the corrections are finite.
+ */
 static int can_close(Integrator *run, int open, double t, const double *y, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
@@ -111,7 +119,10 @@ static int can_close(Integrator *run, int open, double t, const double *y, const
 #include "../both/distance.h"
 #include "singular_policy.c"
 
-/* What follows begins with a step as long as fitted when the like of it began before: *known, 0 if it never did. */
+/*
+ * Start the next step with the length that fitted after the previous event of this kind, *known (s, 0: none yet), which
+ * that step then updates. rough: order of the error of such a step, 0: that of the method.
+ */
 static void set_first_length(Integrator *run, double *known, double rough)
 {
     if (*known > 0.0)
@@ -120,37 +131,41 @@ static void set_first_length(Integrator *run, double *known, double rough)
     run->control.rough = rough;
 }
 
-/* Whether the next step is the first one at a side of a corner. */
+/* Return whether the next step is the first one after a switching point. */
 static inline int begins_at_switch(const Integrator *run)
 {
     return run->control.first && run->control.first >= &run->control.after_switch[0][0];
 }
 
-/* The next step's length; that of the step that is tried now; that of the last one up to where it ended. */
+/* Set the length of the next step, s. */
 static void set_length(Integrator *run, double h) { run->control.h = h; }
+
+/* Set the length of the present attempt, s. */
 static inline void set_attempt(Integrator *run, double h) { run->control.attempt.h = h; }
+
+/* Store the length of the last step up to its end, s. */
 static void set_last_step(Integrator *run, double h) { run->control.last_step = h; }
 
-/* The stiff method's length from before an event says nothing about what follows. */
+/* Discard the stored length of the stiff method: it does not apply after an event. */
 static void forget_stiff_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
-static int drifts(const Integrator *run); /* whether terms of the equations keep the rows instead (methods.c) */
+static int drifts(const Integrator *run); /* methods/methods.c */
 
-/* Back onto the rows, if that is how they are kept. */
+/* Project a state y onto the constraints, unless Baumgarte's terms stabilise them. */
 static void project_if_needed(Integrator *run, double t, double *y, const Parameters *p)
 {
     if (!drifts(run))
         project_rows(run, t, y, p);
 }
 
-/* Back onto everything that is held. */
+/* Project a state y onto the constraints and the closed contacts. */
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
     project_if_needed(run, t, y, p);
     hold_contacts(run, t, y, p);
 }
 
-/* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
+/* Apply the impulse of a drive whose rate jumps, and add its energy to the work of the drives. */
 static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 {
     const double before = kinetic_energy(run, p);
@@ -158,14 +173,17 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
     run->y[2 * N_X] += kinetic_energy(run, p) - before;
 }
 
-/* Whether a step's error is no number; whether it is too large. */
+/* Return whether the error of a step is not finite. */
 static int is_not_a_number(const Integrator *run, double error) { return (void)run, !isfinite(error); }
+
+/* Return whether the error of a step exceeds the accepted one. */
 static int is_refused(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
- * The end of a step: projected, with its right-hand side. What the projection moves is a part of the error. Where it is
- * many tolerances the estimate has missed something, as the one of Radau may near a singular position, whose Jacobian
- * filters it; the first step of a run also closes the start. What shorter steps do not mend is rounding.
+ * Project the end of a step onto the constraints and closed contacts, and evaluate the right-hand side there. A large
+ * projection counts as error of the step: the estimate of Radau, filtered by the Jacobian, may miss it near a singular
+ * position. The first step of a run also closes the start. A distance that shorter steps do not reduce is rounding.
+ * Return 0 or the status.
  */
 static int finish_step(Integrator *run, Step *step, const Parameters *p)
 {

@@ -1,10 +1,11 @@
 /*
- * How long a step is by its error, and by which method: the choice between the explicit and the stiff one.
+ * Step-size control, and the choice between the explicit and the stiff method.
  *
- * After a step with the error e, in tolerances, and one with the error e' before it, the next length is
- *     h SAFETY e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power),   power = 1 / (order of the estimate + 1),
- * the PI controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer, G. Wanner,
- * Solving ODEs II (1996), section IV.2. Gustafsson recommends the exponents 0.7 and 0.4 for explicit methods.
+ * After a step with the error e, in tolerances, and one with the error e' before it, the next length is h SAFETY
+ * e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power), power = 1 / (order of the estimate + 1). This is the PI
+ * controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer, G. Wanner, Solving
+ * ODEs II (1996), section IV.2. Gustafsson recommends the exponents 0.7 and 0.4 for explicit methods.
+ *
  * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
  * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
  */
@@ -14,50 +15,51 @@
 #define LAST_ERROR_EXPONENT 0.2 /* proportional gain */
 #define MIN_LAST_ERROR 1e-4     /* tolerances: e' is at least as large, also before the first step [1] */
 #define MIN_ERROR 1e-12         /* tolerances: e is at least as large */
-#define MIN_GROWTH 0.3          /* least ratio of the lengths of two accepted steps; 0.333 in [1] */
+#define MIN_GROWTH 0.3          /* smallest ratio of the lengths of two accepted steps; 0.333 in [1] */
 #define MAX_GROWTH 6.0          /* largest ratio [1] */
-#define MAX_GROWTH_EVENTS 2.0   /* where a function that is watched may vanish in the step */
-#define MAX_GROWTH_FIRST 5.0    /* of a first step after an event: the length kept for the next such event */
+#define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a watched function may have a zero in the step */
+#define MAX_GROWTH_FIRST 5.0    /* largest ratio for the stored length of first steps after an event */
 #define STABLE_GROWTH 1.1       /* largest ratio of the next length to the longest stable one */
-#define MIN_SHRINK 0.1          /* least ratio of the lengths of a step that is tried and the refused one before it */
+#define MIN_SHRINK 0.1          /* smallest ratio of the lengths of an attempt and the rejected one before */
 #define MAX_SHRINK 0.9          /* largest ratio */
-#define MIN_ORDER_SEEN 2.0      /* least order that the errors of two refused steps may show */
-#define SHRINK_NEWTON 0.5       /* where Newton's iteration failed [2] */
-#define SHRINK_FAILED 0.25      /* where a stage is not finite */
-#define SHRINK_UNRESOLVED 0.25  /* where what happens between the stages is not resolved */
-#define FLIGHT_STEP_SLACK 1.5        /* times stride(): a longer step is refused */
-#define SHRINK_FLIGHT_STEP 0.5       /* and tried again with this share of its length */
-#define TRANSIENT_PART 0.5          /* of the part of a step up to a pulse that it missed: the next length */
-#define MIN_PARTING 0.1         /* of a step: a contact that ends sooner does not change its length */
+#define MIN_ORDER_SEEN 2.0      /* smallest order inferred from the errors of two rejected attempts */
+#define SHRINK_NEWTON 0.5       /* ratio if Newton's iteration failed [2] */
+#define SHRINK_FAILED 0.25      /* ratio if a stage is not finite */
+#define SHRINK_UNRESOLVED 0.25  /* ratio if the motion between the stages is not resolved */
+#define FLIGHT_STEP_SLACK 1.5        /* times flight_step_limit(): longer steps are rejected */
+#define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
+#define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
+#define MIN_PARTING 0.1         /* of a step: an earlier separation does not shorten it */
 enum { PATIENCE = 8, MAX_PATIENCE = 4096,
-    WORTHWHILE = 400 /* steps of a method that lasted: the next return to it is as easy as the first */,
-    RATE_ITERATIONS = 5, ASKED_AGAIN = 24 /* steps until the explicit method is considered again */,
-    MAX_AGAINST = 3 /* steps in a row against the explicit method, until the stiff one takes over */,
+    WORTHWHILE = 400 /* steps with a method after which the next return to it is as easy as the first */,
+    RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
+    MAX_AGAINST = 3 /* successive steps against the explicit method until the change */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
-    SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
-#define FALLING 0.7   /* of a film's error, that is left in a shorter step at most if it is no rounding */
-#define FINE 1e-9     /* of a run: in a step as short nothing is looked for that is shorter still */
-#define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
-#define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
-#define PAST 1.05    /* of the time to the end of a contact, that a step takes */
-#define FLIGHT 2.0    /* times that a journal takes to cross its bearing, that a step may take */
-#define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
-#define STEEPEST 30.0 /* power of a step's length, as which its error may be seen to grow */
-#define FADES 0.95    /* what is left of that power after a step */
+    MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
+#define FALLING 0.7   /* largest ratio of the film errors of a shorter and a longer step; larger ones are rounding */
+#define FINE 1e-9     /* of the times: in shorter steps no transients are searched */
+#define WORTH 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
+#define WORKS 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
+#define PAST 1.05    /* of the estimated time to a separation: length of a step that ends after it */
+#define FLIGHT 2.0    /* of the time in which a journal crosses its bearing: longest step */
+#define SLACK 2.5     /* h rho below which the explicit method is cheaper */
+#define STEEPEST 30.0 /* largest order of error growth inferred from two steps */
+#define FADES 0.95    /* factor on that order after each step */
 
-/* The same method here: a run may have begun in another library of the same texts (runtime/loading/behind.py). */
+/* Return the method of the same name in this library: the run may have begun in another library of the same code. */
 static const Method *own_method(const Method *method)
 {
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
+/* Let the methods of a run refer to this library. */
 static void relink_choice(Integrator *run)
 {
     run->choice.method = own_method(run->choice.method);
     run->choice.implicit = own_method(run->choice.implicit);
 }
 
-/* Begin with a method (gudgeon_method), and the stiff one that the run may change to; 0: it may not. */
+/* Start with a method (gudgeon_method) and the stiff method to which the run may change, 0: none. */
 static void start_choice(Integrator *run, int method, int automatic)
 {
     run->choice.method = METHODS[method];
@@ -66,7 +68,7 @@ static void start_choice(Integrator *run, int method, int automatic)
     run->choice.patience = automatic && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
 }
 
-/* fixed: the length of all steps, s; 0: errors choose it. */
+/* Start the step-size control; fixed: length of all steps, s, 0: errors determine it. */
 static void start_control(Integrator *run, double fixed)
 {
     run->control.fixed = run->control.h = fixed;
@@ -75,7 +77,10 @@ static void start_control(Integrator *run, double fixed)
     run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
 }
 
-/* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
+/*
+ * Change between the explicit and the stiff method. A return to the explicit method that did not last makes the next
+ * return harder.
+ */
 static void change_method(Integrator *run)
 {
     const int stiff = run->choice.method->stiff;
@@ -89,9 +94,9 @@ static void change_method(Integrator *run)
 }
 
 /*
- * rho: the largest rate, 1/s, with which right-hand sides differ near the state, by power iteration with differences as
- * in B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326. Stages of a stiff method
- * do not see a fast mode that is at rest; an explicit step is unstable by it all the same. 0: it is not known.
+ * Return rho, the largest rate of the motion near the state in 1/s, by power iteration with differences; 0: unknown.
+ * The method is that of B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326.
+ * Stages of a stiff method do not show a fast mode at rest, which makes an explicit step unstable.
  */
 static double largest_rate(Integrator *run, const Parameters *p)
 {
@@ -102,10 +107,10 @@ static double largest_rate(Integrator *run, const Parameters *p)
     for (int n = 0; n <= RATE_ITERATIONS; n++) {
         double size = 0.0;
         for (int k = 2 * N_X; k < FIRST_STATE; k++)
-            way[k] = 0.0; /* on works nothing depends */
+            way[k] = 0.0; /* no rate depends on the works */
         for (int k = 0; k < N_Y; k++)
             size = max_of(size, fabs(way[k]) * run->norm.weight[k]);
-        growth[n % 2] = size; /* two by two: a vibration turns from positions to velocities and back */
+        growth[n % 2] = size; /* over two iterations: a vibration alternates between positions and velocities */
         for (int k = 0; k < N_Y; k++)
             y[k] = run->y[k] + way[k] / size;
         if (!(size > 0.0 && isfinite(size)) || rates(run, run->t, y, p, dy, &rhs))
@@ -116,10 +121,12 @@ static double largest_rate(Integrator *run, const Parameters *p)
     return sqrt(growth[0] * growth[1]);
 }
 
-/* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
+/*
+ * Choose the method of the next step: the explicit one until stability limits its steps, the stiff one while it would.
+ */
 static void choose_method(Integrator *run, const Parameters *p)
 {
-    /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
+    /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
         && run->control.h < WORTH * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
@@ -133,24 +140,24 @@ static void choose_method(Integrator *run, const Parameters *p)
     if (rate * run->control.h < SLACK)
         change_method(run);
     else
-        run->choice.n_against = -ASKED_AGAIN;
+        run->choice.n_against = -RECONSIDER_STEPS;
     run->choice.rate = rate;
 }
 
-/* Of which power of a step's length its error is: the method's, or less where something has just begun. */
+/* Return the order of a step's error in its length: that of the method, or lower where a force has just begun. */
 static double order_of(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
     return run->control.first && run->control.rough > 0.0 ? min_of(run->control.rough, order) : order;
 }
 
-/* x^n to 1e-4: lengths need no more. */
+/* Return x^n with a relative error of 1e-4, which is enough for step lengths. */
 static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
 
-/* A step's error, in tolerances, from which a length can be told. */
+/* Return the error norm of a step, bounded from below so that a length can be computed from it. */
 static double limited_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
 
-/* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
+/* Return the factor on the length of a rejected step for the next attempt. Two successive errors show their order. */
 static double shrink(Integrator *run, const Step *step)
 {
     Attempt *now = &run->control.attempt;
@@ -165,7 +172,7 @@ static double shrink(Integrator *run, const Step *step)
     return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * rough_power(step->error, -1.0 / order)));
 }
 
-/* What would have fitted in place of the first step since something changed. */
+/* Store the length that would have fitted for the first step after an event. */
 static void record_first_step(Integrator *run, const Step *step)
 {
     if (!run->control.first)
@@ -180,8 +187,8 @@ static void record_first_step(Integrator *run, const Step *step)
 }
 
 /*
- * By which share a step may become longer, as errors were seen to grow from an accepted step to the longer one that was
- * refused before it: of stiff motion that can be a far higher power than the method's, and would be refused again.
+ * Return the largest factor on the length of the next step by the order of error growth seen in rejected attempts;
+ * INFINITY: no limit. In stiff motion that order can be far higher than the method's.
  */
 static double observed_growth(Integrator *run, const Step *step, int again)
 {
@@ -193,10 +200,13 @@ static double observed_growth(Integrator *run, const Step *step, int again)
     return steep * step->method->power > 1.0 ? SAFETY * rough_power(limited_error(step), -1.0 / steep) : INFINITY;
 }
 
-/* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
+/*
+ * Set the length of the next step after an accepted one. again: after a rejection; whole: the end of the run did not
+ * cut the step.
+ */
 static void next_length(Integrator *run, const Step *step, int again, int whole)
 {
-    if (step->method->own_length) { /* as far as one may look ahead */
+    if (step->method->own_length) { /* up to the largest length of the next attempt */
         run->control.h = again ? step->h : length_ahead(run);
         return;
     }
@@ -217,8 +227,8 @@ static void next_length(Integrator *run, const Step *step, int again, int whole)
 }
 
 /*
- * A step that ends close behind the end of a contact, if it would reach beyond: across it a force is no power series.
- * What is left of the contact is told by its depth and rate.
+ * Return a step length h, shortened to end just after the separation of a contact if h would reach beyond. The force is
+ * not smooth there. The time to separation follows from penetration and rate.
  */
 static double limit_by_separation(const Integrator *run, double h)
 {
@@ -231,7 +241,9 @@ static double limit_by_separation(const Integrator *run, double h)
     return h;
 }
 
-/* No longer than a journal takes that crosses its bearing as it leaves the wall, or a corner its guide. */
+/*
+ * Return a step length h of at most FLIGHT times the time in which a journal that leaves the wall crosses its bearing.
+ */
 static double limit_by_flight(const Integrator *run, double h, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -244,8 +256,8 @@ static double limit_by_flight(const Integrator *run, double h, const Parameters 
 }
 
 /*
- * A corner of the forces changes the motion little: a length that was just refused is too long behind it, too, whatever
- * fitted behind the like of it before. That the estimate of so long a step is small would be chance.
+ * Return a step length h, limited after a switching point by the length that was just rejected for its error. A
+ * switching point of forces changes the motion little; a small estimate of such a long step would be chance.
  */
 static double limit_by_refused(const Integrator *run, double h)
 {
@@ -254,8 +266,8 @@ static double limit_by_refused(const Integrator *run, double h)
 }
 
 /*
- * What a fixed step has left to the next end of the grid that begins with the run, *end: an event in between does not
- * move it. One that is taken again, to end close behind an event, is as long as control.h has it.
+ * Return the length in s of a fixed step to the next point *end of the grid that begins with the run. An event in
+ * between does not move the grid. A step repeated to end just after an event has the length control.h.
  */
 static double fixed_step_length(Integrator *run, double t_end, double *end)
 {
@@ -274,8 +286,8 @@ static double fixed_step_length(Integrator *run, double t_end, double *end)
 }
 
 /*
- * How long a step towards t_end is tried at first. A fixed one reads at each stage what the state there says: no error
- * tells that branches which are held beyond their ends grow without bounds, as the force of a film does.
+ * Open the attempts at a step towards t_end with its first length. Fixed steps do not freeze branches: without an error
+ * estimate, a branch held beyond its end, as the force of a film, could grow without bound.
  */
 static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
@@ -283,7 +295,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
         h = fixed_step_length(run, t_end, &end);
-        run->discrete.held = DRIVE_IMPULSES; /* at the jump of a drive rows have two rates */
+        run->discrete.held = DRIVE_IMPULSES; /* at the jump of a drive constraints have two rates */
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
         h = limit_by_flight(
@@ -294,7 +306,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
         .lane = run->choice.method->lane, .of_films = INFINITY};
 }
 
-/* Another one, as long as attempt->h. */
+/* Prepare another attempt of length run->control.attempt.h, and return 0. */
 static int again(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
@@ -302,9 +314,9 @@ static int again(Integrator *run)
 }
 
 /*
- * Whether the step that was tried is accepted, `tried` being its status: 0 if not, with what is to be tried next in
- * run->control.attempt. If so, the next one's length is in run->control.h; or *status is what went wrong. Events are
- * not looked for.
+ * Return whether the tried step with status `tried` is accepted, without regard to events. If it is accepted,
+ * run->control.h is the length of the next step, or *status the cause of a failure. If not, run->control.attempt holds
+ * the next attempt.
  */
 static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Step *step, int *status)
 {
@@ -322,7 +334,7 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
     if (fits && !is_film_known(run, step, at_ends)) {
         const double error = film_error(run, step, p);
-        if (!(error > FALLING * now->of_films)) /* it is no rounding */
+        if (!(error > FALLING * now->of_films)) /* not rounding */
             step->error = max_of(step->error, error);
         now->of_films = error > run->control.accept ? error : INFINITY;
     }
@@ -343,17 +355,17 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
-    if (good && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < SHORTENED) {
+    if (good && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < MAX_SHORTENED) {
         now->again = 1;
         count_rejected(run);
         now->h *= SHRINK_UNRESOLVED;
         return again(run);
     }
-    const double pulse = good && now->h > FINE * now->far ? missed_transient(run, step, p) : 0.0;
-    if (pulse > 0.0 && now->shortened++ < SHORTENED) {
+    const double transient = good && now->h > FINE * now->far ? missed_transient(run, step, p) : 0.0;
+    if (transient > 0.0 && now->shortened++ < MAX_SHORTENED) {
         now->again = 1;
         count_rejected(run);
-        now->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * pulse);
+        now->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
         return again(run);
     }
     if (good) {
@@ -375,11 +387,15 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
         *status = tried ? tried : diagnose_stall(run, TOO_SMALL, p);
         return 1;
     }
-    change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
+    change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
     now->h = now->longest;
     return again(run);
 }
 
+/*
+ * Compute one attempt at a step of length run->control.attempt.h, repeated by the policy near singular positions.
+ * Return 0 or the status.
+ */
 static int try_step(Integrator *run, const Parameters *p, Step *step)
 {
     step->method = run->choice.method;
@@ -391,9 +407,10 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
     return status;
 }
 
+/* Close the attempts at a step: one was accepted. */
 static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
-/* Steps as long as run->control.attempt has them, until one is accepted; 0, or what went wrong. */
+/* Try steps until one is accepted; return 0 or the status. */
 static int accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;

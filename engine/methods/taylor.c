@@ -1,32 +1,32 @@
 /*
- * Taylor's method: the motion's own series, of an order that follows from the tolerance, as long as its last terms
- * stay below it and its defect at the end of the step is small. Its polynomial is the interpolant.
- * A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor methods,
- * Experimental Mathematics 14 (2005), section 3.
+ * Taylor's method: the power series of the motion. The tolerance determines the order; the last terms and the defect at
+ * the end of a step limit its length. The polynomial is the dense output. A. Jorba, M. Zou, A software package for the
+ * numerical integration of ODEs by means of high-order Taylor methods, Experimental Mathematics 14 (2005), section 3.
  */
 #if TAYLOR
-#define TAYLOR_EFFORT 0.7 /* orders by e-fold of the tolerance */
-enum { TAYLOR_LEAST = 4 };
+#define TAYLOR_EFFORT 0.7 /* orders per factor e of the tolerance */
+enum { MIN_TAYLOR_ORDER = 4 };
 
 static const double taylor_error_nodes[] = {0.0};
 
-/* By the tolerance of a step, as a share: lengths, angles and speeds have it in common. */
+/* Return the order of the series for a relative tolerance, which lengths, angles and speeds have in common. */
 static int taylor_order(double fraction)
 {
-    const double wanted = ceil(1.0 - TAYLOR_EFFORT * log(fraction));
-    return wanted > TAYLOR_ORDERS ? TAYLOR_ORDERS : wanted < TAYLOR_LEAST ? TAYLOR_LEAST : (int)wanted;
+    const double order = ceil(1.0 - TAYLOR_EFFORT * log(fraction));
+    return order > TAYLOR_ORDERS ? TAYLOR_ORDERS : order < MIN_TAYLOR_ORDER ? MIN_TAYLOR_ORDER : (int)order;
 }
 
+/* Several components of the state in one vector register. */
 typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
-/* A step whose error is known only at its end: a run looks at step->error afterwards. */
+/* Do nothing: for one run, step->error is tested after the step. */
 static void refuse_late(const Integrator *run, const Step *step) { (void)run, (void)step; }
 
-/* The end of a step is made once more: both count as one, as in lanes. */
+/* Subtract the second evaluation at the end of a step: both count as one, as in lanes. */
 static void forget_end(Integrator *run) { count_evaluations(run, -1); }
 
 #include "../both/taylor.h"
 
-/* The series at the state of the run, and how far it is good for; once for all steps that are tried there. */
+/* Compute the series at the state of the run, and the longest step of it, once for all steps tried there. */
 static int taylor_expand(Integrator *run, const Parameters *p)
 {
     if (run->series.ready == HERE)
@@ -40,11 +40,12 @@ static int taylor_expand(Integrator *run, const Parameters *p)
     return 0;
 }
 
+/* Compute a step of at most h by the series, or by dop853 if the series is not finite; the step sets its own length. */
 static int taylor_try(Integrator *run, double h, const Parameters *p, Step *step)
 {
     const int status = taylor_expand(run, p);
     if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
-        step->method = &dop853; /* links in one line: its right-hand sides know a way */
+        step->method = &dop853; /* links in one line: its right-hand side passes singular positions */
         return dop853_try(run, h, p, step);
     }
     const int ended = taylor_step(run, h, p, step);
@@ -52,7 +53,7 @@ static int taylor_try(Integrator *run, double h, const Parameters *p, Step *step
     return ended;
 }
 
-/* The series of a step that was tried in a lane: all that is wanted of it is an end, until somebody looks inside. */
+/* Copy the series of a step computed in a lane into the run, when its dense output is needed. */
 static void taylor_fetch(Integrator *run)
 {
     const double *from = run->series.lane;
@@ -64,7 +65,7 @@ static void taylor_fetch(Integrator *run)
     run->series.ready = HERE;
 }
 
-/* The series in shares of the step: who looks for bounds reads it. */
+/* Compute the coefficients of the series by fractions of the step, which interval bounds need. */
 static int taylor_dense(Integrator *run, const Parameters *p, Step *step)
 {
     double power = step->h;
@@ -76,11 +77,13 @@ static int taylor_dense(Integrator *run, const Parameters *p, Step *step)
     return 0;
 }
 
+/* Compute the state y at fraction s of a step from the series. */
 static void taylor_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     taylor_at(run, s * step->h, y);
 }
 
+/* Taylor's method, which chooses the length of a step itself. */
 static const Method taylor = {.name = "taylor",
     .try = taylor_try,
     .dense = taylor_dense,
@@ -93,16 +96,21 @@ static const Method taylor = {.name = "taylor",
     .n_error_nodes = COUNT_OF(taylor_error_nodes),
     .own_length = 1};
 
-/* The tolerance of a step, as a share, determines the order. */
+/* Set the order of the series from the relative tolerance of a step. */
 static void start_series(Integrator *run, double fraction) { run->series.order = taylor_order(fraction); }
 
-/* From a new state on. */
+/* Discard the series when the state changes. */
 static void forget_series(Integrator *run) { run->series.ready = 0; }
 
-/* How long a step may be that is tried next: far enough to look ahead. */
+/* Return the largest length in s of the next tried step. */
 static double length_ahead(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
 #else
+/* Do nothing: the library has no Taylor method. */
 static inline void start_series(Integrator *run, double fraction) { (void)run, (void)fraction; }
+
+/* Do nothing: the library has no Taylor method. */
 static inline void forget_series(Integrator *run) { (void)run; }
+
+/* Return infinity: the library has no Taylor method. */
 static inline double length_ahead(const Integrator *run) { return (void)run, INFINITY; }
 #endif

@@ -2,40 +2,46 @@
  * The audit of a run: checks of accepted steps by equations that the integration does not use. Each check compares a
  * value with a limit that follows from the tolerance. A value above AUDIT_FAILS limits ends the run (AUDITED).
  *
- * Here are the checks of one state; audit_state is called at the end of each step. methods/audit_step.c checks the
- * inside of steps. The audit changes nothing but its own record.
+ * This file owns the checks of one state; audit_state() calls them at the end of each step. methods/audit_step.c checks
+ * the inside of steps. The audit changes only its own record.
  */
-#define AUDIT_GRAZE 4e-13      /* m: so shallow a contact bears no force worth the name */
+#define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
 #define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
-#define AUDIT_REST 1e-3 /* of a speed that counts: what is slower rests */
-#define AUDIT_ROUNDING 1e-9    /* of the size, or speed: closer than this rows are not known */
-#define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
-#define AUDIT_BALANCE 1e-8     /* of a force on a mass: accelerations that are smaller are known less well */
+#define AUDIT_REST 1e-3 /* of the smallest relevant speed: slower bodies rest */
+#define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
+#define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
+#define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
-#define AUDIT_CLOSED 1024.0    /* roundings that a chain of driven bodies is closed to */
+#define AUDIT_CLOSED 1024.0    /* roundings to which kinematically determined loops are closed */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
-#define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
+#define AUDIT_ZERO 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
 #define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
-/* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
+/* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 
 static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k, const Parameters *p);
 
-/* A number in (0, 1) that looks random: the same in every run. */
+/* Return a pseudo-random number in (0, 1) from a sequence that is the same in every run. */
 static double draw(Audit *audit)
 {
     audit->random = audit->random * 1664525u + 1013904223u;
     return ((audit->random >> 8) + 0.5) / 16777216.0;
 }
 
-/* Whether steps are as long as a tolerance allows. */
+/* Return whether the tolerance controls the step length. */
 static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0.0; }
 
+/* Return the relative tolerance to which the audit refers, that of a fixed step being AUDIT_FIXED. */
 static double audit_tolerance(const Integrator *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
 
+/* Return the size of the mechanism, m. */
 static double size_of(const Integrator *run) { return run->audit.size; }
 
+/*
+ * Record a value of a check that exceeds the largest one so far relative to its limit. A multiple above AUDIT_FAILS
+ * sets the status AUDITED.
+ */
 static void record_larger(Audit *audit, int check, double value, double limit, double t, int where)
 {
     AuditRecord *known = &audit->record[check];
@@ -43,22 +49,23 @@ static void record_larger(Audit *audit, int check, double value, double limit, d
     if (!(multiple > known->worst) && multiple == multiple)
         return;
     *known = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, where};
-    if (multiple == 0.0) /* the first of many: its time says nothing */
+    if (multiple == 0.0) /* one of many zeros: its time is irrelevant */
         *known = (AuditRecord){0.0, 0.0, -1};
     if (!(known->worst <= AUDIT_FAILS))
         audit->status = AUDITED;
 }
 
+/*
+ * Record the value of a check with its limit at time t, if it is the largest so far. where: number of the joint,
+ * constraint equation, body coordinate, switching function or event, -1: none.
+ */
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
     if (!(value <= audit->record[check].worst * limit))
         record_larger(audit, check, value, limit, t, where);
 }
 
-/*
- * The largest violation so far of the rows that each accepted step looks at: closures of the tree, or all rows. What a
- * run begins with, off its constraints, is no fault of its steps.
- */
+/* Check the largest constraint residual of all accepted steps so far. A residual of the start does not count. */
 static void check_closed(Integrator *run)
 {
     if (drifts(run))
@@ -72,7 +79,7 @@ static void check_closed(Integrator *run)
     record(&run->audit, CHECK_position, off, limit, run->t, -1);
 }
 
-/* Positions, and with `rates_too` velocities, of all rows of the motion at a state `all` of all bodies. */
+/* Check the constraint equations, and with `rates_too` their velocities, at a state `all` of all bodies. */
 static void check_rows(Integrator *run, double t, const double *all, int rates_too, const Parameters *p)
 {
     Audit *audit = &run->audit;
@@ -108,8 +115,8 @@ static void check_rows(Integrator *run, double t, const double *all, int rates_t
 
 #if TREE
 /*
- * States of all bodies about h (s) before and after a time, with velocities and accelerations `dy` as they are now.
- * Returns the time between them, to the bit.
+ * Compute the states of all bodies h (s) before and after time t, from velocities and accelerations `dy` at t. Return
+ * the exact difference of both times in s.
  */
 static double states_near(const Integrator *run, double t, const double *y, const double *dy, double h,
     const Parameters *p, double (*near)[N_S])
@@ -130,8 +137,9 @@ static double states_near(const Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Whether rates are not those of the state itself, or small changes of positions change accelerations `a` as much; or,
- * where drives lead chains of bodies near a dead centre, changes of the time as small as roundings of the closures.
+ * Return whether the accelerations `a` of a state are too sensitive to be compared. Reasons: rates continued past a
+ * singular position; changes of positions within rounding that alter `a` by 0.1 `fraction`; driven loops near a dead
+ * centre, where changes of time within rounding do the same.
  */
 static int is_sensitive(Integrator *run, double t, const double *y, const double *a, const double *scale,
     double fraction, const Parameters *p)
@@ -140,7 +148,7 @@ static int is_sensitive(Integrator *run, double t, const double *y, const double
     DiscreteState now = run->discrete;
     RhsOutputs rhs;
     if (motion_here(t, y, &now, p, rate, &rhs))
-        return 1; /* near a singular position rates are continued from both sides of it */
+        return 1; /* near a singular position rates are continued from both sides */
     const double size = size_of(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
@@ -156,9 +164,9 @@ static int is_sensitive(Integrator *run, double t, const double *y, const double
 #endif
 
 /*
- * Accelerations `dy` of the tree against those that follow from the equations of all bodies. The tree's accelerations
- * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). Where second differences say that h is too
- * long, as near a singular position, h is shorter, or nothing is compared. `all`: the state of all bodies.
+ * Check the accelerations `dy` of the reduced formulation against those from the equations of all bodies. Accelerations
+ * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). If second differences show that h is too
+ * long, as near a singular position, h is reduced, or the check is omitted. all: the state of all bodies.
  */
 static void check_accelerations(Integrator *run, double t, const double *y, const double *dy, const double *all,
     const Parameters *p)
@@ -196,7 +204,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
                 worst = off, where = k;
         }
         if (bend < 1e-4) {
-            /* where drives jump the step holds what they were, the bodies have what they are */
+            /* at a jump of a drive the step holds the old branch, the bodies have the new one */
             if (worst > AUDIT_ACCELERATION
                 && (drives_jump(t, all, all + N_Q, p) || is_sensitive(run, t, y, a, scale, worst, p)))
                 return;
@@ -209,7 +217,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
 #endif
 }
 
-/* Open joints at a state do not penetrate. */
+/* Check that open joints do not penetrate at a state. */
 static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
@@ -228,7 +236,7 @@ static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const
     }
 }
 
-/* How far behind its zero an event may be located, s. */
+/* Return the time in s within which an event is located after its zero. */
 static double located_within(const Integrator *run)
 {
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
@@ -239,8 +247,8 @@ static int state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs);
 
 /*
- * Whether switching function k has just jumped to the wrong side at time t inside a step: as many event tolerances
- * before, it was on its side. Its zero is located no better, and a jump is as large there as anywhere.
+ * Return whether switching function k has just jumped to the wrong branch at time t in a step: it was on its branch one
+ * location tolerance earlier. A jump has its full size at once.
  */
 static int has_just_jumped(Integrator *run, Step *step, double t, int k, const Parameters *p)
 {
@@ -251,14 +259,14 @@ static int has_just_jumped(Integrator *run, Step *step, double t, int k, const P
         || run->discrete.branch[k] * rhs.g[k] >= 0.0;
 }
 
-/* Branches that a step holds, at a state inside it: how far each function lies on the wrong side. */
+/* Check the frozen branches at a state inside a step: how far each switching function is on the wrong branch. */
 static void check_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
 {
     if (N_SWITCHES > 0)
         record(&run->audit, CHECK_branch, 0.0, 1.0, t, -1);
     if (t <= run->t + located_within(run))
-        return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
+        return; /* functions that change at one time, as those of one mod, do so one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
@@ -267,14 +275,14 @@ static void check_branches(Integrator *run, Step *step, double t, const double *
             || !is_resolved(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues seen = stage_values(step, N_CLEARANCES + k);
-        for (int n = 0; n < step->n_seen; n++) /* where each step ends at a zero, its magnitude is seen inside alone */
+        for (int n = 0; n < step->n_seen; n++) /* at zeros that end steps the magnitude appears only inside */
             run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(stage_value(seen, n)));
         if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_just_jumped(run, step, t, k, p))
             record(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 
-/* Joints that are open bear no force. */
+/* Check that open joints carry no force. */
 static void check_free(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -1,9 +1,8 @@
+/* The audit at the end of each step (run/audit.c), and the functions that start the audit and report its record. */
+
 /*
- * The audit of a run at the end of each step (audit.c), and the calls that set its level and read its record.
- */
-/*
- * Event i at the end of a step before which `listed` events were recorded: a zero is recorded, and nothing is recorded
- * again and again while the expression is rounding.
+ * Check user-defined event i at the end of a step before which `listed` events were recorded. Each zero must be
+ * recorded, and rounding around zero must not be recorded repeatedly.
  */
 static void check_event(Integrator *run, int i, int listed)
 {
@@ -24,7 +23,9 @@ static void check_event(Integrator *run, int i, int listed)
     audit->crossed[i] = 0;
 }
 
-/* Sides that a step held, at its end: how far each function lies on the wrong side, in how many steps in a row. */
+/*
+ * Check the frozen branches at the end of a step: distance on the wrong branch, and number of successive steps there.
+ */
 static void check_branches_at_end(Integrator *run, const Parameters *p)
 {
     Audit *audit = &run->audit;
@@ -50,7 +51,7 @@ static void check_branches_at_end(Integrator *run, const Parameters *p)
     }
 }
 
-/* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
+/* Check the end of an accepted step, before which `listed` events were recorded. Return 0 or AUDITED. */
 static int audit_state(Integrator *run, int listed, const Parameters *p)
 {
     Audit *audit = &run->audit;
@@ -74,7 +75,7 @@ static int audit_state(Integrator *run, int listed, const Parameters *p)
     return audit->status;
 }
 
-/* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
+/* Start the audit of a run at a level (AUDIT_OFF: none); size: of the mechanism, m. */
 static void start_audit(Integrator *run, int level, double size)
 {
     run->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
@@ -82,7 +83,7 @@ static void start_audit(Integrator *run, int level, double size)
         run->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }
 
-/* Of each check the largest value as a multiple of its limit, < 0: not checked, its time, and where it was. */
+/* Report for each check the largest multiple of its limit (< 0: not checked), its time (s) and its place. */
 static void report_audit(const Integrator *run, double *worst, double *t, int *where)
 {
     for (int k = 0; k < N_CHECKS; k++) {

@@ -1,14 +1,13 @@
-/*
- * What a long computation asks on its way: whether it is still wanted, and whether it advances at all.
- */
+/* Polling of the caller of a long computation, and the test whether time still advances (run/cancellation.h). */
 #include "cancellation.h"
 #include <time.h>
 
-enum { MOST_UNSEEN = 64, MONITOR_TIMES = 3, LEAST_DOUBLED = 1 << 18 };
-#define TOO_MANY 1e8   /* steps still to make, beyond which one that crawls is given up */
-#define HOPELESS 1e11  /* the same, whatever the pace was before */
-#define SHORT_STEP_RATIO 1e-3     /* of the pace before, that is a crawl */
+enum { MAX_POLL_AFTER = 64, MONITOR_TIMES = 3, MIN_DOUBLED_STEPS = 1 << 18 };
+#define MAX_STEPS_LEFT_SLOW 1e8   /* steps left at which a run that became slow is ended */
+#define MAX_STEPS_LEFT 1e11  /* steps left at which any run is ended */
+#define SHORT_STEP_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
+/* Return the present time of the clock, s. */
 double seconds_now(void)
 {
     struct timespec now;
@@ -16,7 +15,10 @@ double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Reads the clock and asks if a question is due; whether to give up. What costs much is looked at more often. */
+/*
+ * Ask the caller whether to stop, if the interval has passed, and return whether the computation must stop now. The
+ * number of right-hand sides between readings of the clock adapts to their cost.
+ */
 int poll_cancellation(Cancellation *x)
 {
     x->count = 0;
@@ -26,7 +28,7 @@ int poll_cancellation(Cancellation *x)
         const double now = seconds_now(), since = now - x->last;
         x->last = now;
         if (since < 0.1 * x->every)
-            x->poll_after = x->poll_after < MOST_UNSEEN / 2 ? 2 * x->poll_after + 1 : MOST_UNSEEN;
+            x->poll_after = x->poll_after < MAX_POLL_AFTER / 2 ? 2 * x->poll_after + 1 : MAX_POLL_AFTER;
         else if (since > 0.5 * x->every)
             x->poll_after = (x->poll_after + 1) / 2;
         if (now >= x->next || since < 0.0) {
@@ -40,20 +42,22 @@ int poll_cancellation(Cancellation *x)
     return x->stop && !x->hold;
 }
 
+/* Start polling `ask(caller)` every `every` seconds; ask NULL: never. */
 void start_cancellation(Cancellation *x, int (*ask)(void *), void *caller, double every)
 {
     *x = (Cancellation){.ask = ask, .caller = caller, .every = every};
 }
 
-/* How many steps are left at the pace of the last ones. */
+/* Return the number of steps left until t_end at the gain of the last steps. */
 static double steps_left(const ProgressMonitor *x, double t, double t_end)
 {
     return (t_end - t) / x->gain * MONITOR_STEPS;
 }
 
 /*
- * Whether something outruns all steps: where a drive grows at least exponentially, twice as many of them gain no more
- * time than a doubling did some doublings ago (methods may change meanwhile), so that so many doublings are left.
+ * Return whether steps shrink so fast that the end is never reached, as where a drive grows exponentially: doubling the
+ * number of steps gains no more time than a doubling DOUBLINGS ago. The extrapolated number of steps must exceed
+ * MAX_STEPS_LEFT.
  */
 static int grows_exponentially(ProgressMonitor *monitor, double t, double t_end)
 {
@@ -66,14 +70,14 @@ static int grows_exponentially(ProgressMonitor *monitor, double t, double t_end)
         x->gain[k - 1] = x->gain[k];
     x->gain[DOUBLINGS - 1] = gain;
     x->next = x->next ? 2 * monitor->steps : 1024;
-    /* its steps do not become longer again meanwhile */
+    /* steps have not become longer again */
     const int slows = monitor->gain * steps <= 2.0 * gain * MONITOR_STEPS;
-    return steps >= LEAST_DOUBLED && gain <= earlier && slows && steps * exp2((t_end - t) / gain) > HOPELESS;
+    return steps >= MIN_DOUBLED_STEPS && gain <= earlier && slows && steps * exp2((t_end - t) / gain) > MAX_STEPS_LEFT;
 }
 
 /*
- * Once a step, at its end: whether the run no longer advances. Steps that become longer again are given time, however
- * short they are: a fast motion that dies away is no standstill.
+ * Return, once at the end of each step, whether the run no longer advances. Short steps that become longer again are
+ * given time: a fast motion may decay.
  */
 int has_stalled(ProgressMonitor *x, double t, double t_end)
 {
@@ -90,8 +94,8 @@ int has_stalled(ProgressMonitor *x, double t, double t_end)
     if (x->steps == 1)
         return 0;
     const double left = steps_left(x, t, t_end);
-    x->crawls = left > TOO_MANY && x->gain * (double)x->good < SHORT_STEP_RATIO * x->sum;
-    if (left > HOPELESS || x->crawls) {
+    x->crawls = left > MAX_STEPS_LEFT_SLOW && x->gain * (double)x->good < SHORT_STEP_RATIO * x->sum;
+    if (left > MAX_STEPS_LEFT || x->crawls) {
         x->slow = x->gain > 1.1 * before ? 0 : x->slow + 1;
     } else {
         x->slow = 0;
@@ -101,7 +105,7 @@ int has_stalled(ProgressMonitor *x, double t, double t_end)
     return x->slow >= MONITOR_TIMES;
 }
 
-/* How often in a row creeps() will do no more than count. */
+/* Return how many of the next calls of has_stalled() only count. */
 long steps_before_check(const ProgressMonitor *x)
 {
     const long to_doubling = x->doubling.next - x->steps - 1;

@@ -1,25 +1,23 @@
-/*
- * Whom a long computation asks (Cancellation), and its pace: whether it advances at all (cancellation.c).
- */
+/* Cancellation of a long computation by its caller, and the monitor of its progress. */
 #ifndef GUDGEON_CANCELLATION_H
 #define GUDGEON_CANCELLATION_H
 
 enum { MONITOR_STEPS = 32768, DOUBLINGS = 4, GROWTH_DOUBLINGS = 2 };
 
-/* What doubling the number of steps gained the last times (s), and the number at which it is looked at next. */
+/* Time gained (s) by the last doublings of the number of steps, and the number of steps of the next check. */
 typedef struct {
     double t, gain[DOUBLINGS];
     long next;
 } Doubling;
 
 /*
- * The pace of a run: what MONITOR_STEPS of its steps gain, what they gained on the average while it advanced, and how
- * often in a row it did not.
+ * The monitor of a run's progress: time gained by the last MONITOR_STEPS steps, sum and number of gains while the run
+ * advanced, and number of successive checks without progress.
  */
 typedef struct {
-    double t, gain, sum; /* s: where these steps began; what the last ones gained, and the good ones together */
+    double t, gain, sum; /* s: start of these steps; gain of the last ones; sum of good gains */
     long steps, good;
-    /* how often in a row it was too slow; whether far slower than it was before, or GROWTH_DOUBLINGS */
+    /* number of successive slow checks; whether far slower than before, or GROWTH_DOUBLINGS */
     int slow, crawls;
     Doubling doubling;
 } ProgressMonitor;
@@ -29,11 +27,13 @@ void start_cancellation(Cancellation *x, int (*ask)(void *), void *caller, doubl
 int has_stalled(ProgressMonitor *x, double t, double t_end);
 long steps_before_check(const ProgressMonitor *x);
 
-/* What is under way comes to its end before a request to stop counts; from now on it counts at once. */
+/* Defer a request to stop until the present operation is complete. */
 static inline void defer_stop(Cancellation *x) { x->hold = 1; }
+
+/* Obey requests to stop at once from now on. */
 static inline void allow_stop(Cancellation *x) { x->hold = 0; }
 
-/* Once each right-hand side: whether to give up. */
+/* Count a right-hand side, poll the caller if due, and return whether the computation must stop. */
 static inline int given_up(Cancellation *x) { return ++x->count > x->poll_after && poll_cancellation(x); }
 
 #endif

@@ -1,10 +1,13 @@
 /*
- * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
- * mode; a drive whose rate jumps moves the linkage by an impulse.
+ * Changes at an event: contacts begin or end, switching functions change branch, friction changes mode. A drive whose
+ * rate jumps moves the linkage by an impulse.
  */
-#define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
+#define ROUGH 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 
-/* Sides of all corners that act; the one that was just crossed keeps what it was given. */
+/*
+ * Update the branches of all active switching functions except `crossed` (-1: none), which was just switched, and
+ * evaluate the right-hand side.
+ */
 static int update_branches(Integrator *run, int crossed, const Parameters *p)
 {
     return update_branches_at(run, run->t, run->y, run->dy, &run->rhs, crossed, p);
@@ -12,9 +15,9 @@ static int update_branches(Integrator *run, int crossed, const Parameters *p)
 
 #if N_USER_EVENTS && N_SWITCHES
 /*
- * Sides of switches as they are right after an event: functions that jump at one time, as a mod of a mod, do so at
- * zeros of several switches, and between these event functions have values that they never take. The switch `crossed`
- * keeps its own.
+ * Update the branches just after an event, except that of the switching function `crossed`. Functions that jump at one
+ * time, as a mod of a mod, have zeros of several switching functions there; between these zeros event functions have
+ * values that they never take.
  */
 static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
 {
@@ -30,7 +33,7 @@ static int update_branches_after_event(Integrator *run, int crossed, const Param
     return rates(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 
-/* Whether event function i keeps its sign at a zero, for switches have changed their sides there since `before`. */
+/* Return whether event function i keeps its sign at a zero, because branches have changed there since `before`. */
 static int keeps_sign(Integrator *run, int i, const double *before, const Parameters *p)
 {
     double value[N_USER_EVENTS];
@@ -39,16 +42,20 @@ static int keeps_sign(Integrator *run, int i, const double *before, const Parame
         && run->discrete.event_sign[i] * value[i] > 0.0;
 }
 #else
+/* Return 0: the scene has no user-defined events with switching functions. */
 static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
 {
     return (void)run, (void)crossed, (void)p, 0;
 }
+
+/* Return 0: the scene has no user-defined events with switching functions. */
 static int keeps_sign(Integrator *run, int i, const double *before, const Parameters *p)
 {
     return (void)run, (void)i, (void)before, (void)p, 0;
 }
 #endif
 
+/* Return the number of closed contacts. */
 static int count_closed(const Integrator *run)
 {
     int count = 0;
@@ -57,6 +64,10 @@ static int count_closed(const Integrator *run)
     return count;
 }
 
+/*
+ * Begin or end the contact of joint i, and select the first step length that follows. floor: smallest approach speed,
+ * m/s.
+ */
 static void cross_contact(Integrator *run, int i, double floor)
 {
     const int opens = run->discrete.contact[i].closed;
@@ -68,10 +79,14 @@ static void cross_contact(Integrator *run, int i, double floor)
     forget_stiff_length(run);
 }
 
+/*
+ * Apply the change of event function k that reached zero: the contact of a joint, or the branch of a switching
+ * function.
+ */
 static void cross_event(Integrator *run, int k, const Parameters *p)
 {
     if (k < N_CLEARANCES && !gives(k))
-        return; /* meet() sees to all of them */
+        return; /* update_contacts() changes all rigid contacts */
     if (k < N_CLEARANCES)
         cross_contact(run, k, slowest_impact(p, k));
     else if (k < N_CLEARANCES + N_SWITCHES) {
@@ -81,7 +96,7 @@ static void cross_event(Integrator *run, int k, const Parameters *p)
     }
 }
 
-/* What works are measured by at the start: the energy of the motion, at least that of the speeds that count, J. */
+/* Return the scale of works at the start in J: the kinetic energy plus that of the smallest relevant speeds. */
 static double initial_energy_scale(const Integrator *run, const Parameters *p)
 {
     double m[N_Q], sum = kinetic_energy(run, p);
@@ -93,8 +108,8 @@ static double initial_energy_scale(const Integrator *run, const Parameters *p)
 
 #if DRIVE_IMPULSES
 /*
- * Sides of all corners as they are at `ahead`, right behind this time; the one that was just crossed keeps its own,
- * unless it hangs on others that change.
+ * Set the branches of all switching functions to their signs at time `ahead`, just after the present time. The function
+ * `crossed`, which was just switched, keeps its branch in the first pass: it changes only if other functions change it.
  */
 static int update_branches_just_after(Integrator *run, double ahead, int crossed, const Parameters *p)
 {
@@ -117,9 +132,8 @@ static int update_branches_just_after(Integrator *run, double ahead, int crossed
 }
 
 /*
- * Whether what a drive prescribes has no bounded second rate on a side of the present time, as (t - t0)^1.5 has none at
- * t0: from there to `apart` s beside it accelerations change far more than from there to twice as far, while the state
- * is the same.
+ * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0.
+ * The test: at fixed state, accelerations change far more from here to `apart` (s) than from there to twice as far.
  */
 static int is_unbounded(Integrator *run, double apart, const Parameters *p)
 {
@@ -139,11 +153,14 @@ static int is_unbounded(Integrator *run, double apart, const Parameters *p)
     return some;
 }
 
-/* What the corner of a drive changes, and all others that lie at the same time: first sides, then velocities. */
+/*
+ * Pass the switching point of a drive with all others at the same time: first update branches, then apply the impulse
+ * that changes velocities. Return 0, UNBOUNDED or another status.
+ */
 static int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
 {
     const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.time_resolution);
-    /* other methods come near in short steps; a corner is located to a few ticks */
+    /* methods with step-size control approach in short steps; the time is known to a few time resolutions */
     const double apart = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.time_resolution);
     if (run->control.fixed > 0.0 && (is_unbounded(run, -apart, p) || is_unbounded(run, apart, p)))
         return UNBOUNDED;
@@ -154,15 +171,15 @@ static int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
     apply_drive_impulse(run, p);
     if (kinetic_energy(run, p) == before)
         return update_branches(run, corner, p);
-    status = update_branches_just_after(run, ahead, corner, p); /* those of speeds, which are others now */
+    status = update_branches_just_after(run, ahead, corner, p); /* branches that depend on the changed speeds */
     if (!status)
         status = rates(run, t, run->y, p, run->dy, &run->rhs);
     return status ? status : note_leaps(run, NULL, p);
 }
 
 /*
- * A start, or an end, at the jump of a drive's rate, or right before it, is beyond that: it holds what follows. User
- * events that the impulse leads across their zeros are noted.
+ * Apply the jump of a drive's rate at the start or end of a run, or just after it. Record user-defined events whose
+ * zeros the impulse crosses.
  */
 static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
 {
@@ -184,14 +201,20 @@ static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
     return status ? status : note_leaps(run, NULL, p);
 }
 #else
+/* Update branches: no drive of the scene has a rate that jumps. */
 static inline int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
 {
     return update_branches(run, corner, p);
 }
+
+/* Return 0: no drive of the scene has a rate that jumps. */
 static inline int pass_drive_jumps_here(Integrator *run, const Parameters *p) { return (void)run, (void)p, 0; }
 #endif
 
-/* The side of a corner, and what the other one moves at once. */
+/*
+ * Change the branch of switching function `corner` at its zero, apply the impulse of a drive, and suppress a repeated
+ * zero.
+ */
 static int change_branch(Integrator *run, int corner, const Parameters *p)
 {
     double before[N_Y];
@@ -201,7 +224,7 @@ static int change_branch(Integrator *run, int corner, const Parameters *p)
     return status;
 }
 
-/* A force that begins with a jump may be largest at its onset. */
+/* Record the forces of contacts that begin now: a force that begins with a jump may be largest at its onset. */
 static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -210,8 +233,9 @@ static void record_onset_forces(Integrator *run)
 }
 
 /*
- * At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. Where
- * that leads other user events across their zeros, these happen too: a step looks from where it begins.
+ * Apply all changes at an event and evaluate the right-hand side after them. Every event function of a contact or
+ * switching point that has reached zero changes, then contacts, friction and user-defined events. Changes that lead
+ * other user-defined events across their zeros record these. Return 0, ENDED or another status.
  */
 static int apply_event(Integrator *run, int event, const Parameters *p)
 {
@@ -242,7 +266,7 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
     return ended ? ended : held_now ? held_now : status;
 }
 
-/* A free journal never lies outside its bearing, nor a free corner in its wall, whatever the method thought. */
+/* Return LOST if an open contact has a penetration beyond its tolerance: contact detection has failed; otherwise 0. */
 static int check_contacts(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -1,7 +1,7 @@
-/* Closed contacts of surfaces that do not give, put back onto e = c. */
+/* Projection of closed contacts of rigid surfaces onto the gap zero, delta = 0. */
 /*
- * Positions and velocities of listed contacts at `gap` (m, each) and, where they are closed, without a rate of it: the
- * smallest change, measured by M.
+ * Project positions onto delta = -gap (m, of each listed contact) and velocities of closed contacts onto deltadot = 0.
+ * The change of the state y is the smallest in the norm of the mass matrix. Return 0 or the status of the motion.
  */
 static int project_contacts(
     Integrator *run, double t, double *y, const Parameters *p, Delassus *contacts, const double *gap)
@@ -12,7 +12,7 @@ static int project_contacts(
     for (int k = 0; k < contacts->n; k++) {
         ContactState *contact = &now.contact[contacts->joint[k]];
         closed[k] = (unsigned char)contact->closed;
-        contact->closed = 1; /* that a force moves it */
+        contact->closed = 1; /* closed: so that a contact force acts in it */
     }
     for (int pass = 0; pass < 3; pass++) {
         double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
@@ -42,7 +42,7 @@ static int project_contacts(
     return 0;
 }
 
-/* A state back onto e = c and no rate of it where contacts are closed. */
+/* Project a state y onto delta = 0 and deltadot = 0 of all closed contacts. */
 static void hold_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
     const double none[N_RIGID] = {0.0};

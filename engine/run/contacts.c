@@ -1,29 +1,30 @@
 /*
- * Contacts of joints with play: their onsets and separations, their list, their peaks. Together with run/joint_maxima.h
- * this file owns Contacts (run.h).
+ * Contacts of joints with play: their onsets, separations, list and force peaks. Together with run/joint_maxima.h this
+ * file owns Contacts (run/run.h).
  */
 
-#define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* of the clearance: each blow of surfaces that do not give has an impulse */
+#define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
 
-/* How far below zero a joint's margin lies without a meaning, m. */
+/* Return the negative penetration in m that counts as rounding at joint k: an event function above it has no sign. */
 static double penetration_rounding(const Parameters *p, int k)
 {
     return gives(k) ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : -SHALLOW_RIGID * radial_clearance(p, k);
 }
 
-/* Inner states of the laws of a joint, whose contact begins or ends: none is left. */
+/* Set the integrated inner states of the contact laws of joint i to zero when its contact begins or ends. */
 static void reset_inner_states(Integrator *run, int i)
 {
     for (int k = 0; k < LAW_STATES; k++)
         run->y[FIRST_STATE + i * LAW_STATES + k] = 0.0;
 }
 
-/* Begin the contact of joint i that lasts from time t on. */
+/* Start the record of the contact of joint i at time t (s) with approach speed deltadot (m/s). */
 static void begin_contact(Integrator *run, int i, double t, double deltadot)
 {
     run->contacts.open[i] = (Impact){t, NAN, deltadot, 0.0, t, i};
 }
 
+/* Initialize the contacts, ratios and peaks of a new run at time t; latched: the stored approach speeds, m/s. */
 static void start_contacts(Integrator *run, double t, const double *latched)
 {
     run->contacts.ratio_min = INFINITY;
@@ -34,14 +35,17 @@ static void start_contacts(Integrator *run, double t, const double *latched)
     }
 }
 
-/* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */
+/* Set which contacts are still being compressed from the contact codes with which an earlier run ended. */
 static void set_contact_codes(Integrator *run, const signed char *state)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         run->contacts.compressing[i] = state[i] == CODE_IMPACT;
 }
 
-/* Add a contact to the list that Python fetches; for an impact without a duration F_peak is the impulse, N s. */
+/*
+ * Append a contact to the list that Python fetches. For an impact without duration F_peak is the impulse in N s. Return
+ * CHATTERING if the list is full.
+ */
 static int list_contact(Integrator *run, const Impact *contact)
 {
     if (run->contacts.n_impacts >= LISTED_IMPACTS)
@@ -51,8 +55,8 @@ static int list_contact(Integrator *run, const Impact *contact)
 }
 
 /*
- * List an impact; `begins`: its joint was free. With `add` its impulse is added to the last row of the same joint at
- * this time, if there is one.
+ * Append an impact of rigid surfaces to the list; begins: its joint was free. With `add`, add its impulse to the last
+ * row of the same joint at this time, if there is one. Return CHATTERING if the list is full.
  */
 static inline int list_impact(Integrator *run, const Impact *impact, int add, int begins)
 {
@@ -66,7 +70,7 @@ static inline int list_impact(Integrator *run, const Impact *impact, int add, in
     return list_contact(run, impact);
 }
 
-/* Raise the largest force so far of joint i; of its contact that lasts; its largest eccentricity. */
+/* Raise the largest force of joint i in this run to F (N) at time t (s), if F is larger. */
 static inline void raise_force(Integrator *run, int i, double t, double F)
 {
     if (F > run->contacts.F_peak[i]) {
@@ -74,6 +78,8 @@ static inline void raise_force(Integrator *run, int i, double t, double F)
         run->contacts.t_peak[i] = t;
     }
 }
+
+/* Raise the largest force of the contact that lasts in joint i to F (N) at time t (s), if F is larger. */
 static inline void raise_contact_force(Integrator *run, int i, double t, double F)
 {
     if (run->discrete.contact[i].closed && F > run->contacts.open[i].F_peak) {
@@ -81,14 +87,17 @@ static inline void raise_contact_force(Integrator *run, int i, double t, double 
         run->contacts.open[i].t_peak = t;
     }
 }
+
+/* Raise the largest eccentricity of joint i to e (m), if e is larger. */
 static inline void raise_eccentricity(Integrator *run, int i, double e)
 {
     run->contacts.e_max[i] = max_of(e, run->contacts.e_max[i]);
 }
 
+/* Store whether the force of joint i rises at the end of the step. */
 static inline void set_rising(Integrator *run, int i, int rises) { run->contacts.rising[i] = rises; }
 
-/* Onset: remember the impact velocity, not below its floor. */
+/* Begin the contact of joint i at its onset and store the approach speed deltadot (m/s), raised to `floor`. */
 static void close_joint(Integrator *run, int i, double t, double deltadot, double floor)
 {
     run->discrete.contact[i].closed = 1;
@@ -100,7 +109,7 @@ static void close_joint(Integrator *run, int i, double t, double deltadot, doubl
     begin_contact(run, i, t, run->discrete.contact[i].deltadot_minus);
 }
 
-/* Separation: the contact goes into the list that Python fetches. */
+/* End the contact of joint i at its separation and append the contact to the list that Python fetches. */
 static void open_joint(Integrator *run, int i, double t)
 {
     run->discrete.contact[i].closed = 0;
@@ -109,7 +118,10 @@ static void open_joint(Integrator *run, int i, double t)
     list_contact(run, &run->contacts.open[i]);
 }
 
-/* Close, or open, rigid joint i. */
+/*
+ * Close or open the contact of rigid joint i. A closed contact takes its approach speed from the impact listed at this
+ * time. Return 0, or CHATTERING if the list is full.
+ */
 static inline int set_contact_closed(Integrator *run, int i, int closes)
 {
     ContactState *contact = &run->discrete.contact[i];
@@ -131,8 +143,9 @@ static inline int set_contact_closed(Integrator *run, int i, int closes)
 }
 
 /*
- * Contacts of a run that begins, from gaps and rates: at least as fast as surfaces move (begin_in_contact). A journal
- * that leaves zero is free, whatever its penetration is rounded to. Whether any joint changed.
+ * Close and open contacts at the start of a run from gaps and gap rates, and return whether any changed. The approach
+ * speed of a closed contact is at least |deltadot|; begin_in_contact() estimates it. A penetration within rounding
+ * counts as free while the journal leaves the wall.
  */
 static int begin_contacts_of_start(Integrator *run, const Parameters *p)
 {
@@ -154,8 +167,8 @@ static int begin_contacts_of_start(Integrator *run, const Parameters *p)
 }
 
 /*
- * Moves the oldest contacts, at most `capacity`, from the list into rows of these arrays (ImpactColumn); returns how
- * many. With `last` those that still go on follow: no step is made after it.
+ * Move the oldest contacts, at most `capacity`, from the list into numbers (rows of ImpactColumn) and joints, and
+ * return their number. With `last`, the contacts that still last are appended: no step may follow.
  */
 int gudgeon_run_impacts(void *integrator, int last, int capacity, double *numbers, int *joints)
 {

@@ -1,12 +1,15 @@
 /*
- * Friction that may stick: where the slip comes to zero, or the force of stick to its limit, the step ends
- * and the mode changes. The place is the root of the indicator over the length of a trial step.
+ * Friction that may stick: its modes, and their changes at events. A step ends where the slip reaches zero or the force
+ * of stick reaches its limit: at the zero of friction_indicator() on the step.
  */
 #if N_FRICTIONS
-#define ROUNDING 1e-12 /* m/s: of a slip that others hold at zero */
+#define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
 enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
 
-/* Positive while friction goes on as it is: what is left of the limit in stick, slip in its direction. */
+/*
+ * Return the event function of friction element i, positive while its mode lasts: static limit minus |force| in stick
+ * (N), slip in its direction otherwise (m/s).
+ */
 static double friction_indicator(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     const Friction *friction = &rhs->friction[i];
@@ -18,8 +21,8 @@ static double friction_indicator(const DiscreteState *discrete, const RhsOutputs
 }
 
 /*
- * The right-hand side with the present modes. A stick whose pivot vanishes is held at rest by others already (a
- * drive, another stick): rigid bodies do not tell its force, and it gets none.
+ * Evaluate the right-hand side with the present friction modes. A sticking element whose pivot vanishes is already held
+ * by a drive or another sticking element: its force is indeterminate, and it becomes MODE_HELD without force.
  */
 static int rates_of_modes(Integrator *run, const Parameters *p)
 {
@@ -31,7 +34,10 @@ static int rates_of_modes(Integrator *run, const Parameters *p)
     return status;
 }
 
-/* What sticks, or slips from rest, is exactly at rest where modes change: else rounding decides what follows. */
+/*
+ * Set the slip of elements that stick or start to slip to exactly zero where modes change, so that rounding does not
+ * decide the next mode.
+ */
 static int begin_at_rest(Integrator *run, const Parameters *p)
 {
     const DiscreteState known = run->discrete;
@@ -46,28 +52,29 @@ static int begin_at_rest(Integrator *run, const Parameters *p)
 }
 
 /*
- * Puts right the mode that is most wrong: a stick beyond its limit, a slip from rest against its own rate. Where a
- * stick is beyond its limit and another one is held, that one helps before the first gives way.
+ * Correct the friction mode with the largest violation and return whether there was one. Violations are a sticking
+ * force beyond its limit, or a slip from rest against its own rate. If an element would start to slip while another is
+ * held, the held one slips instead, so that its force helps first.
  */
 static int correct_worst_mode(Integrator *run)
 {
     int worst = -1, held = -1;
-    double most = 1e-9, mode = 0.0;
+    double largest = 1e-9, mode = 0.0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
         const double now = run->discrete.mode[i];
-        double wrong = 0.0, next = 0.0;
+        double violation = 0.0, next = 0.0;
         if (now == 0.0) {
-            wrong = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
+            violation = (fabs(friction->force) - friction->static_limit) / (friction->static_limit + 1e-300);
             next = friction->force > 0.0 ? -1.0 : 1.0;
         } else if (fabs(friction->v) <= AT_REST && fabs(friction->rate) > AT_REST) {
-            wrong = now == MODE_HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
+            violation = now == MODE_HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
             next = now != MODE_HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
-        held = now == MODE_HELD && wrong == 0.0 ? i : held;
-        if (wrong > most) {
+        held = now == MODE_HELD && violation == 0.0 ? i : held;
+        if (violation > largest) {
             worst = i;
-            most = wrong;
+            largest = violation;
             mode = next;
         }
     }
@@ -76,7 +83,10 @@ static int correct_worst_mode(Integrator *run)
     return worst >= 0;
 }
 
-/* Modes that agree with each other: one that changes may load or unload the others at once. */
+/*
+ * Iterate the friction modes to a consistent set, since a change of one mode loads or unloads the others at once.
+ * Return CHATTERING if there is none within MAX_TRIES.
+ */
 static int update_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
@@ -90,7 +100,7 @@ static int update_modes(Integrator *run, const Parameters *p)
     return CHATTERING;
 }
 
-/* At the end of a part: every friction whose indicator is used up changes its mode. */
+/* Change the mode of each friction element whose event function has reached zero, then update all modes. */
 static int switch_friction(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++) {
@@ -108,7 +118,7 @@ static int switch_friction(Integrator *run, const Parameters *p)
     return status ? status : update_modes(run, p);
 }
 
-/* A start that does not say its mode: the sign of the slip, or stick where there is none. */
+/* Set the modes that a start does not specify: the sign of the slip, or stick where the slip is zero. */
 static int begin_friction(Integrator *run, const Parameters *p)
 {
     int unknown = 0;
@@ -123,9 +133,10 @@ static int begin_friction(Integrator *run, const Parameters *p)
 }
 
 #if N_RIGID
+/* Iterate the friction modes to a consistent set while rigid contacts change. */
 static int update_friction_modes(Integrator *run, const Parameters *p) { return update_modes(run, p); }
 
-/* The modes behind a blow: what it moves slips. */
+/* Set the friction modes after an impact: an element that the impact moves slips. */
 static int modes_after_impact(Integrator *run, const Parameters *p)
 {
     const int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
@@ -139,29 +150,33 @@ static int modes_after_impact(Integrator *run, const Parameters *p)
 #endif
 
 #else
-/* No friction that may stick. */
+/* Return a positive value: the scene has no friction that may stick. */
 static inline double friction_indicator(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     (void)discrete, (void)rhs, (void)i;
     return 1.0;
 }
 
+/* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. */
 static inline int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return rates(run, t, y, p, dy, rhs);
 }
 
+/* Leave the state unchanged: the scene has no friction that may stick. */
 static inline void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     (void)run, (void)t, (void)y, (void)p;
 }
 
+/* Return 0: the scene has no friction that may stick. */
 static inline int switch_friction(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
 }
 
+/* Return 0: the scene has no friction modes to start with. */
 static inline int begin_friction(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
@@ -169,12 +184,14 @@ static inline int begin_friction(Integrator *run, const Parameters *p)
 }
 
 #if N_RIGID
+/* Return 0: the scene has no friction modes to update. */
 static inline int update_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
 }
 
+/* Return 0: the scene has no friction modes that an impact changes. */
 static inline int modes_after_impact(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;

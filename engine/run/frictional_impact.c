@@ -1,29 +1,30 @@
 /*
- * Friction in blows between surfaces that do not give. The blow without friction has parted them as their restitution
- * says. Impulses P along the surfaces bring the slip behind it to rest as far as |P| <= mu Lambda lets them; normal
- * impulses change with them so that no parting does. Let v be the slip that a blow without any parting leaves: P adds
- * P v + P S P/2 to the kinetic energy, and is made less where that would be more than nothing. A. Chatterjee,
- * A. Ruina, Journal of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938, whose e_t within -1 and 1 this
- * chooses; here of several contacts at once.
+ * Friction in impacts between rigid surfaces. The impact without friction has already set the separation speeds by the
+ * restitution. Tangential impulses P bring the slip after the impact to rest, as far as |P| <= mu Lambda allows; normal
+ * impulses change with P so that no separation speed does. Let v be the slip after an impact without rebound: P adds P
+ * v + P S P/2 to the kinetic energy, and is reduced where that sum would be positive. A. Chatterjee, A. Ruina, Journal
+ * of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938: their e_t between -1 and 1 is chosen here, for several
+ * contacts at once.
  */
 #if N_RUBBED
-#define UNLIKE 10.0 /* times the forces without friction: theirs grow by nothing else */
+#define UNLIKE 10.0 /* ratio to the forces without friction that only an inconsistency reaches */
 enum { MOST_SWEEPS = 1000 };
 
-/* What impulses along the surfaces do in the contacts of a blow, and the slips that they find. */
+/* Tangential impulses of the contacts of an impact, and the response of gap rates, slips and velocities to them. */
 typedef struct {
-    int n;                         /* as many as the blow has */
+    int n;                         /* number of contacts of the impact */
     double P[N_RIGID];             /* the impulses, N s */
     double before[N_RIGID];        /* slip, m/s */
-    double plastic[N_RIGID];       /* slip behind a blow without any parting or friction, m/s */
-    double after[N_RIGID];         /* slip behind the blow as it is, without friction, m/s */
+    double plastic[N_RIGID];       /* slip after an impact without rebound and friction, m/s */
+    double after[N_RIGID];         /* slip after the impact with rebound, without friction, m/s */
     double mu[N_RIGID];            /* F_t/F_n of the friction law there */
-    double meet[N_RIGID][N_RIGID]; /* what P of the column adds to the rate of delta of the row, 1/kg */
-    double slip[N_RIGID][N_RIGID]; /* and to its slip */
-    double press[N_RIGID][N_RIGID]; /* the normal impulse that keeps partings as they are, each unit of P */
-    double way[N_RIGID][N_X];      /* velocities, each unit of P */
+    double meet[N_RIGID][N_RIGID]; /* change of deltadot of the row per unit P of the column, 1/kg */
+    double slip[N_RIGID][N_RIGID]; /* change of the slip of the row per unit P of the column, 1/kg */
+    double press[N_RIGID][N_RIGID]; /* normal impulse per unit P that keeps separation speeds unchanged */
+    double way[N_RIGID][N_X];      /* change of velocities per unit P */
 } Rub;
 
+/* Switch off friction in all contacts of a discrete state, with no given tangential force. */
 static void without_friction(DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -33,8 +34,9 @@ static void without_friction(DiscreteState *discrete)
 }
 
 /*
- * What ends a run for which no step is small enough: contacts jam where friction lets their forces grow beyond all
- * bounds, or leaves them none (F. Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999) 653-677).
+ * Return FRICTION_INCONSISTENT if a run without a small enough step has inconsistent contacts, else the status
+ * `otherwise`. Contacts are inconsistent if friction lets their forces grow without bound, or leaves them none (F.
+ * Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999) 653-677).
  */
 static int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
 {
@@ -57,7 +59,9 @@ static int diagnose_stall(const Integrator *run, int otherwise, const Parameters
     return none || most[0] > UNLIKE * most[1] ? FRICTION_INCONSISTENT : otherwise;
 }
 
-/* Sides of corners at velocities that have jumped: what friction does in a closed contact hangs on them. */
+/*
+ * Update the branches of switching functions after velocities have jumped: friction in closed contacts depends on them.
+ */
 static void update_slip_branches(Integrator *run, const Parameters *p)
 {
     int changed = N_SWITCHES && run->discrete.held;
@@ -67,7 +71,7 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
         changed = 0;
         count_evaluations(run, 1);
         if (motion_of_laws(run->t, run->y, &run->discrete, p, dy, &rhs))
-            return; /* whoever asks next is told */
+            return; /* the next evaluation reports the status */
         for (int k = 0; k < N_SWITCHES; k++)
             if (run->discrete.branch[k] * rhs.g[k] < 0.0) {
                 run->discrete.branch[k] = -run->discrete.branch[k];
@@ -76,14 +80,17 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
     }
 }
 
-/* Slips behind normal impulses, and F_t/F_n of the friction laws there. */
+/*
+ * Compute the slips (m/s) after normal impulses, and mu = F_t/F_n of the friction laws there, 0 without an impulse.
+ * unit: a normal force in N at which the laws are evaluated.
+ */
 static int slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
     const Parameters *p, double *slip, double *mu)
 {
     double y[N_Y], dy[N_Y];
     DiscreteState now = run->discrete;
     RhsOutputs rhs;
-    now.held = 0; /* corners of friction lie where this slip has them */
+    now.held = 0; /* branches of friction laws follow this slip */
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int k = 0; k < impact->n; k++) {
@@ -102,7 +109,9 @@ static int slips_after_impact(Integrator *run, const Delassus *impact, const dou
     return status;
 }
 
-/* What a unit of P in contact j does. */
+/*
+ * Compute the response of gap rates, slips and velocities to a unit tangential impulse in contact j (columns of `rub`).
+ */
 static int tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
     const RhsOutputs *before, double unit, const Parameters *p, Rub *rub)
 {
@@ -128,7 +137,10 @@ static int tangential_response(Integrator *run, const Delassus *impact, int j, c
     return status;
 }
 
-/* The largest |P| of a sign that mu times what then presses allows: `rest` presses without it, `own` a unit of it. */
+/*
+ * Return the largest |P| of one direction that satisfies |P| <= mu times the normal impulse. rest: normal impulse at P
+ * = 0; own: its change per unit of |P|.
+ */
 static double impulse_limit(double mu, double rest, double own)
 {
     if (rest <= 0.0)
@@ -137,8 +149,9 @@ static double impulse_limit(double mu, double rest, double own)
 }
 
 /*
- * P of all contacts: one after the other brings its slip to rest or is at its limit, until none changes (Gauss and
- * Seidel). Then all by one share, should a limit or the energy still ask for that: whatever comes, friction takes.
+ * Compute the tangential impulses P of all contacts by Gauss-Seidel sweeps: each contact brings its slip to rest or
+ * reaches its friction limit. Afterwards one common factor scales all P, if a limit or the energy still requires that:
+ * friction never adds energy.
  */
 static void solve_friction_impulses(const Delassus *impact, const double *impulse, Rub *rub)
 {
@@ -186,7 +199,10 @@ static void solve_friction_impulses(const Delassus *impact, const double *impuls
         rub->P[i] *= fraction;
 }
 
-/* Friction's part of a blow: its P, and what they change in the normal impulses of those that push. */
+/*
+ * Compute the tangential impulses of an impact and update the normal impulses. meeting: approach speeds, m/s. Return 0
+ * or the status of the motion.
+ */
 static int friction_impulses(
     Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p, Rub *rub)
 {
@@ -227,7 +243,7 @@ static int friction_impulses(
     return 0;
 }
 
-/* What P adds to the velocities; the work (J) that it, and normal impulses by what it changes, take. */
+/* Add the velocity changes of the tangential impulses to y, and return the energy in J that friction dissipates. */
 static double apply_friction_impulses(const Rub *rub, const double *impulse, double *y)
 {
     double lost = 0.0;
@@ -242,18 +258,22 @@ static double apply_friction_impulses(const Rub *rub, const double *impulse, dou
 }
 
 #else
-/* No friction between surfaces that do not give. */
+/* Placeholder of the tangential impulses in a scene without friction between rigid surfaces. */
 typedef char Rub;
 
+/* Leave the discrete state unchanged: the scene has no friction between rigid surfaces. */
 static inline void without_friction(DiscreteState *discrete) { (void)discrete; }
 
+/* Return the status `otherwise`: without friction, contacts cannot be inconsistent. */
 static inline int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
 {
     return (void)run, (void)p, otherwise;
 }
 
+/* Leave the branches unchanged: no friction between rigid surfaces depends on the slip. */
 static inline void update_slip_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
 
+/* Return 0: the scene has no friction between rigid surfaces. */
 static inline int friction_impulses(
     Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p, Rub *rub)
 {
@@ -261,6 +281,7 @@ static inline int friction_impulses(
     return 0;
 }
 
+/* Return 0: the scene has no friction between rigid surfaces. */
 static inline double apply_friction_impulses(const Rub *rub, const double *impulse, double *y)
 {
     return (void)rub, (void)impulse, (void)y, 0.0;

@@ -1,16 +1,19 @@
 /*
- * Surfaces that do not give (Newton's restitution): velocities jump where a gap closes, a contact that lasts is held
- * closed until its force is used up. All contacts of one time go by one linear complementarity problem
- * (contact_forces.h), of impulses (r = u + e u where surfaces meet at the rate u) and of forces (r = delta'').
- * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
- * Unilateral Contacts (1996).
+ * Impacts and closed contacts of rigid surfaces with Newton's restitution. Velocities jump where a gap closes; a closed
+ * contact lasts until its force is zero. All contacts of one time are solved together as one linear complementarity
+ * problem (scene/contact_forces.h), for impulses (r = u + e u, u the approach rate) and for forces (r = delta''). J. J.
+ * Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral
+ * Contacts (1996).
  */
 #if N_RIGID
-#define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
-#define STEADY 1e-8    /* two ratios of what successive passes take that differ by no more are one geometric ratio */
+#define TOUCHING 1e-10 /* times the clearance: surfaces with a smaller gap touch */
+#define STEADY 1e-8    /* relative difference up to which ratios of successive passes are one geometric ratio */
 enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_APART = 12 };
 
-/* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
+/*
+ * Return the event function of the contact of joint i: gap of an open contact in m, force of a closed rigid contact in
+ * N. It is non-negative while the contact stays as it is.
+ */
 static double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     const Clearance *joint = &rhs->clearance[i];
@@ -19,6 +22,7 @@ static double contact_event_function(const DiscreteState *discrete, const RhsOut
     return !gives(i) ? -joint->F_n : joint->delta;
 }
 
+/* Return whether the rigid surfaces of joint i touch: the gap is within TOUCHING or the contact is closed. */
 static int is_touching_at(const Integrator *run, int i, const Parameters *p)
 {
     const int near = run->rhs.clearance[i].delta >= -TOUCHING * radial_clearance(p, i);
@@ -26,8 +30,9 @@ static int is_touching_at(const Integrator *run, int i, const Parameters *p)
 }
 
 /*
- * A step in which no free journal goes further towards its wall, or from it, than half its clearance: flights are so
- * smooth that a step could else lead out of the bearing and back. Seconds from rates now, less what stages saw of them.
+ * Return the step length in s within which no open rigid joint moves by more than half its clearance. Free flight is so
+ * smooth that a longer step could leave the bearing and return. Rates are those of the state and, if `step` is given,
+ * of its stages.
  */
 static double flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
@@ -43,13 +48,17 @@ static double flight_step_limit(const Integrator *run, const Step *step, const P
     return least;
 }
 
+/* Compute the Delassus operator of the listed contacts at the present state of the run. */
 static int delassus_here(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
     return compute_delassus(motion_of_laws, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
-/* Impulses: what they change in the velocities, their work, and what is listed of them. */
+/*
+ * Add the velocity jumps of contact and friction impulses (N s) to the state, and their lost energy to the work of the
+ * joints. meeting: approach speeds, m/s.
+ */
 static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *meeting,
     const Rub *rub, const Parameters *p)
 {
@@ -59,20 +68,20 @@ static void apply_impulses(Integrator *run, const Delassus *impact, const double
         double change = 0.0;
         for (int j = 0; j < impact->n; j++)
             change += impact->D[k][j] * impulse[j];
-        lost += impulse[k] * (meeting[k] - 0.5 * change); /* the impulse by the mean rate of the gap */
+        lost += impulse[k] * (meeting[k] - 0.5 * change); /* impulse times mean gap rate */
         for (int i = 0; i < N_X; i++)
             run->y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
     }
     lost += apply_friction_impulses(rub, impulse, run->y);
     run->y[2 * N_X + 2] -= lost;
-    run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* what drives hold moves on as before */
+    run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* work of drives, which keep their motion */
 }
 
 /*
- * Every joint that touches and closes at a rate gets its impulse, and with it each that rests, closed or not yet: one
- * blow. A parting that would be slower than the threshold is none. No friction has a part in it but that of the
- * surfaces that meet (frictional_impact.c). In the limit of a sequence of impacts every joint that touches takes part,
- * with a restitution of 0. *approach: the sum of impulse times approach speed, J, 0 if no joint was struck.
+ * Resolve one joint impact of all contacts that touch: those that approach, and those that rest. Rebounds slower than
+ * the threshold v_0 are set to zero. Only friction between the surfaces that meet takes part (run/frictional_impact.c).
+ * With `limit`, the limit of a sequence of impacts, every touching joint takes part with restitution 0. *approach: the
+ * sum of impulse times approach speed in J, 0 if no joint was struck.
  */
 static int resolve_impact(Integrator *run, const Parameters *p, int pass, int limit, double *approach)
 {
@@ -96,7 +105,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int pass, int li
         struck |= meets_now;
     }
     for (int i = 0; i < N_FRICTIONS; i++)
-        run->discrete.mode[i] = 2.0; /* none: it has a force, not an impulse */
+        run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
     without_friction(&run->discrete);
     int status = struck ? delassus_here(run, p, &impact) : 0;
     status = !status && struck ? complementary(&impact, r, impulse) : status;
@@ -108,7 +117,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int pass, int li
     update_slip_branches(run, p);
     for (int k = 0; k < impact.n && !status; k++) {
         const int i = impact.joint[k];
-        const double u = meeting[k] > resting(least, p, i) ? meeting[k] : 0.0; /* it rests, and is pressed */
+        const double u = meeting[k] > resting(least, p, i) ? meeting[k] : 0.0; /* 0: a resting contact */
         const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
             status = list_impact(run, &bounce, pass >= LISTED_PASSES, !known.contact[i].closed);
@@ -118,8 +127,8 @@ static int resolve_impact(Integrator *run, const Parameters *p, int pass, int li
 }
 
 /*
- * Which contacts that rest, or part slower than the threshold, are closed: those that must push. Joint `opens` (-1:
- * none) has just ceased to.
+ * Find the active set of contacts: those that rest, or separate slower than the threshold, and carry a positive force.
+ * Joint `opens` (-1: none) has just lost its force and stays open. Return 0, FRICTION_INCONSISTENT or another status.
  */
 static int update_closed_contacts(Integrator *run, int opens, const Parameters *p)
 {
@@ -151,7 +160,10 @@ static int update_closed_contacts(Integrator *run, int opens, const Parameters *
     return status;
 }
 
-/* Closed contacts exactly at e = c, and what touches and parts a little apart: the next step looks for its return. */
+/*
+ * Project closed contacts onto delta = 0 and give separating contacts a small gap, so that the next step can detect
+ * their return.
+ */
 static int separate_contacts(Integrator *run, const Parameters *p)
 {
     const double energy = kinetic_energy(run, p);
@@ -169,25 +181,25 @@ static int separate_contacts(Integrator *run, const Parameters *p)
         status = touching.n ? project_contacts(run, run->t, run->y, p, &touching, gap) : 0;
         if (!status && touching.n)
             status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
-        meets_again = 0; /* corners far out are rounded by more; one put apart may make another meet, as in a wedge */
+        meets_again = 0; /* distant points round by more; separating one contact may close another, as in a wedge */
         for (int i = 0; i < N_CLEARANCES && touching.n; i++)
             meets_again |= !gives(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
     }
-    run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of partings slower than the threshold */
+    run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of separations slower than the threshold */
     return status;
 }
 
 /*
- * Impacts until no surfaces meet. An impact may make other surfaces meet, and these the first ones again: a wedge. Two
- * contacts with the Delassus operator D that strike in turn approach at x[n+1] = (1 + e) k x[n] - e x[n-1], where
- * k = -D12/sqrt(D11 D22), x scaled by sqrt(D). If (1 + e) k < 2 sqrt(e) some x is negative: the sequence ends.
- * Otherwise the x tend to a geometric sequence that never ends. Its limit has no approach left and the impulses that
- * add up to this, sum = D^-1 u: the joint impact of all contacts that touch with e = 0, which is solved directly
- * once the ratio is steady, or after MAX_PASSES.
+ * Resolve impacts until no surfaces approach; return 0, CHATTERING or another status. One impact may make other
+ * surfaces approach, and these the first ones again, as in a wedge. Two contacts with the Delassus operator D that
+ * strike in turn approach at x[n+1] = (1 + e) k x[n] - e x[n-1], where k = -D12/sqrt(D11 D22), x scaled by sqrt(D). If
+ * (1 + e) k < 2 sqrt(e) some x is negative: the sequence ends. Otherwise the x tend to a geometric sequence that never
+ * ends. Its limit has no approach speed left and the impulses sum = D^-1 u: the joint impact of all touching contacts
+ * with e = 0. That impact is solved directly once the ratio is steady, or after MAX_PASSES.
  */
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
-    double sizes[5] = {0.0}; /* of the last passes, J */
+    double sizes[5] = {0.0}; /* impulse times approach speed of the last passes, J */
     int limit = 0, status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
         memmove(sizes, sizes + 1, sizeof sizes - sizeof *sizes);
@@ -195,21 +207,21 @@ static int resolve_impacts(Integrator *run, const Parameters *p)
         if (status || !(sizes[4] > 0.0))
             return status;
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
-        const double first = sizes[2] / sizes[0], second = sizes[4] / sizes[2]; /* every second: contacts may differ */
+        const double first = sizes[2] / sizes[0], second = sizes[4] / sizes[2]; /* of two passes: contacts alternate */
         limit |= pass >= MAX_PASSES || (pass >= 4 && second < 1.0 && fabs(second - first) < STEADY * second);
     }
     return status ? status : CHATTERING;
 }
 
 /*
- * Where contacts may change: blows until none meets, then which contacts rest, then the right-hand side of what
- * follows. `event`: the margin that ended the step, -1 of none.
+ * Resolve impacts, update the active set of contacts and the friction modes, and evaluate the right-hand side after
+ * them. event: the event function that ended the step, -1: none.
  */
 static int update_contacts(Integrator *run, int event, const Parameters *p)
 {
     const int opens = event >= 0 && event < N_CLEARANCES && !gives(event) && run->discrete.contact[event].closed;
     int status = resolve_impacts(run, p);
-    for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick follow those of contacts, and these them */
+    for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick and of contacts depend on each other */
         status = update_closed_contacts(run, opens ? event : -1, p);
         if (!status)
             status = update_friction_modes(run, p);
@@ -221,7 +233,10 @@ static int update_contacts(Integrator *run, int event, const Parameters *p)
     return status ? status : update_branches_at(run, run->t, run->y, run->dy, &run->rhs, -1, p);
 }
 
-/* A start that touches: what meets there is struck, what rests is closed. One that lies outside its bearing is none. */
+/*
+ * Resolve impacts and close resting contacts at a start where surfaces touch. Return LOST if a journal is outside its
+ * bearing.
+ */
 static int begin_contacts(Integrator *run, const Parameters *p)
 {
     int some = 0;
@@ -236,33 +251,41 @@ static int begin_contacts(Integrator *run, const Parameters *p)
 }
 
 #else
-/* All surfaces give: penetration says where contacts begin and end. */
+/*
+ * Return the event function of the contact of joint i in m: the gap of an open contact, the penetration of a closed
+ * one.
+ */
 static inline double contact_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     return discrete->contact[i].closed ? rhs->clearance[i].delta : -rhs->clearance[i].delta;
 }
 
+/* Leave the state unchanged: the scene has no rigid contacts. */
 static inline void hold_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
     (void)run, (void)t, (void)y, (void)p;
 }
 
+/* Return infinity: the scene has no rigid contacts that limit the step. */
 static inline double flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, INFINITY;
 }
 
+/* Return the status `otherwise`: the scene has no rigid contacts that could be inconsistent. */
 static inline int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
 {
     return (void)run, (void)p, otherwise;
 }
 
+/* Return 0: the scene has no rigid contacts. */
 static inline int update_contacts(Integrator *run, int event, const Parameters *p)
 {
     (void)run, (void)event, (void)p;
     return 0;
 }
 
+/* Return 0: the scene has no rigid contacts. */
 static inline int begin_contacts(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;

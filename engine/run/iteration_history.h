@@ -1,12 +1,15 @@
 /*
- * Where a run's step and the one before began: by their motion stages are guessed that are found by iterations.
+ * History for iterated stages: the beginnings of a run's step and of the step before. Initial guesses of the stages are
+ * extrapolated from these.
  */
 #ifndef GUDGEON_PAST_H
 #define GUDGEON_PAST_H
 
-#define FORCE_FOUND 5e2 /* of a film's force, times rtol: how well it is known where stages are found */
+#define FORCE_FOUND 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
 
-/* Once a step, before it is tried; whether the motion goes on as it was, as run->newton.continues. */
+/*
+ * Update the history once before each step is tried, and whether the motion continues smoothly (run->newton.continues).
+ */
 static inline void update_iteration_history(Integrator *run)
 {
     Beginning *now = &run->newton.now;

@@ -1,12 +1,15 @@
 /*
- * What is noted of joints with play at accepted states: peaks, eccentricities, ratios of velocities.
+ * Peaks of joints with play at accepted states: forces, eccentricities, velocity ratios. Together with run/contacts.c
+ * this file owns Contacts (run/run.h).
  */
+
+/* Return the magnitude of the force of a joint with play, N. */
 static inline double total_force(const Clearance *joint)
 {
     return sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);
 }
 
-/* What deltadot is the rate of: the eccentricity, or of a bearing with a contour the penetration. */
+/* Return the length in m whose rate is deltadot: the eccentricity, or the penetration for a bearing with a contour. */
 static inline double outward(const Clearance *joint)
 {
 #ifdef CONTOURS
@@ -16,13 +19,13 @@ static inline double outward(const Clearance *joint)
 #endif
 }
 
-/* From an onset until the penetration first stops growing a contact is compressed. */
+/* End the compression of joint i's contact if the penetration has stopped growing. */
 static inline void note_turn(Integrator *run, int i, double deltadot)
 {
     run->contacts.compressing[i] &= !(is_closed(&run->discrete.contact[i]) & (deltadot <= 0.0));
 }
 
-/* Peaks of joint i at an accepted state, and the ratio deltadot/deltadot_minus of a contact. */
+/* Update the peaks of joint i at an accepted state, and the extremes of deltadot/deltadot_minus of a contact. */
 static inline void watch_joint(Integrator *run, int i)
 {
     const Clearance *joint = &run->rhs.clearance[i];
@@ -37,7 +40,7 @@ static inline void watch_joint(Integrator *run, int i)
     run->contacts.open[i].F_peak = pick(highest, F, run->contacts.open[i].F_peak);
     run->contacts.open[i].t_peak = pick(highest, run->t, run->contacts.open[i].t_peak);
     if (!gives(i))
-        return; /* no rate, so no ratio */
+        return; /* rigid contacts have no rate */
     const double ratio = joint->deltadot / run->discrete.contact[i].deltadot_minus;
     const int outside = (ratio < -1.0) | (ratio > 1.0);
     run->contacts.ratio_min = pick(closed & (ratio < run->contacts.ratio_min), ratio, run->contacts.ratio_min);

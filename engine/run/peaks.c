@@ -1,16 +1,15 @@
-/*
- * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
- */
-enum { MAX_TOPS = 20, FEW = 2 /* stages: they tell little */ };
-#define BENT 0.25 /* of the last chord's slope, that a parabola may change it by to tell the slope at its end */
-#define CLEAR 0.1 /* of the force, that it changes by from the last stage on */
-#define ARCHED 1.001 /* times the forces at both ends, from which on one at a stage shows a top between them */
-#define ARCHED_STIFF 1.1 /* the same of stiff methods, whose stages err more */
-#define SAME_FORCE 1e-6 /* of a rigid contact's largest force: no larger one is sought */
-#define TOP_OF 0.1 /* of the tolerance: so well is a largest force found, as a share of it; at best and at worst: */
-#define LEAST_OF_TOP 1e-10
-#define MOST_OF_TOP 1e-5
+/* Peaks of forces and eccentricities in joints with play between the ends of a step, from its dense output. */
+enum { MAX_TOPS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
+#define BENT 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
+#define CLEAR 0.1 /* of the force: smallest change since the last stage that shows a trend */
+#define ARCHED 1.001 /* ratio of a stage's force to those at both ends that shows a maximum between */
+#define ARCHED_STIFF 1.1 /* the same for stiff methods, whose stages have larger errors */
+#define SAME_FORCE 1e-6 /* relative accuracy of the largest force of a rigid contact */
+#define PEAK_TOL 0.1 /* times rtol: relative accuracy of a largest force, within these limits: */
+#define MIN_PEAK_TOL 1e-10
+#define MAX_PEAK_TOL 1e-5
 
+/* Record the force F (N) of joint i at time t (s) in the envelope and in the peaks of the run and of its contact. */
 static void peak(Integrator *run, int i, double t, double F)
 {
     if (run->envelope.rows)
@@ -19,16 +18,19 @@ static void peak(Integrator *run, int i, double t, double F)
     raise_contact_force(run, i, t, F);
 }
 
+/*
+ * Return the force in N of joint i at fraction s of a step, and record it with the eccentricity; 0 if it is undefined.
+ */
 static double force_at(Integrator *run, const Step *step, double s, int i, const Parameters *p)
 {
     RhsOutputs rhs;
     int wrong = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        rhs.g[k] = NAN; /* of those that no force of a joint with play depends on */
+        rhs.g[k] = NAN; /* stays NaN for functions on which no joint force depends */
     int status = play_in(run, step, s, p, &rhs);
     for (int k = 0; k < N_SWITCHES; k++)
         wrong |= run->discrete.branch[k] * rhs.g[k] < 0.0;
-    if (!status && wrong) { /* a switch that the step holds although it is passed: forces are those of its other side */
+    if (!status && wrong) { /* a switching point was passed inside the step: use the other branch */
         const DiscreteState held = run->discrete;
         double y[N_Y], dy[N_Y];
         status = state_at(run, step, s, p, y, dy, &rhs);
@@ -44,7 +46,9 @@ static double force_at(Integrator *run, const Step *step, double s, int i, const
     return F;
 }
 
-/* The node of the stage of an explicit step up to `fraction` that has the largest force of joint i, or the middle. */
+/*
+ * Return the fraction of the explicit stage before `fraction` with the largest force of joint i, or half of `fraction`.
+ */
 static double highest_stage(const Step *step, double fraction, int i, double force)
 {
     const StageValues forces = stage_values(step, SEEN_FORCES + i);
@@ -56,15 +60,14 @@ static double highest_stage(const Step *step, double fraction, int i, double for
 }
 
 /*
- * The top of joint i's force inside a step up to `fraction`, by parabolas through three of its places; at both ends it
- * is known. It is found where the next place would raise it by less than TOP_OF tolerances, as the parabola tells,
- * whose error is that of the one before or less: a place nearer the top divides it by ten as a rule.
+ * Find the maximum of joint i's force inside a step up to `fraction` by parabolas through three points. before, after:
+ * the forces at both ends, N. The search ends where the parabola predicts a gain below PEAK_TOL tolerances.
  */
 static void inner_peak(Integrator *run, const Step *step, double fraction, int i, double before, double after,
     const Parameters *p)
 {
     const double first = highest_stage(step, fraction, i, max_of(before, after));
-    const double fine = min_of(MOST_OF_TOP, max_of(LEAST_OF_TOP, TOP_OF * tolerance_of(run)));
+    const double fine = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * tolerance_of(run)));
     double x[3] = {0.0, first, fraction}, f[3] = {before, force_at(run, step, first, i, p), after}, error = INFINITY;
     peak(run, i, step->t, before);
     for (int n = 0; n < MAX_TOPS; n++) {
@@ -89,7 +92,7 @@ static void inner_peak(Integrator *run, const Step *step, double fraction, int i
 }
 
 #if N_RIGID
-/* Whether the stages of an explicit step up to `fraction` tell that the force of contact i only rises or only falls. */
+/* Return whether the stages of an explicit step show that the force of contact i only rises or only falls. */
 static int is_force_monotone(Step *step, double fraction, int i, double before, double after, const Parameters *p)
 {
     Place all[N_STAGES + 2];
@@ -108,8 +111,8 @@ static int is_force_monotone(Step *step, double fraction, int i, double before, 
 }
 
 /*
- * The largest force of a rigid contact i inside a step up to `fraction`, which may come and go within a step whose
- * motion is rest: the step is bisected (watch/forces.c) until no part may hold a force larger than the largest by far.
+ * Find the largest force of rigid contact i inside a step up to `fraction`. The force may rise and fall while the
+ * motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest force.
  */
 static void rigid_peak(
     Integrator *run, Step *step, double fraction, int i, double before, double after, const Parameters *p)
@@ -144,7 +147,10 @@ static void rigid_peak(
 }
 #endif
 
-/* Place in (0, 1) and height of the top of the cubic through (d0, r0) and (d1, r1), slopes r0 > 0 > r1. */
+/*
+ * Return the position in (0, 1) of the maximum of the cubic through (d0, d1) with end slopes r0 > 0 > r1; *height: its
+ * value.
+ */
 static double cubic_top(double d0, double r0, double d1, double r1, double *height)
 {
     const double b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
@@ -153,7 +159,9 @@ static double cubic_top(double d0, double r0, double d1, double r1, double *heig
     return s;
 }
 
-/* The largest eccentricity of joint i inside a step up to `fraction`, where it turns round in it. */
+/*
+ * Find the largest eccentricity of joint i inside a step up to `fraction`, if the journal turns back inside the step.
+ */
 static void outermost(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
     Clearance low = run->rhs.clearance[i], high = step->rhs.clearance[i];
@@ -161,7 +169,7 @@ static void outermost(Integrator *run, Step *step, double fraction, int i, const
     for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
         const double h = (to - from) * step->h;
         double top;
-        const double round = low.e - outward(&low); /* the rest of e: of a contour what is no penetration, else 0 */
+        const double round = low.e - outward(&low); /* e minus the value whose rate is deltadot: 0 without a contour */
         const double s = from
             + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
         RhsOutputs rhs;
@@ -182,9 +190,8 @@ static void outermost(Integrator *run, Step *step, double fraction, int i, const
 }
 
 /*
- * Whether joint i's force rises at a share of an explicit step (1) or falls (-1): by the parabola through the two last
- * stages before; 0 where that bends too much to tell, or hardly changes. Stages of stiff methods lie too far from the
- * motion.
+ * Return whether joint i's force rises (1) or falls (-1) at a fraction of an explicit step, from the last two stages
+ * before it. 0: the parabola through them leaves the sign uncertain, or the method is stiff.
  */
 static int trend(const Step *step, double fraction, int i, double after)
 {
@@ -206,7 +213,10 @@ static int trend(const Step *step, double fraction, int i, double after)
     return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
 
-/* Of joints where that does not tell: by a very short way along the motion. 0, or what went wrong. */
+/*
+ * Determine the trend of forces whose `trends` entry is 0 by a very short step along the motion. Return 0 or the
+ * status.
+ */
 static int trends_beyond(Integrator *run, const Step *step, double fraction, const double *after, int *trends,
     const Parameters *p)
 {
@@ -223,8 +233,8 @@ static int trends_beyond(Integrator *run, const Step *step, double fraction, con
 }
 
 /*
- * Whether the force of joint i may be larger between the ends of a step up to a share than at both, by the parabola
- * through these and the first stage beyond.
+ * Return whether the force of joint i may exceed both end values inside a step up to `fraction`. The estimate is the
+ * parabola through both ends and the first stage beyond.
  */
 static int may_arch(const Step *step, double fraction, int i, double before, double after)
 {
@@ -239,8 +249,8 @@ static int may_arch(const Step *step, double fraction, int i, double before, dou
 }
 
 /*
- * The largest force of joint i that is known between the ends of a step up to a share: at its stages, or in the middle
- * where a contact goes on and hardly a stage lies within.
+ * Return the largest known force in N of joint i inside a step up to `fraction`: at its stages, or in the middle if a
+ * contact continues and few stages are inside.
  */
 static double largest_inside(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
@@ -253,19 +263,24 @@ static double largest_inside(Integrator *run, Step *step, double fraction, int i
             most = max_of(most, stage_value(forces, k));
             found++;
         }
-    if (found < FEW && run->discrete.contact[i].closed && gives(i) && may_arch(step, fraction, i, before, after)
-        && make_dense(run, p, step) == 0)
+    if (found < MIN_INNER_STAGES && run->discrete.contact[i].closed && gives(i)
+        && may_arch(step, fraction, i, before, after) && make_dense(run, p, step) == 0)
         return max_of(sqrt(most), force_at(run, step, 0.5 * fraction, i, p));
     return sqrt(most);
 }
 
-/* Whether a law ceases to push at the end of a step: beyond it, held, it would pull. */
+/*
+ * Return whether a contact law ceases to push at the end of a step: with the contact held closed, its force would pull.
+ */
 static int is_let_go(double before, double after) { return after < 1e-6 * before; }
 
-/* Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end. */
+/*
+ * Find the peaks of all joints inside a step up to `fraction`, where a force near its largest rose before and now
+ * falls.
+ */
 static void inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
-    enum { LOW = 2 }; /* a force that is no peak yet */
+    enum { LOW = 2 }; /* a force too small to be a peak */
     double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
     int trends[AT_LEAST_ONE(N_CLEARANCES)], arches[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -291,7 +306,7 @@ static void inner_peaks(Integrator *run, Step *step, double fraction, const Para
     if (unknown && trends_beyond(run, step, fraction, after, trends, p))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was none meanwhile */
+        const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was zero in between */
         const int near = trends[i] != LOW, falls = near && trends[i] < 0;
         if (near && (((falls || turned) && run->contacts.rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
             inner_peak(run, step, fraction, i, before[i], after[i], p);

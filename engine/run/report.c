@@ -1,8 +1,7 @@
-/*
- * What is asked of a run from outside: samples, and lists that are fetched.
- */
+/* The report of a run to Python: samples, counts, residuals, and whether lists must be fetched. */
 #include <string.h>
 
+/* Store the present state of all bodies, the discrete state and the contact codes as a sample. */
 void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *latched, signed char *state)
 {
     const Integrator *run = integrator;
@@ -10,8 +9,9 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
 }
 
 /*
- * Of a run that no longer advances: s that its last MONITOR_STEPS steps gained, how many these are, whether they are
- * far shorter than those before; how many of them ended at contacts, corners of forces, frictions, events of the user.
+ * Report on a run that no longer advances. gained: time in s that the last MONITOR_STEPS steps gained. steps: that
+ * number, and whether these steps are far shorter than earlier ones. ended (StepEnd): how many steps each kind of event
+ * ended.
  */
 static void report_monitor(const Integrator *run, double *gained, long *steps, long *ended)
 {
@@ -28,10 +28,10 @@ static void report_monitor(const Integrator *run, double *gained, long *steps, l
     }
 }
 
-/* Whether the run goes on only when its lists and its tape have been fetched. */
+/* Return whether Python must fetch the lists and the step record before the run resumes. */
 int gudgeon_run_full(const void *integrator) { return lists_full(integrator); }
 
-/* How many contacts, those that go on among them, and events the lists have. */
+/* Return the number of events and contacts in the lists, including contacts that last. */
 int gudgeon_run_listed(const void *integrator)
 {
     const Integrator *run = integrator;
@@ -41,6 +41,7 @@ int gudgeon_run_listed(const void *integrator)
     return n;
 }
 
+/* Report the time (s), counts, residuals and ratios of a run, and three values (Peak) of each joint with play. */
 void gudgeon_run_report(const void *integrator, double *t, long *counts, double *numbers, double *peaks)
 {
     const Integrator *run = integrator;

@@ -1,13 +1,13 @@
-/* The smallest gaps, rates of gaps and bounces of surfaces that do not give that rounding lets a run resolve. */
-#define PARTED (16.0 * DBL_EPSILON) /* of how far out bodies are: so far apart surfaces are put that are to part */
-#define LEAST_HEIGHT                                                                                                   \
-    64.0 /* of that distance: a bounce that rises no higher is none, for separate_contacts() would feed it */
-#define LEAST_FLIGHT 64.0 /* of the width to which blows are located, s: a shorter bounce is fed by that as well */
-#define LOSSLESS 1e-3     /* of its energy: what a bounce loses at least, so that neither feeds it */
-#define RESTING 1e-6   /* of the threshold: surfaces that close so slowly need no blow */
-#define ROUNDED (1024.0 * DBL_EPSILON) /* of how fast bodies are: rates of gaps that are no larger are roundings */
+/* Smallest gaps, gap rates and rebound speeds of rigid surfaces that rounding lets a run resolve. */
+#define PARTED (16.0 * DBL_EPSILON) /* of the largest coordinate: gap to which separating surfaces are moved */
+/* of the gap PARTED: separate_contacts() would add energy to bounces that rise less */
+#define MIN_BOUNCE_HEIGHT 64.0
+#define MIN_FLIGHT 64.0 /* of the time resolution of impacts: shorter bounces would gain energy as well */
+#define LOSSLESS 1e-3     /* smallest relative loss of energy of a bounce, so that neither error adds energy */
+#define RESTING 1e-6   /* of the threshold: surfaces that close more slowly need no impact */
+#define ROUNDED (1024.0 * DBL_EPSILON) /* of the largest velocity: smaller gap rates are rounding errors */
 
-/* The rates, m/s, up to which a gap has none: of those that have just been made 0 roundings are left. */
+/* Return the gap rate in m/s below which it is rounding: rates that were just set to 0 keep such residuals. */
 static double least_rate(const Integrator *run, const Parameters *p)
 {
     double all[N_S], most = 0.0;
@@ -17,7 +17,7 @@ static double least_rate(const Integrator *run, const Parameters *p)
     return ROUNDED * most;
 }
 
-/* The roundings between which a gap is none, m. */
+/* Return the gap in m below which it is rounding, from the largest coordinate and clearance. */
 static double least_gap(const Integrator *run, const Parameters *p)
 {
     double all[N_S], most = 0.0;
@@ -30,17 +30,18 @@ static double least_gap(const Integrator *run, const Parameters *p)
 }
 
 /*
- * The parting speed, m/s, up to which contact i closes: v_0, or that of a bounce too low or too short to be resolved. A
- * blow that is located within a gap, or a time, away adds 2 g gap, or 2 g u time, to u^2: less than the (1 - e^2) u^2
- * that is lost.
+ * Return the separation speed in m/s up to which contact i closes: v_0, or that of a bounce too low or too short to be
+ * resolved. An impact located with an error in gap g or time t adds 2 a g, or 2 a u t, to u^2, with the acceleration a.
+ * That must be less than the (1 - e^2) u^2 that is lost.
  */
 static double least_bounce(const Integrator *run, const Parameters *p, int i, double gap)
 {
     const double pressed = max_of(outward_rate(&run->rhs.clearance[i]), 0.0), e = restitution_of(p, i);
     const double width = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->roots.time_resolution);
     const double slow = 4.0 / max_of(LOSSLESS, 1.0 - e * e);
-    const double height = max_of(LEAST_HEIGHT, slow) * gap, flight = max_of(LEAST_FLIGHT, slow) * width;
+    const double height = max_of(MIN_BOUNCE_HEIGHT, slow) * gap, flight = max_of(MIN_FLIGHT, slow) * width;
     return max_of(threshold_of(p, i), max_of(sqrt(2.0 * pressed * height), pressed * flight));
 }
 
+/* Return the approach speed in m/s up to which contact i rests; least: the smallest gap rate above rounding. */
 static double resting(double least, const Parameters *p, int i) { return max_of(RESTING * threshold_of(p, i), least); }

@@ -1,13 +1,14 @@
-/*
- * A run: the right-hand side with its questions, what is watched at accepted states, its begin.
- */
+/* Begin of a run, its right-hand side, and what is recorded at accepted states: peaks, residuals, samples. */
 #include "run.h"
 #include "../watch/zeros.h"
 #include "../both/one.h"
 
 #include "../both/states.h"
 
-/* Laws read their states where they read the latch; what they say of their rates follows the works. */
+/*
+ * Evaluate the right-hand side with the inner states of contact laws, for given rigid contact forces. The laws read
+ * their inner states from the contact states; the rates of these follow the works in dy. Return 0 or the status.
+ */
 static int motion_of_laws(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -21,6 +22,10 @@ static int motion_of_laws(
 #include "../scene/contact_forces.h"
 #endif
 
+/*
+ * Evaluate the right-hand side of a run at (t, y): rates dy and the other outputs rhs. Forces of closed rigid contacts
+ * are included. Return 0, STOPPED after a cancellation, or the vanished pivot.
+ */
 static int rates(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     count_evaluations(run, 1);
@@ -40,7 +45,7 @@ static int rates(Integrator *run, double t, const double *y, const Parameters *p
 #include "contacts.c"
 #include "envelope.c"
 
-/* A journal deeper in its bearing, or a corner in its wall, than a tenth of the radius: laws mean nothing there. */
+/* Return whether a penetration exceeds the range of validity of the contact laws, a tenth of the radius. */
 static int outside_model(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -49,7 +54,10 @@ static int outside_model(const Integrator *run, const Parameters *p)
     return 0;
 }
 
-/* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
+/*
+ * Update peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. Return 0, NOT_FINITE, OUTSIDE, or
+ * the status of accept_state().
+ */
 static int watch(Integrator *run, const Parameters *p)
 {
     const RhsOutputs *rhs = &run->rhs;
@@ -67,7 +75,7 @@ static int watch(Integrator *run, const Parameters *p)
     return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
 
-/* State of all bodies, latches and contact codes as row i of the samples. */
+/* Store the state of all bodies, the discrete state and the contact codes at time t as row i of the samples. */
 static void store_sample(const Integrator *run, double t, const double *now, const Parameters *p, long i, double *y,
     double *latched, signed char *state)
 {
@@ -84,7 +92,7 @@ static void store_sample(const Integrator *run, double t, const double *now, con
         latched[i * MEMORY + N_DISCRETE - N_STATES + k] = now[FIRST_STATE + k];
 }
 
-/* From now on corners keep the sides that they have here. */
+/* Freeze the active branches of all switching functions as they are at the present state. */
 static void freeze_branches(Integrator *run)
 {
     for (int k = 0; k < N_SWITCHES; k++)
@@ -93,8 +101,9 @@ static void freeze_branches(Integrator *run)
 }
 
 /*
- * Sides of all corners that act from their functions at (t, y), and the right-hand side there; corner `kept` (-1: none)
- * keeps its own. What begins to act may have held the other side, on which it is no number.
+ * Update the branches of all active switching functions at (t, y) until they agree with their signs, and evaluate the
+ * right-hand side there. Switching function `kept` (-1: none) keeps its branch. A function that becomes active may have
+ * held the other branch, on which its value may be NaN.
  */
 static int update_branches_at(
     Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int kept, const Parameters *p)
@@ -112,7 +121,7 @@ static int update_branches_at(
     return status;
 }
 
-/* Of all bodies, J. */
+/* Return the kinetic energy of all bodies at the present state, J. */
 static double kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double m[N_Q], all[N_S], sum = 0.0;
@@ -137,15 +146,16 @@ static double kinetic_energy(const Integrator *run, const Parameters *p)
 #endif
 #include "impacts.c"
 
-/* Whether the lists are to be fetched: the next step may find more than they hold. */
+/* Return whether Python must fetch the lists and the step record before the next step. */
 static int lists_full(const Integrator *run)
 {
     return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
 }
 
 /*
- * The mass that the force of contact i moves: what that force changes in the rate of deltadot, which is linear in the
- * velocities. way (N_X): the velocities that it leads to, by which deltadot is one more. No number where there is none.
+ * Return the effective mass in kg that the force of contact i moves, NaN if undefined. The force of contact i changes
+ * the rate of deltadot, which is linear in the velocities. way (N_X): the velocities at which deltadot is larger by 1
+ * m/s.
  */
 static double moved_mass(Integrator *run, int i, double *way, const Parameters *p)
 {
@@ -155,7 +165,7 @@ static double moved_mass(Integrator *run, int i, double *way, const Parameters *
     memcpy(y, run->y, sizeof y);
     for (int closed = 0; closed < 2; closed++) {
         run->discrete.contact[i].closed = (unsigned char)closed;
-        run->discrete.contact[i].deltadot_minus = INFINITY; /* no damping */
+        run->discrete.contact[i].deltadot_minus = INFINITY; /* the contact force has no damping part */
         if (update_branches_at(run, run->t, run->y, dy[closed], &rhs, -1, p))
             return NAN;
         force[closed] = rhs.clearance[i].F_n;
@@ -172,8 +182,9 @@ static double moved_mass(Integrator *run, int i, double *way, const Parameters *
 }
 
 /*
- * Contact i, which the run begins in: of its onset nobody knows. It is taken as one without loss, whose energy is in
- * the motion and in the elastic force F, that at deltadot = 0: F delta / (n + 1), n the exponent of a power law.
+ * Estimate the approach speed of contact i, in which the run begins without a known onset. The contact is assumed to
+ * have lost no energy since the onset: 1/2 m u^2 = 1/2 m deltadot^2 + F delta / (n + 1), with the elastic force F at
+ * deltadot = 0 and the exponent n of a power law.
  */
 static void begin_in_contact(Integrator *run, int i, const Parameters *p)
 {
@@ -181,7 +192,7 @@ static void begin_in_contact(Integrator *run, int i, const Parameters *p)
     double force[2], delta[2], way[N_X], y[N_Y], dy[N_Y];
     DiscreteState known = run->discrete;
     RhsOutputs rhs;
-    freeze_branches(run); /* an open contact is none then, wherever the journal lies */
+    freeze_branches(run); /* frozen: an open contact stays open, wherever the journal is */
     const double mass = moved_mass(run, i, way, p);
     memcpy(y, run->y, sizeof y);
     for (int part = 0; part < 2 && mass > 0.0; part++) {
@@ -203,7 +214,10 @@ static void begin_in_contact(Integrator *run, int i, const Parameters *p)
     begin_contact(run, i, run->t, known.contact[i].deltadot_minus);
 }
 
-/* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
+/*
+ * Evaluate the first right-hand side of a run and set its contacts, friction modes and signs of user-defined events. A
+ * start with penetration is in contact; friction begins with the mode of its slip.
+ */
 static int begin(Integrator *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
@@ -229,6 +243,7 @@ static int begin(Integrator *run, const Parameters *p)
     return status ? status : watch(run, p);
 }
 
+/* Return the size of the memory of a run in bytes. */
 size_t gudgeon_run_size(void)
 {
 #if N_USER_EVENTS
@@ -238,7 +253,7 @@ size_t gudgeon_run_size(void)
 #endif
 }
 
-/* `y` is a state of all bodies. */
+/* Initialize a run at time t (s) from the state y of all bodies and the discrete state `latched`, for parameters p. */
 void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *latched)
 {
     Integrator *run = integrator;
@@ -248,7 +263,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     run->discrete.token = &run->cancellation;
     if (CONTINUES)
         run->discrete.least = run->discrete.least_size = NEARBY;
-    for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */
+    for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no inner states yet */
         run->y[FIRST_STATE + k] = isnan(latched[N_DISCRETE - N_STATES + k]) ? 0.0 : latched[N_DISCRETE - N_STATES + k];
     start_contacts(run, t, latched);
 }

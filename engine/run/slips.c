@@ -1,9 +1,14 @@
-/* Slips of friction that sticks: put to rest, as exactly as their velocities are evaluated. */
-#define RESTS 1e-15    /* m/s: a slip that is no larger is none */
-#define LEFT_OVER 10.0 /* tolerances of a velocity, that a slip may be a rest of a step by, or */
-#define LEFT_SLIP 2e-9 /* m/s, what its place is located to */
+/*
+ * Removal of residual slip in friction elements that stick, to the accuracy with which their velocities are evaluated.
+ */
+#define MIN_SLIP 1e-15    /* m/s: smaller slips count as zero */
+#define MAX_RESIDUAL_TOLERANCES 10.0 /* tolerances of a velocity up to which a slip is an error of the step */
+#define MAX_RESIDUAL_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
-/* By how much the rate of slip i, and all rates (dy), change with the direction of its force; 0: that is not known. */
+/*
+ * Return the change of the rate of slip i, and in dy of all rates, when its friction force changes from +1 to -1 times
+ * the limit. 0: the change is not known.
+ */
 static double slip_response(Integrator *run, double t, const double *y, int i, const Parameters *p, double *dy)
 {
     double *mode = &run->discrete.mode[i], other[N_Y];
@@ -19,50 +24,53 @@ static double slip_response(Integrator *run, double t, const double *y, int i, c
     return status ? 0.0 : along.friction[i].rate - against.friction[i].rate;
 }
 
-/* Whether velocities that change so are a rest of a step: a slip may be small because its arm is, not its speed. */
-static int is_slip_residual(const Integrator *run, const double *way, double times)
+/*
+ * Return whether the velocity change `times` * `way` is a residual error of a step. The velocities are tested, not the
+ * slip: a slip may be small because its lever arm is.
+ */
+static int is_slip_residual(const Integrator *run, const double *direction, double times)
 {
     int small = 1;
     for (int k = N_X; k < 2 * N_X; k++) {
         const double *least = run->norm.least;
         const double turns = least[0] > 0.0 ? least[1] / least[0] : 1.0; /* rad/m; rk4 does not know */
-        const double located = is_angle[k - N_X] ? LEFT_SLIP * turns : LEFT_SLIP;
-        const double tolerance = run->norm.weight[k] > 0.0 ? LEFT_OVER / run->norm.weight[k] : 0.0;
-        small &= fabs(way[k] * times) <= max_of(tolerance, located);
+        const double located = is_angle[k - N_X] ? MAX_RESIDUAL_SLIP * turns : MAX_RESIDUAL_SLIP;
+        const double tolerance = run->norm.weight[k] > 0.0 ? MAX_RESIDUAL_TOLERANCES / run->norm.weight[k] : 0.0;
+        small &= fabs(direction[k] * times) <= max_of(tolerance, located);
     }
     return small;
 }
 
 /*
- * Stops the slips of friction that sticks, which are left over or which a step let drift: by impulses of the friction.
- * Whether there were any. One of them leaves the others at rest.
+ * Remove the residual slips of sticking friction by impulses of that friction and return whether there were any. The
+ * impulse of one element leaves the others at rest.
  */
 static int remove_slip_residuals(Integrator *run, double t, double *y, const RhsOutputs *rhs, const Parameters *p)
 {
     int some = 0;
     for (int i = 0; i < N_FRICTIONS; i++) {
-        double way[N_Y];
+        double direction[N_Y];
         const double v = rhs->friction[i].v;
-        if (run->discrete.mode[i] != 0.0 || fabs(v) <= RESTS)
+        if (run->discrete.mode[i] != 0.0 || fabs(v) <= MIN_SLIP)
             continue;
-        const double response = slip_response(run, t, y, i, p, way);
-        if (!(response > 0.0) || !is_slip_residual(run, way, v / response))
+        const double response = slip_response(run, t, y, i, p, direction);
+        if (!(response > 0.0) || !is_slip_residual(run, direction, v / response))
             continue;
         for (int k = N_X; k < 2 * N_X; k++)
-            y[k] -= way[k] * (v / response);
+            y[k] -= direction[k] * (v / response);
         some = 1;
     }
     return some;
 }
 
-/* The right-hand side at a state; friction that sticks is at rest there. */
+/* Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. */
 static int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     const int status = rates(run, t, y, p, dy, rhs);
     return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);
 }
 
-/* The same of a state alone. */
+/* Remove residual slips of sticking friction from a state y. */
 static void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     double dy[N_Y];

@@ -1,47 +1,61 @@
 /*
- * The log of steps: what is counted, residuals, and whether time still advances. Owns Counts, Residuals and Progress.
+ * Counts of a run, its constraint residuals, and the test whether time still advances. This file owns Counts, Residuals
+ * and Progress (run/run.h).
  */
 #ifndef GUDGEON_STEP_LOG_H
 #define GUDGEON_STEP_LOG_H
 
 enum {
-    MAX_NO_ADVANCE = 200 + 2 * N_EVENT_FUNCTIONS, /* steps in a row that an event ends where they begin */
-    MAX_SHORT_STEPS = 2000 /* steps in a row that are too short to lead anywhere */
+    MAX_NO_ADVANCE = 200 + 2 * N_EVENT_FUNCTIONS, /* successive steps that an event ends at their beginning */
+    MAX_SHORT_STEPS = 2000 /* successive steps that are too short to advance */
 };
 
+/* Add n evaluations of the right-hand side to the counts of a run. */
 static inline void count_evaluations(Integrator *run, long n) { run->counts.evaluations += n; }
 
-/* Back to a number from before: what output needs is not integration. */
+/* Restore an earlier number of evaluations: those for output do not count as integration. */
 static inline void restore_evaluations(Integrator *run, long evaluations) { run->counts.evaluations = evaluations; }
 
+/* Count an accepted step, and whether its method is stiff. */
 static inline void count_step(Integrator *run, int stiff)
 {
     run->counts.steps++;
     run->counts.stiff_steps += stiff;
 }
+
+/* Count a rejected step. */
 static inline void count_rejected(Integrator *run) { run->counts.rejected++; }
+
+/* Count a linearization of the equations of motion. */
 static inline void count_jacobian(Integrator *run) { run->counts.jacobians++; }
+
+/* Count a change of the mode of friction. */
 static inline void count_switch(Integrator *run) { run->counts.switches++; }
 
+/* Set the largest residual of the velocity constraints so far. */
 static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->residuals.phi_dot_max = phi_dot; }
 
-/* What ended a step (-1: nothing), and whether that was right at its beginning. */
+/* Count the event function that ended a step (-1: none), and whether it ended the step at its beginning. */
 static inline void record_step_end(Integrator *run, int event, int no_advance)
 {
     run->progress.no_advance = no_advance ? run->progress.no_advance + 1 : 0;
     run->progress.ended[event < 0 ? N_EVENT_FUNCTIONS : event]++;
 }
 
+/* Return whether too many successive steps were ended by events at their beginning. */
 static inline int is_chattering(const Integrator *run) { return run->progress.no_advance > MAX_NO_ADVANCE; }
 
-/* Whether so many steps were too short that speeds grow beyond all bounds, as at a dead centre. */
-static inline int note_short_step(Integrator *run, int crawls)
+/*
+ * Count successive too short steps and return whether there are too many: speeds grow without bound, as at a dead
+ * centre.
+ */
+static inline int note_short_step(Integrator *run, int is_short)
 {
-    run->progress.short_steps = crawls ? run->progress.short_steps + 1 : 0;
+    run->progress.short_steps = is_short ? run->progress.short_steps + 1 : 0;
     return run->progress.short_steps > MAX_SHORT_STEPS;
 }
 
-/* Whether the run no longer advances; what ends its steps is counted anew with each look at its pace. */
+/* Return whether the run no longer advances. Each check of the progress restarts the counts of what ends steps. */
 static inline int stalls(Integrator *run, double t_end)
 {
     const int stalled = has_stalled(&run->progress.monitor, run->t, t_end);

@@ -1,21 +1,21 @@
 /*
- * The tape: states along a run for what looks at every step (peaks of any series), the ends of steps and places between
- * them, in rows that Python fetches. Where something jumps both its sides are there, right beside it.
+ * The step record: states along a run for peaks of any series, in rows that Python fetches. Rows are the ends of steps
+ * and points between them. At a jump there are two rows, just before and just after.
  */
 enum {
     TAPE_ROW = N_TAPE_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
-    TAPE_PARTS = 4,             /* of a step of a method that chooses it */
-    TAPE_SPARE = 4 * TAPE_PARTS /* rows that a step needs at most */
+    TAPE_PARTS = 4,             /* parts of a step, whose ends are recorded */
+    TAPE_SPARE = 4 * TAPE_PARTS /* largest number of rows of one step */
 };
-#define BESIDE 1e-9 /* of a step, that a place right beside a jump is away from it */
+#define JUMP_OFFSET 1e-9 /* of a step: distance of the rows just before and after a jump */
 
-/* Whether the next step may find no room for its rows. */
+/* Return whether the step record may lack space for the rows of the next step. */
 static int is_record_full(const Integrator *run)
 {
     return run->step_record.rows && run->step_record.n > run->step_record.capacity - TAPE_SPARE;
 }
 
-/* A state of the run: whether something jumped since the row before, t, the state of all bodies, memory, codes. */
+/* Append a state at time t to the step record: jump mark, t, state of all bodies, discrete state, contact codes. */
 static void record_state(Integrator *run, double t, const double *y, const Parameters *p)
 {
     StepRecord *step_record = &run->step_record;
@@ -31,22 +31,23 @@ static void record_state(Integrator *run, double t, const double *y, const Param
     step_record->jumped = 0;
 }
 
+/* Mark that something jumped before the next row, if `jumped`. */
 static void mark_jump(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
 
-/* The present state, behind something that changed. */
+/* Append the present state to the step record as the state just after a jump. */
 static void record_after_jump(Integrator *run, const Parameters *p)
 {
     run->step_record.jumped = 1;
     record_state(run, run->t, run->y, p);
 }
 
-/* Room for so many rows, at least a few steps' worth. */
+/* Start the step record in memory for `capacity` rows, at least those of a few steps. */
 void gudgeon_run_record(void *integrator, double *rows, long capacity)
 {
     ((Integrator *)integrator)->step_record = (StepRecord){.rows = rows, .capacity = capacity, .jumped = 1};
 }
 
-/* Rows since the last call; the next one is written to the first place. */
+/* Return the number of rows since the last call, and start again at the first row. */
 long gudgeon_run_recorded(void *integrator)
 {
     Integrator *run = integrator;

@@ -1,13 +1,14 @@
 /*
- * The uncertainty of event functions and switches: by how much rounding moves them, and what the state misses its
- * constraints by. A function that is smaller has no sign: it keeps the branch that it had.
+ * Uncertainty of event and switching functions: the effect of rounding and of constraint residuals of the state. A
+ * function smaller than its uncertainty has no sign and keeps its branch.
  */
 #if N_WATCHED
-#define AS_SEEN 16.0 /* times the differences that are seen, where rounding in a function may be all of them */
+#define AS_SEEN 16.0 /* factor on observed differences, which may consist of rounding only */
 
 /*
- * What is missing to close the linkage at a state is an error of it; so is what velocities miss at positions that are
- * wrong, some by more, others by less: near a singular position that counts for more than rounding does.
+ * Add the constraint residual of a state to its error: the correction that closes the linkage, and the velocity
+ * residual at perturbed positions. Near a singular position these exceed rounding. error (2 N_X): m, rad and their
+ * rates.
  */
 static void add_closing(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -30,8 +31,8 @@ static void add_closing(Integrator *run, double t, const double *y, const Parame
 }
 
 /*
- * Errors of the coordinates and velocities of a state y: rounding of the largest of each kind, lengths and angles, and
- * what it misses the constraints by.
+ * Compute the errors of coordinates and velocities of a state y: rounding of the largest length and angle, plus
+ * constraint residuals. error (2 N_X): m, rad and their rates.
  */
 static void rounding_errors(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -49,8 +50,8 @@ static void rounding_errors(Integrator *run, double t, const double *y, const Pa
 
 #if N_FRICTIONS
 /*
- * What is left of the slip of friction that sticks is an error of the velocities: those by which an impulse of the
- * friction would stop it. Forces of both directions lead there; the others that stick stay at rest.
+ * Add the residual slip of sticking friction to the velocity errors: the velocity change by which an impulse of that
+ * friction would stop the slip. Other sticking elements stay at rest.
  */
 static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -65,32 +66,36 @@ static void add_stuck_slip(Integrator *run, double t, const double *y, const Par
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
             error[k] += fabs(way[k] * rhs.friction[i].v / response);
     }
-    for (int k = 0; k < N_X && status >= 0; k++) /* a place that is held may be 0: by lengths that count */
+    for (int k = 0; k < N_X && status >= 0; k++) /* a held coordinate may be 0: use the smallest relevant length */
         error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->norm.least[is_angle[k]]);
 }
 #else
+/* Add nothing: the scene has no friction that may stick. */
 static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
     (void)run, (void)t, (void)y, (void)p, (void)error;
 }
 #endif
 
-/* A watched function's value, whichever side it is on. */
+/* Return the value of watched function i, a switching function or a user-defined event, on any branch. */
 static inline double watched_value(const RhsOutputs *rhs, int i)
 {
     const int k = watched[i] - N_CLEARANCES;
     return k < N_SWITCHES ? rhs->g[k] : rhs->event[k - N_SWITCHES - N_FRICTIONS];
 }
 
-/* By how much errors of the state change each watched function; 0 where they lead to a pole. */
 #if KNOWN_BOUNDS
+/* Estimate by bounds how much errors of the state change each watched function; 0 if the bounds contain a pole. */
 static void error_of_watched(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *out)
 {
     error_by_bounds(t, y, y + N_X, error, error + N_X, N_X, &run->discrete, p, out);
 }
 #else
-/* No bounds are known: errors of some signs are tried, neighbours with the same one and with another. */
+/*
+ * Estimate how much errors of the state change each watched function from differences for four patterns of error signs:
+ * no bounds are known.
+ */
 static void error_of_watched(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *out)
 {
@@ -113,7 +118,7 @@ static void error_of_watched(
 }
 #endif
 
-/* By how much rounding and what the state misses its constraints by may move each watched function at a state. */
+/* Estimate by how much rounding and constraint residuals of a state change each watched function (N_WATCHED values). */
 static void uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *out)
 {
     double error[2 * N_X + 1];
@@ -123,8 +128,8 @@ static void uncertainty(Integrator *run, double t, const double *y, const Parame
 }
 
 /*
- * Event functions at a state; 0 for those that are below their uncertainty. Only where a sign is another one than that
- * of `branch` this is looked for.
+ * Compute the user-defined event functions at a state, with 0 for values below their uncertainty. The uncertainty is
+ * estimated only if a sign differs from the stored one.
  */
 static void resolved_events(
     Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
@@ -144,13 +149,14 @@ static void resolved_events(
 }
 
 #else
-/* No switches of the user's expressions, and no events: nothing that has an uncertainty. */
+/* Do nothing: the scene has no user-defined events. */
 static inline void resolved_events(
     const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
 {
     (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)value;
 }
 
+/* Do nothing: the scene has no watched functions. */
 static inline void uncertainty(const Integrator *run, double t, const double *y, const Parameters *p, double *out)
 {
     (void)run, (void)t, (void)y, (void)p, (void)out;

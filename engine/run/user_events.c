@@ -1,10 +1,9 @@
-/*
- * Events of the user: noted while the run goes on, looked for at its end.
- */
-#define SAME_ZERO 4.0 /* times what steps tell apart: zeros of a function that are as near are one */
-#define RIGHT_AFTER 1e-11 /* s: what lies so near to an end or a begin of a run is there; more than steps tell apart */
-#define RIGHT_AFTER_SHARE 1e-9 /* of the time that a fast motion takes to cross the mechanism */
+/* User-defined events: their list, their signs, and events at the start and end of a run. */
+#define SAME_ZERO 4.0 /* times the time resolution: closer zeros of one function count as one */
+#define RIGHT_AFTER 1e-11 /* s: events closer to the start or end of a run are at it; above the time resolution */
+#define RIGHT_AFTER_SHARE 1e-9 /* of the time in which a fast motion crosses the mechanism */
 
+/* Append user-defined event i at time t (s) to the list, if the list has space. */
 static void list_event(Integrator *run, int i, double t)
 {
     if (run->events.n < LISTED_EVENTS) {
@@ -13,17 +12,17 @@ static void list_event(Integrator *run, int i, double t)
     }
 }
 
-/* Whether the event that ends a step is not a zero but a pole. */
+/* Store whether the event that ends a step is a pole instead of a zero. */
 static inline void set_pole(Integrator *run, int is_pole) { run->events.pole = is_pole; }
 
-/* User event i at time t with the state there; whether it ends the run. */
+/* Record user-defined event i at time t with the state there, and return whether the event ends the run. */
 static int note_event(Integrator *run, int i, double t, const double *now, const Parameters *p)
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
     for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->roots.time_resolution; k--)
         if (run->events.number[k] == i)
-            return 0; /* steps do not tell these times apart: it is the same zero, which rounding leads across again */
+            return 0; /* within the time resolution: the same zero, crossed again by rounding */
     if (run->events.n < LISTED_EVENTS)
         store_sample(run, t, now, p, run->events.n, at->y[0], at->latched[0], at->state[0]);
     list_event(run, i, t);
@@ -34,7 +33,7 @@ static int note_event(Integrator *run, int i, double t, const double *now, const
 #endif
 }
 
-/* User event i has crossed its zero here: its side is the other one; whether that is a direction that counts. */
+/* Reverse the sign of user-defined event i at its zero, and return whether this direction counts as an event. */
 static int cross_zero(Integrator *run, int i)
 {
     const int to = -run->discrete.event_sign[i];
@@ -42,7 +41,7 @@ static int cross_zero(Integrator *run, int i)
     return event_direction[i] * to >= 0;
 }
 
-/* User event i is no number at time t: told once a run, in the list of events behind all of them. */
+/* Record once in a run that user-defined event i is NaN at time t: listed with number i + N_USER_EVENTS. */
 static void note_no_number(Integrator *run, int i, double t)
 {
     if (!run->events.no_number[i])
@@ -50,7 +49,7 @@ static void note_no_number(Integrator *run, int i, double t)
     run->events.no_number[i] = 1;
 }
 
-/* Sides of user events that began on a zero, or were held there: wherever they are at a state. */
+/* Set the signs of user-defined events that began at zero, or were held there, from their values at a state. */
 static void update_event_signs(Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
@@ -66,8 +65,8 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
 }
 
 /*
- * User events that something sudden led across their zeros, from what they were `before` (NULL: wherever they were);
- * whether one of them ends the run.
+ * Record user-defined events that a sudden change led across zero, and return ENDED if one of them ends the run.
+ * before: their values before the change, NULL: any.
  */
 static int note_leaps(Integrator *run, const double *before, const Parameters *p)
 {
@@ -82,7 +81,9 @@ static int note_leaps(Integrator *run, const double *before, const Parameters *p
 }
 
 #if N_USER_EVENTS
-/* Event functions `ahead` s beyond a state, straight on; 0 for those that are below their uncertainty there. */
+/*
+ * Evaluate the user-defined event functions `ahead` seconds after a state, along its rates; 0 below their uncertainty.
+ */
 static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy, const Parameters *p,
     double *value)
 {
@@ -98,7 +99,9 @@ static int events_ahead(Integrator *run, double t, double ahead, const double *y
     return status;
 }
 
-/* What lies `h` after run->t, on the sides of switches that hold there; they are held from now on. */
+/*
+ * Evaluate the right-hand side `h` seconds after the present time, and update and freeze the branches that hold there.
+ */
 static int look_beyond(Integrator *run, double h, const Parameters *p, RhsOutputs *beyond)
 {
     double y[N_Y], dy[N_Y];
@@ -109,7 +112,10 @@ static int look_beyond(Integrator *run, double h, const Parameters *p, RhsOutput
     return update_branches_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
-/* How near in time is the same as a time where a run ends or begins, s; by the state alone, and a step of rk4. */
+/*
+ * Return the time difference in s within which an event counts as at the start or end of a run. It depends on the state
+ * alone, and for rk4 on its step length `step`.
+ */
 static double same_time(const Integrator *run, double step)
 {
     double rate = 0.0;
@@ -122,10 +128,10 @@ static double same_time(const Integrator *run, double step)
 }
 
 /*
- * The side of each event function right after run->t, 0 where it is within its uncertainty and goes on so. It depends
- * on the state alone, not on what led there: a run that ends here lists what has another side then, a run that begins
- * here begins with these sides. So each event of a run that is cut anywhere is listed once. The sides of switches are
- * those right after run->t from now on.
+ * Compute the sign of each user-defined event function just after the present time, 0 if it stays below its
+ * uncertainty. The signs depend on the state alone. A run that ends here records events with other signs; a run that
+ * begins here starts with these signs. Each event of a run that is divided anywhere is therefore recorded once.
+ * Branches of switching functions are updated to those just after the present time.
  */
 static int event_signs_after(Integrator *run, double step, const Parameters *p, signed char *branch)
 {
@@ -151,7 +157,10 @@ static int event_signs_after(Integrator *run, double step, const Parameters *p, 
     return 0;
 }
 
-/* Lists events whose zero, or jump across it, is the end of the run; `step` as below. ENDED: one of them ends it. */
+/*
+ * Record events whose zero, or jump across it, is at the end of the run; step: length of fixed steps, 0 otherwise.
+ * Return ENDED if one of them ends the run.
+ */
 static int end_on_zeros(Integrator *run, double step, const Parameters *p)
 {
     const DiscreteState discrete = run->discrete;
@@ -166,8 +175,8 @@ static int end_on_zeros(Integrator *run, double step, const Parameters *p)
 }
 
 /*
- * Begins with the sides of event functions right after the start, and of switches, unless this is rk4, whose steps, of
- * length `step`, do not hold them; 0: another method.
+ * Start with the signs of event functions and the branches just after the start. Branches stay as they were for rk4,
+ * whose steps of length `step` do not freeze them; step = 0: another method.
  */
 static int begin_beyond(Integrator *run, double step, const Parameters *p)
 {
@@ -183,26 +192,29 @@ static int begin_beyond(Integrator *run, double step, const Parameters *p)
     return rates(run, run->t, run->y, p, run->dy, &run->rhs);
 }
 #else
+/* Return 0: the scene has no user-defined events. */
 static inline int end_on_zeros(Integrator *run, double step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, 0;
 }
+
+/* Return 0: the scene has no user-defined events. */
 static inline int begin_beyond(Integrator *run, double step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, 0;
 }
 #endif
 
-/*
- * What is known before friction changes its mode, or a contact of surfaces that do not give begins: by these a function
- * may be held at zero from then on.
- */
 #if N_USER_EVENTS && (N_FRICTIONS || N_RIGID)
+/*
+ * The state before friction changes mode or a rigid contact begins, after which an event function may be held at zero.
+ */
 typedef struct {
     DiscreteState discrete;
     double y[N_Y], dy[N_Y], event[N_USER_EVENTS];
 } Held;
 
+/* Return a copy of the discrete state, state, rates and event functions before an event. */
 static Held held_before(const Integrator *run)
 {
     Held before = {.discrete = run->discrete};
@@ -212,7 +224,7 @@ static Held held_before(const Integrator *run)
     return before;
 }
 
-/* Whether friction sticks that did not, or a contact is closed that was not. */
+/* Return whether friction sticks or a rigid contact is closed now that was not `before`. */
 static int holds_more(const DiscreteState *before, const DiscreteState *now)
 {
     int more = 0;
@@ -224,9 +236,9 @@ static int holds_more(const DiscreteState *before, const DiscreteState *now)
 }
 
 /*
- * Event functions that are held at zero from now on have come to zero: that is an event, unless they had been there
- * before, and from there they go to a side without crossing zero. Whether something is held is told by where it would
- * be `ahead` s later, and where it would have been as things were. Returns ENDED where one of them ends the run.
+ * Record event functions that reach zero and are held there from now on, unless they were at zero before. A function
+ * that was held and moves again gets its sign without an event. Whether it is held follows from its value `ahead`
+ * seconds later, with and without the change. Return ENDED if one of them ends the run.
  */
 static int note_arrivals(Integrator *run, const Held *before, double ahead, const Parameters *p)
 {
@@ -238,7 +250,7 @@ static int note_arrivals(Integrator *run, const Held *before, double ahead, cons
     if (!more && !zeros)
         return 0;
     DiscreteState discrete = run->discrete;
-    uncertainty(run, run->t, before->y, p, error); /* slips that have been stopped here are none */
+    uncertainty(run, run->t, before->y, p, error); /* before: slips that were just stopped count */
     (void)events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
     run->discrete = before->discrete;
     (void)events_ahead(run, run->t, ahead, before->y, before->dy, p, then);
@@ -260,22 +272,27 @@ static int note_arrivals(Integrator *run, const Held *before, double ahead, cons
     return status;
 }
 #else
+/* Placeholder: nothing can hold an event function at zero in this scene. */
 typedef struct {
     int none;
 } Held;
 
+/* Return a placeholder: nothing can hold an event function at zero in this scene. */
 static Held held_before(const Integrator *run) { return (void)run, (Held){0}; }
+
+/* Return 0: nothing can hold an event function at zero in this scene. */
 static int note_arrivals(Integrator *run, const Held *before, double ahead, const Parameters *p)
 {
     return (void)run, (void)before, (void)ahead, (void)p, 0;
 }
 #endif
 
+/* Set whether user-defined events may end the run. */
 void gudgeon_run_stop(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
 
 /*
- * Moves the oldest user events, at most `capacity`, from the list into these arrays, with the states there as rows of
- * samples; returns how many.
+ * Move the oldest user-defined events, at most `capacity`, from the list into these arrays, with the states there as
+ * rows of samples. Return their number.
  */
 int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *latched,
     signed char *state)
