@@ -1,27 +1,36 @@
-/* The closed linkage in absolute coordinates. */
+/*
+ * Positions of a driven linkage in absolute coordinates: solution of the constraint equations, velocities and
+ * accelerations.
+ */
 
-/* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
-static int solve_motion(Course *course, const Position *here, double *a, RhsOutputs *rhs)
+/*
+ * Compute accelerations and powers by the equations of motion. A positive status is a constraint equation, numbered
+ * after the N_ROWS equations of project().
+ */
+static int solve_motion(KinematicRun *run, const Position *here, double *a, RhsOutputs *rhs)
 {
-    const DiscreteState discrete = {.token = &course->cancellation, USUAL_SHARES};
-    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &discrete, course->p, a, rhs);
+    const DiscreteState discrete = {.token = &run->cancellation, USUAL_SHARES};
+    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }
 
-/* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
-static int close_linkage(const Course *course, double t, double *q, double *moved, double *left)
+/*
+ * Solve Phi(q, t) = 0 by Newton's method until the correction no longer decreases. moved: incremented by the
+ * corrections; left: the last one, rad or fraction of the size. Returns a status.
+ */
+static int close_linkage(const KinematicRun *run, double t, double *q, double *moved, double *last_correction)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
-        constraints(t, q, course->p, phi);
-        const int status = project(t, q, phi, course->p, step);
+        constraints(t, q, run->p, phi);
+        const int status = project(t, q, phi, run->p, step);
         if (status)
             return status;
-        const double size = turn_of(step, course->extent);
+        const double size = angle_norm(step, run->extent);
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
         *moved += size;
-        *left = size;
+        *last_correction = size;
         if (isnan(size))
             return NEWTON_FAILED;
         if (size < 1e-9 && (size >= 0.5 * before || size < 1e-15))
@@ -31,8 +40,8 @@ static int close_linkage(const Course *course, double t, double *q, double *move
     return before < 1e-9 ? 0 : NEWTON_FAILED;
 }
 
-/* Phi_q v = nu by projection, with one step of refinement. */
-static int velocities(double t, const double *q, const Parameters *p, double *v)
+/* Solve Phi_q v = nu by projection, with one step of refinement. Returns a status. */
+static int solve_velocities(double t, const double *q, const Parameters *p, double *v)
 {
     double r[AT_LEAST_ONE(N_ALL_ROWS)], phi_q[AT_LEAST_ONE(N_ALL_ROWS) * N_Q], step[N_Q];
     for (int k = 0; k < N_Q; k++)
@@ -52,45 +61,49 @@ static int velocities(double t, const double *q, const Parameters *p, double *v)
     return 0;
 }
 
-/* From one place to another near by; accelerations come with `settle`. */
-static int bracket_point_at(const Course *course, double t, const Position *from, Position *to, double *moved)
+/*
+ * Solve position and velocities at time t from a near position; complete_position() adds the accelerations. moved: the
+ * correction of the first guess. Returns a status.
+ */
+static int solve_position_at(const KinematicRun *run, double t, const Position *from, Position *to, double *moved)
 {
     *moved = 0.0;
     to->t = t;
     to->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         to->q[k] = from->q[k] + (t - from->t) * from->v[k];
-    const int status = close_linkage(course, beyond_jump(t), to->q, moved, &to->left);
-    return status ? status : velocities(beyond_jump(t), to->q, course->p, to->v);
+    const int status = close_linkage(run, beyond_jump(t), to->q, moved, &to->last_correction);
+    return status ? status : solve_velocities(beyond_jump(t), to->q, run->p, to->v);
 }
 
-/* What a sample has beside positions and velocities. */
-static int update_modes(Course *course, Position *here)
+/* Complete a position for a sample: accelerations, |Phi| and |Phi_dot|. Returns a status. */
+static int complete_position(KinematicRun *run, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     RhsOutputs rhs;
     if (here->interpolated)
         return 0;
-    const int status = solve_motion(course, here, here->a, &rhs);
+    const int status = solve_motion(run, here, here->a, &rhs);
     if (status)
         return status;
-    constraints(beyond_jump(here->t), here->q, course->p, phi);
+    constraints(beyond_jump(here->t), here->q, run->p, phi);
     here->phi = here->phi_dot = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
-        here->phi = larger(here->phi, fabs(phi[r]));
+        here->phi = larger_or_nan(here->phi, fabs(phi[r]));
     for (int r = 0; r < N_ROWS; r++)
-        here->phi_dot = larger(here->phi_dot, fabs(rhs.phi_dot[r]));
+        here->phi_dot = larger_or_nan(here->phi_dot, fabs(rhs.phi_dot[r]));
     return 0;
 }
 
-static int begin(Course *course, double t, const double *q, const double *v, Position *here)
+/* Set the position at time t to given q and v (N_Q) and complete it. Returns a status. */
+static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     here->t = t;
     here->interpolated = 0;
     memcpy(here->q, q, sizeof here->q);
     memcpy(here->v, v, sizeof here->v);
-    constraints(beyond_jump(t), q, course->p, phi); /* rows may depend on each other there */
-    here->left = project(beyond_jump(t), q, phi, course->p, step) ? INFINITY : 0.0;
-    return update_modes(course, here);
+    constraints(beyond_jump(t), q, run->p, phi); /* equations may depend on each other there */
+    here->last_correction = project(beyond_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
+    return complete_position(run, here);
 }

@@ -1,15 +1,16 @@
+/* Works along a kinematic motion: quadrature of the powers over its steps, and impulses where velocities jump. */
 /*
- * Works along a kinematic motion: powers over the steps that follow it, impulses where velocities jump.
+ * Compute the powers, W, and the accelerations of all bodies at a position. Returns a status as complete_position()
+ * does.
  */
-/* Powers at a place, and the accelerations of all bodies; a status as that of settle. */
-static int powers(Course *course, Position *here, double *power)
+static int compute_powers(KinematicRun *run, Position *here, double *power)
 {
     RhsOutputs rhs;
 #if POSITIONS_IN_TREE
     double a[N_X + 1];
-    const int status = solve_motion(course, here, a, &rhs);
+    const int status = solve_motion(run, here, a, &rhs);
 #else
-    const int status = solve_motion(course, here, here->a, &rhs);
+    const int status = solve_motion(run, here, here->a, &rhs);
 #endif
     for (int k = 0; k < N_WORK; k++)
         power[k] = rhs.power[k];
@@ -17,11 +18,12 @@ static int powers(Course *course, Position *here, double *power)
 }
 
 /*
- * Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. `jumped`: the
- * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
- * NOT_FINITE where a power is none, at `work[0]`.
+ * Add the works between positions one step apart, J: Gauss-Legendre quadrature with three nodes. jumped: whether
+ * velocities change by more than the integral of the accelerations, because the rate of a drive jumps. `least`: smaller
+ * differences are rounding, rad/s. Returns NOT_FINITE if a power is undefined, with its time in work[0].
  */
-static int work_between(Course *course, const Position *a, const Position *b, double least, double *work, int *jumped)
+static int integrate_work(
+    KinematicRun *run, const Position *a, const Position *b, double least, double *work, int *jumped)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
@@ -32,9 +34,9 @@ static int work_between(Course *course, const Position *a, const Position *b, do
     for (int i = 0; i < 3; i++) {
         Position at;
         double power[N_WORK], moved;
-        int status = bracket_point_at(course, a->t + half * (1.0 + node[i]), a, &at, &moved);
+        int status = solve_position_at(run, a->t + half * (1.0 + node[i]), a, &at, &moved);
         if (!status)
-            status = powers(course, &at, power);
+            status = compute_powers(run, &at, power);
         if (status)
             return status;
         for (int k = 0; k < N_WORK; k++) {
@@ -46,15 +48,15 @@ static int work_between(Course *course, const Position *a, const Position *b, do
         }
         for (int k = 0; k < N_Q; k++)
             missed[k] -= half * weight[i] * at.a[k];
-        scale = larger(scale, half * turn_of(at.a, course->extent));
+        scale = larger_or_nan(scale, half * angle_norm(at.a, run->extent));
     }
-    const double most = turn_of(missed, course->extent);
-    /* or an acceleration is none: a rate of no bounded slope */
+    const double most = angle_norm(missed, run->extent);
+    /* or an acceleration is undefined: the slope of a rate is unbounded */
     *jumped = !(scale <= DBL_MAX) || (most > least && most > 1e-6 * scale);
     return 0;
 }
 
-/* Of all bodies, J. */
+/* Return the kinetic energy of all bodies, J. */
 static double kinetic_energy_at(const Parameters *p, const Position *at)
 {
     double m[N_Q], sum = 0.0;
@@ -65,14 +67,15 @@ static double kinetic_energy_at(const Parameters *p, const Position *at)
 }
 
 /*
- * The same, halved where velocities jump until nothing is left to halve: what kinetic energy gains there is the work
- * of the impulse with which the drives change the velocities. `halvings` are left for the whole step.
+ * Add the works between two positions, J, halving the interval where velocities jump. At the jump, the gain of kinetic
+ * energy is the work of the drives' impulse. halvings: number left for the whole step. Returns a status.
  */
-static int work_across(Course *course, const Position *a, const Position *b, double least, int *halvings, double *work)
+static int integrate_work_over_jumps(
+    KinematicRun *run, const Position *a, const Position *b, double least, int *halvings, double *work)
 {
     double part[N_WORK] = {0.0}, moved;
     int jumped = 0;
-    int status = work_between(course, a, b, least, part, &jumped);
+    int status = integrate_work(run, a, b, least, part, &jumped);
     const double t = a->t + 0.5 * (b->t - a->t);
     const int wide = t > a->t && t < b->t;
     if (status == NOT_FINITE)
@@ -84,13 +87,13 @@ static int work_across(Course *course, const Position *a, const Position *b, dou
     if (jumped && wide && *halvings > 0) {
         Position middle;
         --*halvings;
-        status = place_near(course, t, a, &middle, &moved);
+        status = solve_position_near(run, t, a, &middle, &moved);
         if (!status)
-            status = work_across(course, a, &middle, least, halvings, work);
-        return status ? status : work_across(course, &middle, b, least, halvings, work);
+            status = integrate_work_over_jumps(run, a, &middle, least, halvings, work);
+        return status ? status : integrate_work_over_jumps(run, &middle, b, least, halvings, work);
     }
     if (jumped && !wide)
-        part[0] = kinetic_energy_at(course->p, b) - kinetic_energy_at(course->p, a);
+        part[0] = kinetic_energy_at(run->p, b) - kinetic_energy_at(run->p, a);
     if (!isfinite(part[0])) {
         work[0] = t;
         return NOT_FINITE;
@@ -100,39 +103,42 @@ static int work_across(Course *course, const Position *a, const Position *b, dou
     return 0;
 }
 
-/* Of one step; speeds that change by less than a billionth of what they are do not jump. */
-static int work_of_step(Course *course, const Position *a, const Position *b, double *work)
+/* Add the works of one step, J. Changes of speed by less than 1e-9 of it are not jumps. Returns a status. */
+static int work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {
     int halvings = MAX_SPLITS;
-    const double speed = larger(turn_of(a->v, course->extent), turn_of(b->v, course->extent));
-    return work_across(course, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
+    const double speed = larger_or_nan(angle_norm(a->v, run->extent), angle_norm(b->v, run->extent));
+    return integrate_work_over_jumps(run, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
 }
 
-/* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
+/*
+ * Compute the works at n + 1 samples: (n + 1) x N_WORK, J, of which the first row is given. q, v: the first sample.
+ * done: the last complete row. Returns a status.
+ */
 int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *parameters, const double *q,
     const double *v, double *work, long *done)
 {
-    Course *course = integrator;
-    Position here = course->work;
-    course->p = (const Parameters *)parameters;
+    KinematicRun *run = integrator;
+    Position here = run->work;
+    run->p = (const Parameters *)parameters;
     *done = 0;
-    int status = course->work_begun ? 0 : begin_near(course, t[0], q, v, &here);
+    int status = run->work_begun ? 0 : set_position_near(run, t[0], q, v, &here);
     for (long i = 0; i < n && !status; i++) {
-        Stride stride = {t[i + 1] - t[i], 0};
+        StepLength stride = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
         while (here.t < t[i + 1] && !status) {
             const Position before = here;
-            status = step_on(course, &stride, t[i + 1], &here);
+            status = make_step(run, &stride, t[i + 1], &here);
             if (!status)
-                status = work_of_step(course, &before, &here, sum);
+                status = work_of_step(run, &before, &here, sum);
         }
         *done = i + !status;
     }
-    course->work = here;
-    course->work_begun = 1;
+    run->work = here;
+    run->work_begun = 1;
     if (status == NOT_FINITE)
-        course->work.t = work[(*done + 1) * N_WORK];
+        run->work.t = work[(*done + 1) * N_WORK];
     return status;
 }

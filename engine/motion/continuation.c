@@ -1,22 +1,24 @@
 /*
- * At a singular position rows depend on each other for a moment: forces are unbounded there, and beside it rounding of
- * positions and velocities is blown up by the inverse of the distance, squared in the accelerations. The motion itself
- * goes through smoothly, on the branch on which it came. So near by it is continued from both sides: what is wanted is
- * a smooth function along the linkage's way through the state, known at places on either side where all is regular,
- * and a polynomial through these tells it here. As sparse as everywhere else, and without the rounding.
+ * Continuation of the motion at singular positions, where constraint equations depend on each other for a moment.
+ * Multipliers are unbounded there, and rounding errors are amplified by the inverse of the distance, squared in the
+ * accelerations. The motion itself passes smoothly on its branch. The right-hand side is therefore interpolated by a
+ * polynomial through regular states on both sides, along the linkage's path through the state.
  */
 #if CONTINUES
 #include <string.h>
 
 enum { SIDE_NODES = TREE ? 5 : 6, WIDE = 2, WIDER = 4 };
-#define LARGEST_WAY 0.1 /* rad, of a stage back onto the constraints */
-#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad, of the fastest angle, between places; then twice that, and so on */
-#define CONTINUED_TO 1e-7 /* share of the accelerations by which the last two polynomials may differ */
-#define WIDE_TURN 4e-2 /* the same where the motion is as smooth as that: rounding of far places is blown up less */
-#define WIDE_TO 1e-10
+#define MAX_CLOSING_MOVE 0.1 /* rad: largest projection of a stage onto the constraints */
+#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
+#define CONTINUATION_TOL 1e-7 /* of the accelerations: largest difference of the polynomials of the last two degrees */
+#define WIDE_TURN 4e-2 /* the same for smooth motion: rounding at distant nodes is amplified less */
+#define WIDE_TOL 1e-10
 
-/* A place on the way: closed, its right-hand side. 0, or why it is none; `far`: the longest way to there. */
-static int place_beside(
+/*
+ * Project a state onto the closures and compute its right-hand side. far: the largest allowed sum of the steps, rad.
+ * Returns a status; LOST if the projection is too long or does not converge.
+ */
+static int close_state(
     double t, double *y, DiscreteState *discrete, const Parameters *p, double far, double *dy, RhsOutputs *rhs)
 {
     double moved = 0.0, before = INFINITY;
@@ -40,12 +42,14 @@ static int place_beside(
     return LOST;
 }
 
-/* What is continued: the closed state, its rates, multipliers. */
+/* The continued motion: closed state, rates (`lower`: accelerations by the polynomial of lower degree), multipliers. */
 typedef struct {
     double y[2 * N_X], dy[N_Y], lower[N_X], lambda[AT_LEAST_ONE(N_LOOPS)];
-} Continued;
+} ContinuedMotion;
 
-static void add_place(int k, const double *y, const double *dy, const RhsOutputs *rhs, Continued *sum)
+/* Add the contribution of a node at distance k to the interpolated motion. */
+static void add_interpolation_node(
+    int k, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *sum)
 {
     const double weight = weight_at(SIDE_NODES, k), lower = k < SIDE_NODES ? weight_at(SIDE_NODES - 1, k) : 0.0;
     for (int i = 0; i < 2 * N_X; i++)
@@ -58,8 +62,8 @@ static void add_place(int k, const double *y, const double *dy, const RhsOutputs
         sum->lambda[i] += weight * rhs->lambda[i];
 }
 
-/* Whether the polynomials of the last two degrees agree. */
-static int agrees(const double *y, const Continued *sum, double to)
+/* Return whether the accelerations by the polynomials of the last two degrees agree within `to` of their size. */
+static int has_converged(const double *y, const ContinuedMotion *sum, double to)
 {
     double most[2] = {0.0, 0.0}, apart[2] = {0.0, 0.0};
     for (int k = 0; k < N_X; k++) {
@@ -71,8 +75,9 @@ static int agrees(const double *y, const Continued *sum, double to)
     return apart[0] <= to * most[0] && apart[1] <= to * most[1];
 }
 
-/* The motion at a state beside a singular position, from both sides. Whether it can be had. */
-static int continue_here(double t, const double *y, const DiscreteState *discrete, const Parameters *p, Continued *sum)
+/* Continue the motion at a state near a singular position from both sides. Returns whether the polynomials agree. */
+static int continue_motion(
+    double t, const double *y, const DiscreteState *discrete, const Parameters *p, ContinuedMotion *sum)
 {
     double fastest = 0.0;
     for (int k = 0; k < N_X; k++)
@@ -82,7 +87,7 @@ static int continue_here(double t, const double *y, const DiscreteState *discret
     for (int pass = -WIDE; pass < WIDER; pass++) {
         const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -WIDE - pass) : NODE_TURN * ldexp(1.0, pass);
         int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
-        *sum = (Continued){0};
+        *sum = (ContinuedMotion){0};
         for (int k = 1; k <= SIDE_NODES && !status; k++)
             for (int branch = -1; branch <= 1 && !status; branch += 2) {
                 const double h = branch * k * turn / fastest;
@@ -91,10 +96,10 @@ static int continue_here(double t, const double *y, const DiscreteState *discret
                 RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
                     there[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = place_beside(t + (N_DRIVES ? h : 0.0), there, &now, p, 0.5 * k * turn, dy, &rhs);
-                add_place(k, there, dy, &rhs, sum);
+                status = close_state(t + (N_DRIVES ? h : 0.0), there, &now, p, 0.5 * k * turn, dy, &rhs);
+                add_interpolation_node(k, there, dy, &rhs, sum);
             }
-        if (!status && agrees(y, sum, pass < 0 ? WIDE_TO : CONTINUED_TO))
+        if (!status && has_converged(y, sum, pass < 0 ? WIDE_TOL : CONTINUATION_TOL))
             return 1;
         if (status == STOPPED)
             return 0;
@@ -102,8 +107,8 @@ static int continue_here(double t, const double *y, const DiscreteState *discret
     return 0;
 }
 
-/* As the memory is, where no more is asked of pivots than that they can be divided by. */
-static DiscreteState with_usual_shares(const DiscreteState *discrete)
+/* Return a discrete state whose pivots need only be large enough for a division. */
+static DiscreteState with_usual_pivot_limits(const DiscreteState *discrete)
 {
     DiscreteState now = *discrete;
     now.least = NEARLY_SINGULAR;
@@ -111,8 +116,8 @@ static DiscreteState with_usual_shares(const DiscreteState *discrete)
     return now;
 }
 
-/* What is integrated, with what was found on the closed linkage or continued from beside it. */
-static int handed_over(const double *y, const Continued *at, double *dy, RhsOutputs *rhs)
+/* Copy the continued motion at a state into rates dy and the right-hand side's outputs. Returns 0. */
+static int copy_continued_motion(const double *y, const ContinuedMotion *at, double *dy, RhsOutputs *rhs)
 {
     for (int k = 0; k < N_X; k++) {
         dy[k] = y[N_X + k];
@@ -125,13 +130,17 @@ static int handed_over(const double *y, const Continued *at, double *dy, RhsOutp
     return 0;
 }
 
+/*
+ * Compute the rates of the integrated state. Near a singular position, the policy in `discrete` decides: project the
+ * state, continue the motion, or report NEAR. Returns a status.
+ */
 int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    Continued at;
+    ContinuedMotion at;
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
         double there[N_Y];
         memcpy(there, y, sizeof there);
-        if (!place_beside(t, there, discrete, p, LARGEST_WAY, dy, rhs)) {
+        if (!close_state(t, there, discrete, p, MAX_CLOSING_MOVE, dy, rhs)) {
             for (int k = 0; k < N_X; k++)
                 dy[k] = y[N_X + k];
             return 0;
@@ -142,14 +151,18 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
         || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE; /* near enough that it cannot be closed */
     if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR && (status || !open)))
         return status;
-    if (continue_here(t, y, discrete, p, &at))
-        return handed_over(y, &at, dy, rhs);
+    if (continue_motion(t, y, discrete, p, &at))
+        return copy_continued_motion(y, &at, dy, rhs);
     if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
-    DiscreteState now = with_usual_shares(discrete);
+    DiscreteState now = with_usual_pivot_limits(discrete);
     return motion_here(t, y, &now, p, dy, rhs);
 }
 
+/*
+ * Compute the steps dq, dv that return a state to the closures; near a singular position, those to the continued state.
+ * Returns a status.
+ */
 int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
@@ -158,27 +171,28 @@ int closing_of_state(double t, const double *y, DiscreteState *discrete, const P
         return status;
     double dy[N_Y];
     RhsOutputs rhs;
-    Continued at;
+    ContinuedMotion at;
     DiscreteState now = *discrete;
-    if (motion_here(t, y, &now, p, dy, &rhs) != NEAR || !continue_here(t, y, discrete, p, &at)) {
-        now = with_usual_shares(discrete);
+    if (motion_here(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
+        now = with_usual_pivot_limits(discrete);
         return closing_here(t, y, &now, p, dq, dv, worst);
     }
     for (int k = 0; k < N_X; k++) {
         dq[k] = y[k] - at.y[k];
         dv[k] = y[N_X + k] - at.y[N_X + k];
     }
-    *worst = 0.0; /* once is enough */
+    *worst = 0.0; /* one pass is enough */
     return 0;
 }
 
 #else
-/* No rows are dependent for a moment, or what is held changes: the motion as it is computed at a state itself. */
+/* Compute the rates of the integrated state at the state itself: the scene has no continuation. Returns a status. */
 int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return motion_here(t, y, discrete, p, dy, rhs);
 }
 
+/* Compute the steps dq, dv that return a state to the closures, at the state itself. Returns a status. */
 int closing_of_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst)
 {

@@ -1,6 +1,12 @@
-/* The motion of a tree with driven chains, which are evaluated; without them the state is read as it is. */
+/*
+ * The motion of a tree with driven loops, whose coordinates are functions of time; without driven loops, the calls of
+ * its kernels.
+ */
 #if N_CHAIN
-/* What is integrated: coordinates of the tree that are free, their rates, works. Driven chains are evaluated. */
+/*
+ * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Coordinates of
+ * driven loops are evaluated at t. Returns a status.
+ */
 int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     TreeState at;
@@ -12,7 +18,7 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
 #endif
 #ifdef N_IDLE
     for (int i = 0; i < N_IDLE; i++)
-        rhs->g[idle[i]] = NAN; /* they do not act */
+        rhs->g[idle[i]] = NAN; /* these switching functions are not in use */
 #endif
     status = reduced_dynamics(t, at.q, at.v, discrete, p, dy + N_X, rhs);
     for (int k = 0; k < N_X; k++)
@@ -22,6 +28,7 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
     return status;
 }
 
+/* Evaluate the contacts of joints with play at a state, without accelerations. Returns a status. */
 int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     TreeState at;
@@ -35,10 +42,11 @@ int play_here(double t, const double *y, DiscreteState *discrete, const Paramete
 }
 
 /*
- * The chains where they lie flat and nothing closes them: from a place so near that its rates tell the way to there.
- * If there is none, where they were a moment ago.
+ * Compute the driven loops at a time at which a loop lies flat, so that its closures do not determine it. They are
+ * extrapolated from the nearest regular time, or taken from the last accepted state if there is none.
  */
-static void beside_flat(double t, const double *y, const DiscreteState *discrete, const Parameters *p, TreeState *at)
+static void extrapolate_flat_chains(
+    double t, const double *y, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     double fastest = 1e-300;
     for (int k = 0; k < N_CHAIN; k++)
@@ -56,21 +64,25 @@ static void beside_flat(double t, const double *y, const DiscreteState *discrete
             chain_directions(t, at->q, discrete, p, at->q);
             return;
         }
-    recall_chains(&discrete->chain, at);
+    restore_chains(&discrete->chain, at);
 }
 
-/* The state of all bodies, (q, v, work). */
+/* Compute the state of all bodies, (q, v, works), from the integrated state y. */
 void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all)
 {
     TreeState at;
     DiscreteState now = *discrete;
     if (tree_state(t, y, &now, p, &at))
-        beside_flat(t, y, discrete, p, &at);
+        extrapolate_flat_chains(t, y, discrete, p, &at);
     expand(t, at.q, at.v, p, all, all + N_Q);
     for (int k = 0; k < N_WORK; k++)
         all[2 * N_Q + k] = y[2 * N_X + k];
 }
 
+/*
+ * Compute the integrated state y from the state of all bodies (q, v, works), and the positions of the driven loops in
+ * `discrete`.
+ */
 void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y)
 {
     TreeState at;
@@ -84,6 +96,7 @@ void from_absolute(double t, const double *all, DiscreteState *discrete, const P
         y[2 * N_X + k] = all[2 * N_Q + k];
 }
 
+/* Compute the steps dq, dv that return a state to the closures, and the largest residual `worst`. Returns a status. */
 int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
@@ -92,6 +105,7 @@ int closing_here(double t, const double *y, DiscreteState *discrete, const Param
     return status ? status : closing_step(t, at.q, at.v, discrete, p, dq, dv, worst);
 }
 
+/* Linearize the equations of motion at a state with accelerations a. Returns a status. */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *lin)
 {
@@ -104,14 +118,17 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
     return 0;
 }
 
+/*
+ * Accept a state: update the maxima of |Phi| and |Phi_dot|. Driven loops are followed from here on. Returns a status.
+ */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)
 {
-    TreeState at; /* from here on the driven chains are followed */
+    TreeState at;
     (void)rhs;
     int status = tree_state(t, y, discrete, p, &at);
     if (!status)
-        status = keep_chains(t, &at, discrete, p);
+        status = accept_chains(t, &at, discrete, p);
     if (status)
         return status;
     double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
@@ -125,13 +142,17 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 }
 
 #else
-/* No chains are driven: the kernels read the state as it is, q, then v. */
+/*
+ * Compute the steps dq, dv that return a state (q, v) to the closures, and the largest residual `worst`. Returns a
+ * status.
+ */
 int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
     return closing_step(t, y, y + N_X, discrete, p, dq, dv, worst);
 }
 
+/* Linearize the equations of motion at a state (q, v) with accelerations a. Returns a status. */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *lin)
 {

@@ -1,18 +1,18 @@
 /*
- * Driven chains: coordinates that the drives determine through loops of their own. At every time Chebyshev's
- * method closes these loops, from where they were at the last state that was accepted: so the motion keeps its
- * branch, and the right-hand side stays a function of time and state.
+ * Driven loops: coordinates that drives determine through loops. At every time Chebyshev's method solves their
+ * closures, from their positions at the last accepted state. The motion thus keeps its branch, and the right-hand side
+ * remains a function of time and state.
  */
 enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60, FLAT_NODES = 4 };
-#define CHAIN_REACH 0.1    /* rad, or share of the mechanism's size: a longer way to the root is made in parts */
-#define FLAT_TURN 1e-2     /* the same, of the fastest between places beside one where the chains are flat */
-#define FLAT_SMOOTH 1e-8   /* the same, that polynomials through these may differ */
-#define CHAIN_STRAIGHT 1e-3 /* the same, that positions may differ from what rates at both ends of a part tell */
+#define CHAIN_REACH 0.1    /* rad, or fraction of the size: longer moves are made in parts */
+#define FLAT_TURN 1e-2     /* the same: motion of the fastest coordinate between nodes near a flat loop */
+#define FLAT_SMOOTH 1e-8   /* the same: largest difference of polynomials through the nodes */
+#define CHAIN_STRAIGHT 1e-3 /* the same: largest difference of positions from the integral of the rates */
 
 /*
- * Chebyshev's method on the chains' closures. Of two steps that Newton would make the second is the bend, and what is
- * left behind it some bend^2/step; a bend that is not much smaller than its step belongs to no root near by
- * (L. V. Kantorovich). Returns 0, or the number of a closure; `moved` is the way.
+ * Solve the closures of the driven loops by Chebyshev's method, from the guess in q. Of two Newton steps, `bend` is the
+ * second one; the error after it is about bend^2/step. If it is not much smaller than the first, no root is near (L. V.
+ * Kantorovich). moved: the sum of the steps. Returns 0 or the number of a closure.
  */
 static int close_chains(double t, double *q, const DiscreteState *discrete, const Parameters *p, double *moved)
 {
@@ -39,15 +39,15 @@ static int close_chains(double t, double *q, const DiscreteState *discrete, cons
         }
         if (!isfinite(sum) || bent > 0.25 * size)
             return row;
-        /* the bend may vanish where the cube of the step still counts */
+        /* the second step may vanish although the cube of the first is not negligible */
         if ((4.0 * bent * bent < 1e-17 * size && size * size * size < 1e-17) || size < 1e-15)
             return 0;
     }
     return *moved < 1e-9 ? 0 : row;
 }
 
-/* A place of the chains, for the next time that it is asked for. */
-static inline void note_chains(double t, const TreeState *at, Chain *place)
+/* Store the driven loops' coordinates and two rates at time t. */
+static inline void store_chains(double t, const TreeState *at, Chain *place)
 {
     place->t = t;
     for (int k = 0; k < N_LED; k++)
@@ -56,8 +56,8 @@ static inline void note_chains(double t, const TreeState *at, Chain *place)
         place->v[k] = at->v[N_X + k];
 }
 
-/* Such a place again; its third rates are asked for where they are needed. */
-static void recall_chains(const Chain *from, TreeState *at)
+/* Restore stored coordinates and two rates; third rates are computed where they are needed. */
+static void restore_chains(const Chain *from, TreeState *at)
 {
     for (int k = 0; k < N_LED; k++)
         at->q[N_X + k] = from->q[k];
@@ -65,8 +65,11 @@ static void recall_chains(const Chain *from, TreeState *at)
         at->v[N_X + k] = from->v[k];
 }
 
-/* What Euler and Maclaurin's rule leaves over between two places, the most; lengths by the size. */
-static double chain_bend(double h, const Chain *a, const TreeState *b, const Parameters *p)
+/*
+ * Return the error of the Euler-Maclaurin rule between two times, h apart, for the driven loops' positions; lengths are
+ * divided by the size.
+ */
+static double chain_position_error(double h, const Chain *a, const TreeState *b, const Parameters *p)
 {
     const double *q = b->q + N_X, *rate = b->v + N_X, *second = rate + N_CHAIN;
     double most = 0.0;
@@ -77,7 +80,10 @@ static double chain_bend(double h, const Chain *a, const TreeState *b, const Par
     return most;
 }
 
-/* From one place of the chains to another near by; 0, or the number of a closure where the way is not certain. */
+/*
+ * Solve the driven loops at time t from their state at a near time. Returns 0, or the number of a closure if the branch
+ * is not certain.
+ */
 static int move_chains(double t, const Chain *from, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     const double h = t - from->t, *rate = from->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
@@ -89,11 +95,14 @@ static int move_chains(double t, const Chain *from, const DiscreteState *discret
         status = chain_rates(t, at->q, discrete, p, at->v);
     if (status)
         return status;
-    return moved <= CHAIN_REACH && chain_bend(h, from, at, p) <= CHAIN_STRAIGHT ? 0 : 1;
+    return moved <= CHAIN_REACH && chain_position_error(h, from, at, p) <= CHAIN_STRAIGHT ? 0 : 1;
 }
 
-/* The chains at time t where one step there is too long: in parts; 0, or the number of a closure that cannot follow. */
-static int follow_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
+/*
+ * Solve the driven loops at time t in parts, if one move is too long. Returns 0, or the number of a closure that cannot
+ * be followed.
+ */
+static int follow_chains_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     Chain here = discrete->chain;
     double h = 0.5 * (t - here.t);
@@ -120,10 +129,11 @@ static int follow_in_parts(double t, const DiscreteState *discrete, const Parame
 }
 
 /*
- * The chains at a time at which they lie flat, so that nothing closes them: smooth functions of time, from where they
- * are before and after. Directions are asked for elsewhere; 0, or the number of a closure where they do not pass.
+ * Interpolate the driven loops at a time at which a loop lies flat and its closures do not determine it. Polynomials in
+ * time pass through regular states before and after. Directions are not computed. Returns 0, or nonzero if the
+ * polynomials do not agree.
  */
-static int pass_flat(double t, const DiscreteState *discrete, const Parameters *p, Chain *place)
+static int interpolate_flat_chains(double t, const DiscreteState *discrete, const Parameters *p, Chain *place)
 {
     double fastest = 0.0, lower[N_CHAIN];
     int status = discrete->chain.failed;
@@ -138,7 +148,8 @@ static int pass_flat(double t, const DiscreteState *discrete, const Parameters *
         const int k = j / 2 + 1;
         const double when = t + (j % 2 ? -k : k) * FLAT_TURN / fastest;
         TreeState at;
-        status = move_chains(when, &discrete->chain, discrete, p, &at) ? follow_in_parts(when, discrete, p, &at) : 0;
+        if (move_chains(when, &discrete->chain, discrete, p, &at))
+            status = follow_chains_in_parts(when, discrete, p, &at);
         if (!status)
             status = chain_third(when, at.q, at.v, discrete, p, at.v + N_X + 2 * N_CHAIN);
         for (int i = 0; i < N_CHAIN && !status; i++) {
@@ -153,13 +164,16 @@ static int pass_flat(double t, const DiscreteState *discrete, const Parameters *
     return status;
 }
 
-/* The place of the chains from which they are followed, with third rates. */
-static int keep_chains(double t, const TreeState *at, DiscreteState *discrete, const Parameters *p)
+/*
+ * Store the driven loops of an accepted state, with third rates; they are followed from there. Returns 0, or the number
+ * of a closure that fails.
+ */
+static int accept_chains(double t, const TreeState *at, DiscreteState *discrete, const Parameters *p)
 {
     Chain place = {0}, flat;
-    note_chains(t, at, &place);
+    store_chains(t, at, &place);
     place.failed = chain_third(t, at->q, at->v, discrete, p, place.v + 2 * N_CHAIN);
-    if (place.failed && !pass_flat(t, discrete, p, &flat)) {
+    if (place.failed && !interpolate_flat_chains(t, discrete, p, &flat)) {
         for (int k = N_CHAIN; k < N_LED; k++)
             flat.q[k] = place.q[k];
         place = flat;
@@ -169,8 +183,8 @@ static int keep_chains(double t, const TreeState *at, DiscreteState *discrete, c
 }
 
 /*
- * The chains at time t, as they were found there the last time, or from the last state that was accepted. Returns 0,
- * or the number of a closure that cannot follow.
+ * Compute the driven loops at time t: those found at that time before, or from the last accepted state. Returns 0, or
+ * the number of a closure that cannot be followed.
  */
 static inline int follow_chains(double t, const DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
@@ -178,31 +192,31 @@ static inline int follow_chains(double t, const DiscreteState *discrete, const P
         return discrete->chain.failed;
 #if SMOOTH_CHAINS
     if (discrete->recent.t == t) {
-        recall_chains(&discrete->recent, at);
+        restore_chains(&discrete->recent, at);
         return 0;
     }
 #endif
     if (!move_chains(t, &discrete->chain, discrete, p, at))
         return 0;
-    const int status = follow_in_parts(t, discrete, p, at);
+    const int status = follow_chains_in_parts(t, discrete, p, at);
     Chain flat;
-    if (!status || pass_flat(t, discrete, p, &flat))
+    if (!status || interpolate_flat_chains(t, discrete, p, &flat))
         return status;
-    recall_chains(&flat, at);
+    restore_chains(&flat, at);
     chain_directions(t, at->q, discrete, p, at->q);
     return 0;
 }
 
 /*
- * All that the tree's kernels read at (t, y); several stages of a method lie at one time. A status counts on behind
- * the pivots.
+ * Build all that the tree's kernels read at (t, y). Several stages of a method share a time. A positive status is a
+ * closure of a driven loop, numbered after the TREE_PIVOTS pivots.
  */
 static inline int tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     const int status = follow_chains(t, discrete, p, at);
 #if SMOOTH_CHAINS
     if (!status && discrete->recent.t != t)
-        note_chains(t, at, &discrete->recent);
+        store_chains(t, at, &discrete->recent);
 #endif
     for (int k = 0; k < N_X; k++) {
         at->q[k] = y[k];
@@ -211,7 +225,7 @@ static inline int tree_state(double t, const double *y, DiscreteState *discrete,
     return status ? TREE_PIVOTS + status : 0;
 }
 
-/* The chains at t from a first guess (N_CHAIN) of their coordinates, as those from where they are followed. */
+/* Solve the driven loops at t from a guess of their coordinates (N_CHAIN), and follow them from there. */
 void seat_chains(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {
     TreeState at = {0};
@@ -221,6 +235,6 @@ void seat_chains(double t, const double *guess, DiscreteState *discrete, const P
     int status = close_chains(t, at.q, discrete, p, &moved);
     if (!status)
         status = chain_rates(t, at.q, discrete, p, at.v);
-    const int last = keep_chains(t, &at, discrete, p);
+    const int last = accept_chains(t, &at, discrete, p);
     discrete->chain.failed = status ? status : last;
 }

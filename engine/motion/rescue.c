@@ -1,6 +1,6 @@
 /*
- * Where a pivot vanishes: the accelerations of the absolute formulation, which finds out which rows depend on
- * others, and of them those of the tree. Rare and out of the way of the fast path.
+ * Compute the tree's accelerations and the closures' multipliers by the equations of all bodies. Returns NEAR near a
+ * singular position if that is to be reported, or a status.
  */
 int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -8,13 +8,13 @@ int solve_by_absolute(double t, const double *q, const double *v, const Discrete
     double all_q[N_Q], all_v[N_Q], all_a[N_Q];
     RhsOutputs whole;
     DiscreteState now = *discrete;
-    now.held = 0; /* corners of the scene have other numbers there */
+    now.held = 0; /* switching functions have other indices there */
     expand(t, q, v, p, all_q, all_v);
     const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
     if (discrete->least > NEARLY_SINGULAR && status == NEAR)
         return NEAR;
-    if (discrete->least > NEARLY_SINGULAR && status != STOPPED) { /* no singular position: as it would be solved anyway
-                                                                   */
+    if (discrete->least > NEARLY_SINGULAR && status != STOPPED) {
+        /* not a singular position: solve with the usual limits of pivots */
         now = *discrete;
         now.least = NEARLY_SINGULAR;
         now.least_size = VANISHING;

@@ -1,6 +1,6 @@
 /*
- * Coefficients of the Taylor series of a motion: order 0 and accelerations there by the scene's own lines (taylor.c),
- * higher orders one after the other.
+ * Coefficients of the Taylor series of a motion. Order 0 and its accelerations are the scene's derived functions
+ * (taylor.c), higher orders follow one after the other.
  */
 #include "../both/one.h"
 
@@ -9,8 +9,8 @@ typedef double SeriesRow __attribute__((vector_size(REGISTER)));
 #include "../both/series.h"
 
 /*
- * c[k], k = 0 ... order: coefficients of what is integrated in powers of time from t on, where it is y. Returns 0, or
- * the number of the pivot that vanished.
+ * Compute the coefficients c[k], k = 0 ... order, of the integrated state in powers of time from t on, where it is y.
+ * Returns 0 or the number of the pivot that vanished.
  */
 int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y])
 {

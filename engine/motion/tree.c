@@ -1,6 +1,4 @@
-/*
- * What is integrated where bodies form a tree: its coordinates, their rates, works.
- */
+/* The integrated state of a tree of bodies: tree coordinates, their rates, works. */
 #include "../both/one.h"
 
 #define IN_BOTH
@@ -10,12 +8,13 @@
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
 #include "../both/motion.h"
 
+/* Evaluate the contacts of joints with play at a state, without accelerations. Returns a status. */
 int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     return reduced_dynamics(t, y, y + N_X, discrete, p, NULL, rhs);
 }
 
-/* The state of all bodies, (q, v, work). */
+/* Compute the state of all bodies, (q, v, works), from the integrated state y. */
 void to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all)
 {
     (void)discrete;
@@ -24,6 +23,7 @@ void to_absolute(double t, const double *y, const DiscreteState *discrete, const
         all[2 * N_Q + k] = y[2 * N_X + k];
 }
 
+/* Compute the integrated state y from the state of all bodies, (q, v, works). */
 void from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y)
 {
     (void)discrete;

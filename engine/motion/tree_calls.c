@@ -1,14 +1,19 @@
-/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
+/* Compute positions and velocities of all bodies from tree coordinates. */
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
 {
     expand(t, q, v, (const Parameters *)p, all_q, all_v);
 }
 
+/* Compute tree coordinates and their rates from positions and velocities of all bodies. */
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
 {
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
 }
 
+/*
+ * Compute accelerations of the tree coordinates, multipliers of the closures and powers. discrete: N_DISCRETE numbers
+ * of a sample. Returns a status.
+ */
 int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
 {
@@ -23,19 +28,21 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
     return status;
 }
 
+/* Compute the closures Phi_s and their rates. */
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
 {
     closures(t, q, (const Parameters *)p, phi);
     closure_rates(t, q, v, (const Parameters *)p, phi_dot);
 }
 
+/* Compute the smallest step x in the norm of M_s with Phi_s x = r. Returns a status. */
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
 {
     return reduced_project(t, q, r, (const Parameters *)p, x);
 }
 
 #if RESCUED
-/* What is done where a pivot vanishes, at any state: for tests. */
+/* Compute the accelerations by the equations of all bodies, as where a pivot vanishes, at any state; for tests. */
 int gudgeon_reduced_rescue(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
@@ -46,7 +53,10 @@ int gudgeon_reduced_rescue(
 }
 
 #endif
-/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
+/*
+ * Evaluate the reduced right-hand side `count` times for benchmarks; each call depends on the one before. Returns a sum
+ * that keeps the calls.
+ */
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p)
 {

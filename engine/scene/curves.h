@@ -58,9 +58,9 @@ static inline double curve_branch(int piece) { return piece % 2 ? -1.0 : 1.0; }
  */
 static inline double curve_at(const Curve *f, int order, double x, double branch)
 {
-    const double first = f->x[0], last = f->x[f->pieces], event_function = CURVE_MARGIN * (last - first);
+    const double first = f->x[0], last = f->x[f->pieces], allowance = CURVE_MARGIN * (last - first);
     x = curve_turned(f, x);
-    if (!(x >= first - event_function && x <= last + event_function))
+    if (!(x >= first - allowance && x <= last + allowance))
         return NAN;
     int k = curve_piece(f, x);
     double from = f->x[k];
@@ -180,14 +180,14 @@ static inline void curve_span(
 /* What is left of a range within that of a curve; empty: nothing. */
 static inline Range curve_range(const Curve *f, Range x)
 {
-    const double first = f->x[0], last = f->x[f->pieces], event_function = CURVE_MARGIN * (last - first);
+    const double first = f->x[0], last = f->x[f->pieces], allowance = CURVE_MARGIN * (last - first);
     if (is_empty(x) || f->repeats)
         return x;
-    if (!(x.hi >= first - event_function && x.lo <= last + event_function))
+    if (!(x.hi >= first - allowance && x.lo <= last + allowance))
         return only(NAN);
-    x.partly |= x.lo < first - event_function || x.hi > last + event_function;
-    x.lo = max_of(x.lo, first - event_function);
-    x.hi = min_of(x.hi, last + event_function);
+    x.partly |= x.lo < first - allowance || x.hi > last + allowance;
+    x.lo = max_of(x.lo, first - allowance);
+    x.hi = min_of(x.hi, last + allowance);
     return x;
 }
 
@@ -203,7 +203,7 @@ static inline Range range_curve_at(const Curve *f, int order, Range x, Range bra
         curve_span(f, order + 1, held, x.lo, x.hi, &least, &most);
     else
         most = lo < hi ? INFINITY : 0.0, least = -most;
-    return lo <= hi ? through(x, lo, hi, least, most) : range_curve_at(f, order, x, only(0.0));
+    return lo <= hi ? apply_chain_rule(x, lo, hi, least, most) : range_curve_at(f, order, x, only(0.0));
 }
 
 /* Of knots_at: a parabola in each piece, whose slopes are at most one over its length. */
@@ -234,7 +234,7 @@ static inline Range range_knots_at(const Curve *f, Range x)
         if (highest || begin + length >= x.hi)
             break;
     }
-    return through(x, lo, hi, least, most);
+    return apply_chain_rule(x, lo, hi, least, most);
 }
 
 #define range_curve(which, order, x) range_curve_at(&curves[which], order, x, only(0.0))

@@ -1,17 +1,20 @@
 /*
- * Corners of the user's expressions and user events along a step, where they hang on forces or on driven chains, so
- * that no bounds of theirs are at hand (watched.c). The stages of a long step see next to nothing of a
- * function that swings or dips meanwhile: where it may have a zero it is looked at on the interpolant, and a step in
- * which that does not resolve it is taken again, shorter.
+ * Switching points of the user's expressions and user events along a step, for functions without bounds. They depend on
+ * forces or on driven loops. Stages of a long step may miss an oscillation. Where a function may have a zero, it is
+ * sampled on the dense output; a step that does not resolve it is repeated shorter. Scenes with bounds use watched.c.
  */
 #if N_WATCHED
+/* Evaluate the right-hand side's outputs at a state; its rates and status are discarded. */
 static void sample_dense_output(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
     (void)rates(run, t, y, p, dy, rhs);
 }
 
-/* Whether a margin may vanish in the step: its least is less than how far it goes. */
+/*
+ * Return whether event function k may have a zero in the step: its smallest sample is less than the range of its
+ * samples.
+ */
 static int may_have_zero(const Integrator *run, const Step *step, int k, double *range)
 {
     const double start = event_function(&run->discrete, &run->rhs, k),
@@ -26,7 +29,10 @@ static int may_have_zero(const Integrator *run, const Step *step, int k, double 
     return least < *range;
 }
 
-/* What an error of the tolerance in the state changes: no function is known better. */
+/*
+ * Estimate by how much each watched function changes if the state changes by one error tolerance. Smaller values cannot
+ * be resolved.
+ */
 static void event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p, double *change)
 {
     double y[N_Y];
@@ -39,7 +45,7 @@ static void event_function_uncertainty(Integrator *run, const Step *step, const 
             event_function(&run->discrete, &rhs, watched[i]) - event_function(&run->discrete, &run->rhs, watched[i]));
 }
 
-/* The difference of order 4, or of all `n` further ones, of samples from f on: as an error of interpolation. */
+/* Estimate the interpolation error at an end by the difference of order 4 at most: f[0], f[out], ..., f[n out]. */
 static double end_error(const double *f, int out, int n)
 {
     const int order = n < 4 ? n : 4;
@@ -53,8 +59,8 @@ static double end_error(const double *f, int out, int n)
 }
 
 /*
- * The largest difference between samples and cubics through every other sample. Stencils across the interval that
- * begins at sample `at` are left out: up to each end of it the function is compared with its own side alone.
+ * Return the largest difference between the samples and cubics through every second sample. Stencils across the
+ * interval after sample `at` are left out, because the function may jump there; N_SAMPLES: none.
  */
 static double interpolation_error(const double *f, int at)
 {
@@ -68,8 +74,8 @@ static double interpolation_error(const double *f, int at)
 }
 
 /*
- * How far samples of a step are from resolving a function. Of one that jumps, or whose slope does, it is how far they
- * are on both sides of that: no shorter step would make a jump less.
+ * Return the interpolation error of the samples of a step; for a function with a jump of value or slope, on both sides
+ * of the jump. A shorter step would not reduce that jump. Errors below `enough` end the search.
  */
 static double resolution_error(const double *f, double enough)
 {
@@ -79,7 +85,7 @@ static double resolution_error(const double *f, double enough)
     return least;
 }
 
-/* Looks along the step wherever something may vanish; whether the step is too long to tell. */
+/* Return whether samples do not resolve a watched function that may have a zero, so that the step is too long. */
 static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
     double range[N_WATCHED], change[N_WATCHED];
@@ -101,7 +107,7 @@ static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
             step->sample[i][j] = event_function(&run->discrete, &rhs, watched[i]);
     }
     if (N_SAMPLES * event_time_tolerance(run, step) >= 1.0)
-        return 0; /* samples of more places than there are times show no more (a pole, many jumps) */
+        return 0; /* the samples are as near as times can be (a pole, many jumps) */
     event_function_uncertainty(run, step, p, change);
     for (int i = 0; i < N_WATCHED; i++) {
         double least = INFINITY, most = -INFINITY;
@@ -109,17 +115,20 @@ static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
             least = min_of(least, step->sample[i][j]);
             most = max_of(most, step->sample[i][j]);
         }
-        const double enough = max_of(0.05 * (most - least), 10.0 * change[i]),
-                     missed = resolution_error(step->sample[i], enough);
-        /* stages that see far more than the looks: these keep time with what they look at */
-        const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->method->stiff;
-        if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)
+        const double allowed = max_of(0.05 * (most - least), 10.0 * change[i]),
+                     missed = resolution_error(step->sample[i], allowed);
+        /* stages with a far larger range than the samples: the samples are in step with an oscillation */
+        const int is_aliased = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->method->stiff;
+        if (step->near[i] && (missed > allowed || is_aliased) && least - missed < 0.0)
             return 1;
     }
     return 0;
 }
 
-/* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
+/*
+ * Return the minimum of event function k near s, by parabolas over `width` on both sides; s is moved there. best: its
+ * value at s. The search ends at the first negative value.
+ */
 static double refine_minimum(
     Integrator *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
 {
@@ -138,12 +147,14 @@ static double refine_minimum(
                 *s = at[j];
             }
         if (best > 8.0 * bend)
-            break; /* the parabola stays clear of zero */
+            break; /* the parabola has no zero */
     }
     return best;
 }
 
-/* The first look, or dip between looks, at which watched margin i is below zero; 0: none. */
+/*
+ * Return the first fraction at which watched function i is negative, by its samples and minima between them; 0: none.
+ */
 static double first_negative_sample(Integrator *run, const Step *step, int i, const Parameters *p, double *value)
 {
     const double *f = step->sample[i];
@@ -167,6 +178,7 @@ static double first_negative_sample(Integrator *run, const Step *step, int i, co
     return 0.0;
 }
 
+/* Reset the brackets of the watched functions; their zeros are found from the samples. */
 static void search_step(const Integrator *run, Step *step, const Parameters *p)
 {
     (void)run, (void)p;
@@ -175,18 +187,20 @@ static void search_step(const Integrator *run, Step *step, const Parameters *p)
 }
 
 #else
-/* No switches of the user's expressions, and no events. */
+/* Return 0: the scene has no watched functions. */
 static inline int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;
 }
 
+/* Do nothing: the scene has no watched functions. */
 static inline void search_step(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
 }
 
+/* Return 0: the scene has no watched functions. */
 static inline double first_negative_sample(
     const Integrator *run, const Step *step, int i, const Parameters *p, double *value)
 {

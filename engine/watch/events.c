@@ -1,14 +1,14 @@
 /*
- * Events: contacts, corners of laws and expressions, and friction that may stick end a step where their margin
- * crosses zero. What is looked at is a range of signs, not a crossing alone, so that a contact that starts again on
- * the wrong side of zero is not lost.
+ * Events of a step: the first zero of the event functions of contacts, switching points and friction that may stick
+ * ends it. An event is a negative value, not only a change of sign, so that a contact that restarts with penetration is
+ * registered.
  */
 
-#define LONG_STEP 7.0 /* times the last one, that a step is as long as: a rule of lengths lets it grow by less */
+#define LONG_STEP 7.0 /* times the last step: step-size control alone lets a step grow by less */
 enum { N_INNER_SAMPLES = 8 };
-#define HARMLESS 0.1 /* of the tolerance, that the wrong branch of a corner may change a step */
+#define HARMLESS 0.1 /* of the tolerance: change of a step by the inactive branch that is accepted */
 
-/* To the other side with the corners that are passed, or back. */
+/* Change the branch of each switching point that the step passes without an event; a second call restores it. */
 static void flip_ignored_branches(Integrator *run, const Step *step)
 {
     for (int k = 0; k < N_SWITCHES; k++)
@@ -16,14 +16,14 @@ static void flip_ignored_branches(Integrator *run, const Step *step)
             run->discrete.branch[k] *= -1.0;
 }
 
-/* From now on every switch is watched. */
+/* Search every switching point again: end the suppression of a repeated one. */
 static void watch_every_switch(Integrator *run) { run->roots.skip = -1; }
 
 /*
- * Corners of contact laws that the step crossed for good, near enough to its end: their branches meet, so that what
- * the held one did wrong is at most the step times what the rates differ by at its end. Where that is harmless the
- * step stays as it is, and what follows begins on the other side. The same holds for a corner that is left alone
- * (suppress_repeated_switch): beyond it the step may be long.
+ * Mark in step->passed the switching points that the step may pass without an event. They are those of contact laws
+ * whose branches meet, and a suppressed repeated one (suppress_repeated_switch), crossed near the end of the step. The
+ * error of the frozen branch is at most the step times the difference of the rates at its end. If it is below HARMLESS
+ * tolerances, the end of the step gets the rates of the new branch. Returns whether any is passed.
  */
 static int ignore_harmless_switches(Integrator *run, Step *step, const Parameters *p)
 {
@@ -34,7 +34,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
-        const int may_pass = law || k == run->roots.skip; /* a fixed step knows no tolerance of what does harm */
+        const int may_pass = law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
         step->passed[k] = may_pass && event_function(&run->discrete, &step->rhs, gap_function) < 0.0;
         crossed |= step->passed[k];
     }
@@ -42,7 +42,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
         return 0;
     flip_ignored_branches(run, step);
     const int status = rates(run, step->t + step->h, step->y, p, dy, &rhs);
-    flip_ignored_branches(run, step); /* held until the step is taken: what lies inside it is on this side */
+    flip_ignored_branches(run, step); /* frozen until the step is accepted */
     for (int k = 0; k < 2 * N_X && !status; k++)
         most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
@@ -53,23 +53,24 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->rhs = rhs;
-        step->dense_ready = step->dense_ready == HERE ? HERE : 0; /* others made it with rates of this side */
+        step->dense_ready = step->dense_ready == HERE ? HERE : 0; /* a lane's has the rates of this branch */
         return 1;
     }
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
-    watch_every_switch(run); /* one that was to be left alone as well: its wrong branch does harm */
+    watch_every_switch(run); /* also the suppressed one: its error is too large */
     return 0;
 }
 
-/* Whether margin k is not looked at: a corner left alone, or passed without harm. */
+/* Return whether event function k is not searched: a switching point that is suppressed or passed by this step. */
 static int is_ignored(const Integrator *run, const Step *step, int k)
 {
-    const int corner = k - N_CLEARANCES;
-    return corner >= 0 && corner < N_SWITCHES && (corner == run->roots.skip || step->passed[corner]);
+    const int switch_index = k - N_CLEARANCES;
+    return switch_index >= 0 && switch_index < N_SWITCHES
+        && (switch_index == run->roots.skip || step->passed[switch_index]);
 }
 
-/* The stage at which margin k was lowest; 1: none. */
+/* Return the node of the stage at which event function k was lowest; 1: none. */
 static double stage_of_minimum(const Step *step, int k)
 {
     const StageValues seen = stage_values(step, k);
@@ -79,8 +80,10 @@ static double stage_of_minimum(const Step *step, int k)
     return 1.0;
 }
 
-/* The first stage at which margin k was below zero, where a later one, or the end, was not: it may cross more than
- * once. 1: none. */
+/*
+ * Return the node of the first stage with a negative event function k, if a later stage or the end is not negative, so
+ * that it may cross zero more than once. Otherwise return 1.
+ */
 static double first_negative_stage(const Step *step, int k, double end)
 {
     const StageValues seen = stage_values(step, k);
@@ -93,7 +96,10 @@ static double first_negative_stage(const Step *step, int k, double end)
     return first < back ? first : 1.0;
 }
 
-/* The bracket's upper end for margin k, of no joint whose rate is known: a share at which it is below zero; 0: none. */
+/*
+ * Return a fraction of the step at which event function k, not one of a gap, is negative: the upper end of its bracket;
+ * 0: none. `value` is set to its value there.
+ */
 static double last_negative_stage(Integrator *run, Step *step, int k, const Parameters *p, double *value)
 {
     if (watched_as[k] >= 0)
@@ -111,7 +117,7 @@ static double last_negative_stage(Integrator *run, Step *step, int k, const Para
     return end < 0.0 ? 1.0 : 0.0;
 }
 
-/* Whether margin k, if it is watched, is larger than its uncertainty at a state. */
+/* Return whether a watched event function k is larger than its uncertainty at a state; 1 for all other functions. */
 static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k, const Parameters *p)
 {
     double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
@@ -121,7 +127,7 @@ static int is_resolved(Integrator *run, double t, const double *y, const RhsOutp
     return !(fabs(event_function(&run->discrete, rhs, k)) <= error[watched_as[k]]);
 }
 
-/* The same at a share of a step. */
+/* Return whether a watched event function k is larger than its uncertainty at a fraction of the step. */
 static int is_resolved_at(Integrator *run, const Step *step, double fraction, int k, const Parameters *p)
 {
     double y[N_Y], dy[N_Y];
@@ -130,7 +136,10 @@ static int is_resolved_at(Integrator *run, const Step *step, double fraction, in
         || is_resolved(run, step->t + fraction * step->h, y, &rhs, k, p);
 }
 
-/* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
+/*
+ * Return the fraction of the first event that precedes `first`, at which an event was found. Event functions that no
+ * stage shows negative are evaluated there and, if negative, located. `event` is updated.
+ */
 static double event_before(Integrator *run, const Step *step, double first, const Parameters *p, int *event)
 {
     for (int again = 0; again < N_EVENT_FUNCTIONS && first > 0.0; again++) {
@@ -154,22 +163,25 @@ static double event_before(Integrator *run, const Step *step, double first, cons
     return first;
 }
 
-/* A margin that ends the step: places at which it is not yet below zero and at which it is; about where it crosses. */
+/* An event function k that may end the step: the bracket of its zero and two estimates of its location. */
 typedef struct {
     int k;
     Bracket of;
     double guess, about;
 } Candidate;
 
-/* Whether margin k is below zero somewhere in the step; a joint's beyond the share `until` may be left out. */
+/*
+ * Return whether event function k is negative somewhere in the step, and set `now` to its bracket. Zeros of a gap after
+ * the fraction `until` may be omitted.
+ */
 static int is_candidate(Integrator *run, Step *step, int k, const Parameters *p, double until, Candidate *now)
 {
     double at_high;
     Place low = bracket_begin(run, step, k), end = {0.0, NAN, NAN};
     const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, k);
-    const int some = is_gap ? has_zero(run, step, k, p, until, &low, &end)
+    const int candidates = is_gap ? has_zero(run, step, k, p, until, &low, &end)
         : sampled ? has_force_zero(run, step, k, p, &low, &end) : 0;
-    const double high = sampled ? some * end.s : last_negative_stage(run, step, k, p, &at_high);
+    const double high = sampled ? candidates * end.s : last_negative_stage(run, step, k, p, &at_high);
     if (high == 0.0 || make_dense(run, p, step))
         return 0;
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
@@ -177,9 +189,9 @@ static int is_candidate(Integrator *run, Step *step, int k, const Parameters *p,
         if (from.f >= 0.0 || step->above[watched_as[k]] >= 0.0)
             low = from;
     }
-    if (watched_as[k] >= 0 && step->above[watched_as[k]] >= 0.0) /* below zero by its uncertainty at most */
+    if (watched_as[k] >= 0 && step->above[watched_as[k]] >= 0.0) /* negative within its uncertainty only */
         low.f = max_of(low.f, 0.0);
-    for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+    for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* negative at the beginning: find a return */
         const Place part = bracket_point_at(run, step, 0.25 * j * high, k, p);
         if (part.f >= 0.0)
             low = part;
@@ -193,12 +205,15 @@ static int is_candidate(Integrator *run, Step *step, int k, const Parameters *p,
     return 1;
 }
 
-/* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
+/*
+ * Return the first fraction of the step at which an event function ends it. `event`: its number, -1 if none (fraction
+ * 1).
+ */
 static double first_crossing(Integrator *run, Step *step, const Parameters *p, int *event)
 {
-    double first = 1.0, until = 1.0; /* an event comes no later than that */
+    double first = 1.0, until = 1.0; /* no event is later than that */
     double at_end[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    Candidate some[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    Candidate candidates[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     int n = 0;
     *event = -1;
     evaluate_event_functions(&run->discrete, &step->rhs, at_end);
@@ -209,16 +224,16 @@ static double first_crossing(Integrator *run, Step *step, const Parameters *p, i
         int i = n;
         if (quiet || is_ignored(run, step, k) || !is_candidate(run, step, k, p, until, &now))
             continue;
-        for (n++; i > 0 && some[i - 1].about > now.about; i--)
-            some[i] = some[i - 1];
-        some[i] = now;
+        for (n++; i > 0 && candidates[i - 1].about > now.about; i--)
+            candidates[i] = candidates[i - 1];
+        candidates[i] = now;
         if (k < N_CLEARANCES)
             until = min_of(until, now.of.at[1].s);
     }
     for (int i = 0; i < n; i++) {
-        const Candidate *now = &some[i];
+        const Candidate *now = &candidates[i];
         if (*event >= 0 && now->of.at[1].s > first && event_function_at(run, step, first, now->k, p) >= 0.0)
-            continue; /* later than what was found */
+            continue; /* later than the event found so far */
         const double s =
             now->of.at[0].f >= 0.0 ? locate_root(run, step, now->k, now->of, now->guess, p) : now->of.at[0].s;
         if (*event < 0 || s < first) {
@@ -230,9 +245,9 @@ static double first_crossing(Integrator *run, Step *step, const Parameters *p, i
 }
 
 /*
- * The first event of a step in contact that is far longer than the one before: margins of which no bounds are known may
- * cross zero and return between its stages, of which those of stiff methods lie far from the motion. The dense output
- * is sampled up to the first event that was found.
+ * Return the first event of a step in contact that is far longer than the previous one. Event functions without bounds
+ * may cross zero and return between its stages, and stages of stiff methods are inaccurate. The dense output is
+ * therefore sampled up to the event at `fraction` that was already found.
  */
 static double first_event_of_long_step(Integrator *run, Step *step, double fraction, const Parameters *p, int *event)
 {
@@ -258,11 +273,13 @@ static double first_event_of_long_step(Integrator *run, Step *step, double fract
     return fraction;
 }
 
-/* Poles of event functions: there a sign changes without an event. */
 #if N_USER_EVENTS
 enum { FAR_PLACES = 4 };
 
-/* Event functions at share s of a step, straight on beyond its end; 0 for those that are below their uncertainty. */
+/*
+ * Evaluate user events at fraction s of a step, extrapolated linearly beyond its end. value: 0 for those below their
+ * uncertainty. Returns a status.
+ */
 static int events_at(Integrator *run, const Step *step, double s, const Parameters *p, double *value)
 {
     double y[N_Y], dy[N_Y];
@@ -276,9 +293,9 @@ static int events_at(Integrator *run, const Step *step, double s, const Paramete
 }
 
 /*
- * Whether event function i changes its sign at a pole and not at a zero: it is larger where it was located than at the
- * first place behind that where it is larger than its uncertainty. One that jumps from one finite value to another is
- * as large near it as far from it. Places are those of the dense output: what drives move does not go straight on.
+ * Return whether user event i changes its sign at a pole instead of a zero. It does if its value is larger at the
+ * located fraction than at the first later sample above its uncertainty. A function that jumps between finite values is
+ * equally large at both. Samples are those of the dense output, because drives do not move linearly.
  */
 static int is_pole(Integrator *run, const Step *step, double fraction, int i, const Parameters *p)
 {
@@ -300,14 +317,17 @@ static inline int is_pole(Integrator *run, const Step *step, double fraction, in
 }
 #endif
 
-/* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
+/*
+ * Return the first fraction of the step at which an event ends it, and its number `event` (-1: none, fraction 1).
+ * Switching points passed without an event are determined first.
+ */
 static double first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
     const int passed = ignore_harmless_switches(run, step, p);
     search_step(run, step, p);
     double fraction = first_crossing(run, step, p, event);
     if (*event >= 0 && passed) {
-        /* something else ends the step: what was passed may lie behind it */
+        /* the event ends the step: a passed switching point may lie after it */
         for (int k = 0; k < N_SWITCHES; k++)
             step->passed[k] = 0;
         fraction = first_crossing(run, step, p, event);
@@ -318,16 +338,20 @@ static double first_event(Integrator *run, Step *step, const Parameters *p, int 
     return fraction;
 }
 
+/* Reset the root finding of a run: no switching point was crossed, none is suppressed. */
 static void start_roots(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
 
-/* left: of the run, s. By fixed steps a run goes on as if it had never been cut. */
+/*
+ * Set the resolution of event times, s, from the time `left` of the run, s. With fixed steps it does not depend on that
+ * time, so that a resumed run repeats the uninterrupted one.
+ */
 static void set_time_resolution(Integrator *run, double left)
 {
     run->roots.time_resolution = min_of(1e-12, run->control.fixed > 0.0 ? 1e-8 * run->control.fixed : 1e-11 * left);
 }
 
-#define LEAST_LEAP 1e-3 /* of a tolerance: a corner that changes less in a step is none that counts */
-/* By how many tolerances a second the other side's rates differ from those before. */
+#define MIN_RATE_JUMP_TOL 1e-3 /* of a tolerance: smaller changes of a step by a switching point are ignored */
+/* Return the jump of the rates at a change of branch, in tolerances per second. before: rates of the old branch. */
 static double rate_jump(const Integrator *run, const double *before)
 {
     double most = 0.0;
@@ -337,20 +361,20 @@ static double rate_jump(const Integrator *run, const double *before)
 }
 
 /*
- * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
- * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
- * grows from there: the corner's branches meet, so that little is wrong with the held one so near. They do by their
- * expressions, or but for rounding: what another side does in such a step is no tolerance by far.
+ * Suppress a switching point in the next step if the motion crossed it twice within a short time, such as a journal at
+ * rest in its film. The next step is as short as the time between the crossings, and the following ones grow. Both
+ * branches meet there, or differ by rounding only, so that the frozen branch has a small error.
  */
-static void suppress_repeated_switch(Integrator *run, int corner, const double *before)
+static void suppress_repeated_switch(Integrator *run, int switch_index, const double *before)
 {
-    const double way = run->t - run->roots.t_crossed;
-    const double monitor = 20.0 * max_of(100.0 * run->roots.time_resolution, max_of(run->roots.monitor, way));
-    const int again = run->roots.crossed == corner && way < 1e-3 * run->control.h
-        && (meets[corner]
-            || (run->control.fixed <= 0.0 && rate_jump(run, before) * max_of(monitor, run->control.h) < LEAST_LEAP));
-    run->roots.skip = again ? corner : -1;
-    run->roots.monitor = again ? monitor : 0.0;
-    run->roots.crossed = corner;
+    const double elapsed = run->t - run->roots.t_crossed;
+    const double monitor = 20.0 * max_of(100.0 * run->roots.time_resolution, max_of(run->roots.monitor, elapsed));
+    const int is_repeated = run->roots.crossed == switch_index && elapsed < 1e-3 * run->control.h
+        && (meets[switch_index]
+            || (run->control.fixed <= 0.0
+                && rate_jump(run, before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
+    run->roots.skip = is_repeated ? switch_index : -1;
+    run->roots.monitor = is_repeated ? monitor : 0.0;
+    run->roots.crossed = switch_index;
     run->roots.t_crossed = run->t;
 }

@@ -1,26 +1,28 @@
 /*
- * Friction that may stick and rigid contacts along a step: the first zero of what is left of the limit of a sticking
- * force, of a sliding velocity, of the force of a closed contact.
+ * Friction that may stick and rigid contacts along a step. This file finds the first zero of three kinds of event
+ * functions: the reserve of a sticking force, a sliding velocity, the force of a closed contact.
  *
- * These follow from the right-hand side, so that no bounds of them are known, and they may come and go within a step
- * whose motion is as simple as rest. The dense output is sampled and bisected: on each part of it the event function is
- * the parabola through both ends and the middle within an error. That error is taken as the largest by which the
- * parabola of the whole part before the bisection missed the new samples, times UNSURE: in theory the halves have an
- * eighth of it, but samples may hide some. Less than a fourth of what the whole had is not believed.
+ * They follow from the right-hand side and have no bounds, and they may change within a step whose motion is at rest.
+ * The dense output is sampled and bisected. On each part the event function is the parabola through both ends and the
+ * middle within an error. That error is UNSURE times the largest by which the parabola of the whole part missed the
+ * samples of its halves, and at least a fourth of the whole part's error. In theory the halves have an eighth of it.
  */
-enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
+enum { MAX_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that bound a force between them */ };
 #define UNSURE 4.0
-#define COARSE 0.25 /* of a step: parabolas over longer parts say nothing of their error */
-#define SWING 0.05 /* of the range of a term of time over a step, that it may go beyond parabolas */
-#define FORCE_ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
+#define COARSE 0.25 /* of a step: longer parts do not show the error of a parabola */
+#define MAX_TERM_EXCESS 0.05 /* of the range of a time term over a step: allowed excess over a parabola */
+#define FORCE_ROUNDING 1e-12 /* of the largest sample: negative values by rounding */
 
-/* A part of a step: its middle and end, and how far the event function may lie from the parabola. */
+/* A part of a step: the samples at its middle and end, and the error of the parabola through them. */
 typedef struct {
     Place middle, end;
     double error;
 } Sampled;
 
-/* Whether margin k is one of these: a rigid contact that is closed, friction that no other one holds. */
+/*
+ * Return whether event function k belongs to this file: that of a closed rigid contact, or of friction that no other
+ * friction holds.
+ */
 static int is_contact_force_function(const Integrator *run, int k)
 {
     const int friction = k - N_CLEARANCES - N_SWITCHES;
@@ -30,7 +32,7 @@ static int is_contact_force_function(const Integrator *run, int k)
 }
 
 #if N_FRICTIONS
-/* By how much the tolerance of the velocities lets slip i be wrong, m/s. */
+/* Return the error of slip velocity i that the tolerances of the velocities allow, m/s. */
 static double slip_tolerance(Integrator *run, int i, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], sum = 0.0;
@@ -46,8 +48,8 @@ static double slip_tolerance(Integrator *run, int i, const Parameters *p)
 #endif
 
 /*
- * How far below zero margin k means nothing at the begin of a step: of a velocity that leaves rest what it is rounded
- * to, and what the step may be wrong by: until it is larger than that.
+ * Return how far event function k may be below zero at the beginning of a step without an event. For a slip velocity
+ * that leaves rest it is the rounding or the error of the step, m/s; otherwise 0.
  */
 static double rounding_of_velocity(Integrator *run, int k, const Parameters *p)
 {
@@ -60,7 +62,10 @@ static double rounding_of_velocity(Integrator *run, int k, const Parameters *p)
     return (void)run, (void)k, (void)p, 0.0;
 }
 
-/* A value at both ends of a step and at its stages in the order of their nodes. Returns how many. */
+/*
+ * Collect a value at the beginning of a step, at its stages in the order of their nodes, and at its end. Returns the
+ * number of samples in `all`, at most N_STAGES + 2.
+ */
 static int values_of_stages(const Step *step, Place begin, Place end, StageValues seen, Place *all)
 {
     int n = 1;
@@ -79,8 +84,9 @@ static int values_of_stages(const Step *step, Place begin, Place end, StageValue
 
 #if N_TERMS
 /*
- * Whether a term of time alone may swing between samples at a part's ends and its middle: by its bounds its slope is
- * larger than that of the parabola through them, by what would lead it away from there by a share of its range.
+ * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part. It may if
+ * its slope exceeds that of the parabola through them, by bounds, so that it may leave it by MAX_TERM_EXCESS of its
+ * range.
  */
 static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
 {
@@ -98,32 +104,35 @@ static int may_oscillate_between(Step *step, double a, double b, const Parameter
     for (int k = 0; k < N_TERMS; k++) {
         const double slope = high[k].lo - low[k].lo, bend = fabs(low[k].lo - 2.0 * middle[k].lo + high[k].lo);
         const double beyond = max_of(w * f[k].up - slope, slope - w * f[k].down) - 2.0 * bend;
-        if (!(beyond <= SWING * step->spread[k]))
+        if (!(beyond <= MAX_TERM_EXCESS * step->spread[k]))
             return 1;
     }
     return 0;
 }
 #else
+/* Return 0: the scene has no terms of time alone. */
 static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
 {
     return (void)step, (void)a, (void)b, (void)p, 0;
 }
 #endif
 
-/* Whether one may between the stages. */
+/* Return whether a term of time alone may oscillate between neighbouring samples of the stages. */
 static int may_oscillate_between_stages(Step *step, const Place *all, int n, const Parameters *p)
 {
     if (step->swings < 0) {
         step->swings = may_oscillate_between(step, 0.0, 1.0, p);
-        for (int i = 1, each = step->swings; i < n && each; i++) {
+        for (int i = 1, is_tested = step->swings; i < n && is_tested; i++) {
             step->swings = may_oscillate_between(step, all[i - 1].s, all[i].s, p);
-            each = !step->swings;
+            is_tested = !step->swings;
         }
     }
     return step->swings;
 }
 
-/* A bound of a second derivative: twice the largest that three neighbours show. */
+/*
+ * Return a bound of the second derivative through n samples: BEND_SAFETY times the largest second difference quotient.
+ */
 static double max_second_derivative(const Place *all, int n)
 {
     double bend = 0.0;
@@ -136,9 +145,9 @@ static double max_second_derivative(const Place *all, int n)
 }
 
 /*
- * Whether the stages of an explicit step tell that margin k has no zero: between neighbours a and b it is at least
- * min(f_a, f_b) - B w^2/8, B a bound of the second derivative, or than both where it only rises or only falls. No
- * value above -rest is below zero.
+ * Return whether the stages of a step show that event function k has no zero. Between neighbours a and b it is at least
+ * min(f_a, f_b) - B w^2/8, where B bounds its second derivative, and at least the smaller one where it is monotone.
+ * Values above -rest are not negative, until the function exceeds `rest`.
  */
 static int is_clear_of_zero(const Integrator *run, Step *step, int k, double rest, const Parameters *p)
 {
@@ -151,7 +160,7 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int k, double res
         least = min_of(least, all[i].f);
         most = max_of(most, all[i].f);
     }
-    if (step->method->stiff || n < LEAST_STAGES) /* stages that are inaccurate, or too far apart: velocities only */
+    if (step->method->stiff || n < LEAST_STAGES) /* inaccurate or distant stages: for velocities only */
         return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != 0.0 && least > most - least;
     const double bend = max_second_derivative(all, n);
     for (int i = 1; i < n; i++) {
@@ -164,14 +173,14 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int k, double res
     return (!(rest > 0.0) || all[n - 1].f >= -AT_REST) && !may_oscillate_between_stages(step, all, n, p);
 }
 
-/* The parabola through a part's ends and middle, at share s. */
+/* Return the value at s of the parabola through both ends and the middle of a part. */
 static double parabola_at(Place a, Place middle, Place b, double s)
 {
     const double u = 2.0 * (s - middle.s) / (b.s - a.s);
     return middle.f + 0.5 * u * (b.f - a.f + u * (a.f - 2.0 * middle.f + b.f));
 }
 
-/* Its least value between both ends, its largest slope there. */
+/* Return the minimum of the parabola between both ends of a part, and its largest slope there, `steepest`. */
 static double least_of_parabola(Place a, Place middle, Place b, double *steepest)
 {
     const double slope = 0.5 * (b.f - a.f), bend = a.f - 2.0 * middle.f + b.f, u = -slope / bend;
@@ -180,7 +189,7 @@ static double least_of_parabola(Place a, Place middle, Place b, double *steepest
     return bend > 0.0 && fabs(u) < 1.0 ? min_of(least, middle.f + 0.5 * slope * u) : least;
 }
 
-/* How far a function may lie from the parabolas of a part's halves, by two samples more. */
+/* Return the error of the parabolas of both halves of a part, from two new samples; infinite for long parts. */
 static double error_of_halves(Place from, Sampled now, Place left, Place right)
 {
     const double missed = max_of(fabs(left.f - parabola_at(from, now.middle, now.end, left.s)),
@@ -189,7 +198,7 @@ static double error_of_halves(Place from, Sampled now, Place left, Place right)
     return now.end.s - from.s > COARSE ? INFINITY : max_of(known, UNSURE * missed);
 }
 
-/* Whether margin k has a zero in the step, and places that enclose the first one. */
+/* Return whether event function k has a zero in the step, and samples low, high that enclose the first one. */
 static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
     const double close = 4.0 * event_time_tolerance(run, step);
@@ -207,14 +216,15 @@ static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *
         rest = from.f > rest ? 0.0 : rest;
         const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
         const int crosses = now.middle.f < -rest || now.end.f < -rest;
-        const int small = w < close || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES;
+        const int small = w < close || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES;
         largest = max_of(largest, max_of(fabs(now.middle.f), fabs(now.end.f)));
         if (crosses && (small || steepest + 4.0 * now.error / w < 0.0)) {
             *low = from;
             *high = now.middle.f < -rest ? now.middle : now.end;
             return 1;
         }
-        if (small || (least >= -rest - FORCE_ROUNDED * largest && !may_oscillate_between(step, from.s, now.end.s, p))) {
+        if (small
+            || (least >= -rest - FORCE_ROUNDING * largest && !may_oscillate_between(step, from.s, now.end.s, p))) {
             from = now.end;
             n--;
             continue;
@@ -227,6 +237,6 @@ static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *
         samples += 2;
     }
     *low = bracket_begin(run, step, k);
-    *high = from; /* a velocity that has been no larger than its tolerance has turned round meanwhile */
+    *high = from; /* a velocity within its tolerance has reversed */
     return rest > 0.0 && from.f < -AT_REST;
 }

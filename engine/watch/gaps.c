@@ -1,32 +1,33 @@
 /*
- * Contacts along a step: the first zero of a joint's margin (the gap of a free joint, the penetration of a closed
- * contact), and the proof that the step is clear of zeros before it.
+ * Contacts along a step: the first zero of the event function of a joint with play, and the proof that no zero precedes
+ * it. The event function is the gap of an open contact, or the penetration of a closed one.
  *
- * Stages bound the margin of most steps: its second derivative by BEND_SAFETY times the largest that the rates of
- * neighbouring stages show, and the dense output lies beside them by DENSE_ERROR tolerances at most (bound_by_stages).
- * Where that does not decide, the dense output is bisected (first_zero). On each part of it the margin is the cubic of
- * values and rates at both ends within an error. That error is taken as the one that the cubic of the whole part before
- * the bisection had in the middle; in theory the halves have a sixteenth of it.
- * What is guaranteed: no zero of the dense output is missed, and none before the one that is found, as long as the
- * error of a half is not larger than the one of the whole that was measured, on parts of at most a quarter of the step.
+ * bound_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest value that
+ * the rates of neighbouring stages show. The dense output differs from the stages by DENSE_ERROR tolerances at most.
+ * Otherwise first_zero() bisects the dense output. On each part the event function is the cubic Hermite polynomial of
+ * both ends within an error. That error is the one measured in the middle of the part before the bisection; in theory
+ * its halves have a sixteenth of it.
+ *
+ * Guarantee: no zero of the dense output is missed, and none before the located one, as long as the error of a half
+ * does not exceed the measured error of the whole, on parts of at most a quarter of the step.
  */
-enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint and step: what they leave open is below rounding */ };
+enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint in a step */ };
 
 #define BEND_SAFETY 2.0
-#define WIDEST 0.125     /* w/4, w of a step at most between neighbouring stages: so much of a change of rate bends */
-#define DENSE_ERROR 10.0 /* tolerances of a length, by which the dense output may lie beside the stages */
+#define WIDEST 0.125     /* w/4 for neighbouring stages at most w of a step apart */
+#define DENSE_ERROR 10.0 /* tolerances of a length, by which the dense output may differ from the stages */
 
-/* A part of a step: its end and how far the margin may lie beside the cubic between both ends. */
+/* A part of a step: the sample at its end, and the error of the cubic between both ends. */
 typedef struct {
     Place end;
     double error;
-} Stretch;
+} PartOfStep;
 
-enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, through which the margin falls; neither is known */
+enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, at which the function decreases; undecided */
 
 /*
- * A margin and its rate at a penetration: of a journal half the difference of squares of clearance and eccentricity
- * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle. per_c: 1/clearance.
+ * Return the event function of contact i at fraction s from penetration and rate: f = (c^2 - e^2) / 2c for a journal,
+ * negated in contact. Unlike the eccentricity e it is smooth at the centre. per_c: 1/c, 1/m.
  */
 static Place gap_function(
     const Integrator *run, const Step *step, int i, double s, double delta, double rate, double per_c)
@@ -40,7 +41,10 @@ static Place gap_function(
 #endif
 }
 
-/* Margin i at the begin of a step, at its stages in the order of their nodes, at its end. Returns how many. */
+/*
+ * Collect event function i at the beginning of a step, at its stages in the order of their nodes, and at its end.
+ * Returns the number of samples in `all`, at most N_STAGES + 2.
+ */
 static int event_function_at_stages(const Integrator *run, const Step *step, int i, const Parameters *p, Place *all)
 {
     const StageValues event_functions = stage_values(step, i), rates = stage_values(step, SEEN_RATES + i);
@@ -62,14 +66,19 @@ static int event_function_at_stages(const Integrator *run, const Step *step, int
     return n;
 }
 
-/* By how much the dense output may lie beside the stages of a step, m: in its middle; at its ends by nothing. */
+/*
+ * Return by how much the dense output may differ from the stages in the middle of a step, m. It is exact at both ends.
+ */
 static double error_of_dense(const Integrator *run, int i, const Parameters *p)
 {
     return DENSE_ERROR * tolerance_of(run) * radial_clearance(p, i);
 }
 
-/* Whether margin i is so far from zero at begin, stages and end that no change of its rate among them leads there. */
-static int is_far(const Integrator *run, const Step *step, int i, const Parameters *p)
+/*
+ * Return whether event function i is so far from zero at beginning, stages and end that its observed rates cannot reach
+ * zero between them.
+ */
+static int is_far_from_zero(const Integrator *run, const Step *step, int i, const Parameters *p)
 {
     const double a = run->rhs.clearance[i].deltadot, b = step->rhs.clearance[i].deltadot;
     const double slowest = min_of(step->rate[i][0], min_of(a, b)), fastest = max_of(step->rate[i][1], max_of(a, b));
@@ -80,9 +89,9 @@ static int is_far(const Integrator *run, const Step *step, int i, const Paramete
 }
 
 /*
- * Whether a margin with |f''| <= bend is at least `least` between neighbours a and b: it is at least
- * min(f_a, f_b) - bend w^2/8, and max(f_a + f'_a x - bend x^2/2, f_b - f'_b (w - x) - bend (w - x)^2/2), least where
- * both parabolas meet.
+ * Return whether a function with |f''| <= B (bend) is at least `least` between neighbouring samples a and b, w apart.
+ * It is at least min(f_a, f_b) - B w^2/8. It is also at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w -
+ * x)^2/2), which is least where both parabolas meet.
  */
 static int is_above_parabolas(Place a, Place b, double bend, double least)
 {
@@ -94,8 +103,8 @@ static int is_above_parabolas(Place a, Place b, double bend, double least)
 }
 
 /*
- * What the stages say of margin i. below: the node of the first stage where it is below zero by more than the dense
- * output may lie beside the stages, else the end.
+ * Classify event function i in a step by its stages: CLEAR, FALLS or UNKNOWN. below: the node of the first stage at
+ * which it is negative by more than the error of the dense output, else the end.
  */
 static int bound_by_stages(const Integrator *run, const Step *step, int i, const Parameters *p, double *below)
 {
@@ -117,8 +126,8 @@ static int bound_by_stages(const Integrator *run, const Step *step, int i, const
     bend *= BEND_SAFETY;
     for (int k = 1; k < n; k++) {
         const Place a = all[k - 1], b = all[k];
-        const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, beside = error * s * s * (1.0 - s) * (1.0 - s);
-        if (!falls && b.f >= 0.0 && is_above_parabolas(a, b, bend, least + beside))
+        const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, deviation = error * s * s * (1.0 - s) * (1.0 - s);
+        if (!falls && b.f >= 0.0 && is_above_parabolas(a, b, bend, least + deviation))
             continue;
         if (!(0.5 * (a.slope + b.slope + bend * (b.s - a.s)) + 0.2 * error < 0.0))
             return UNKNOWN;
@@ -127,7 +136,7 @@ static int bound_by_stages(const Integrator *run, const Step *step, int i, const
     return falls && all[n - 1].f < 0.0 ? FALLS : CLEAR;
 }
 
-/* The least of f + u (r + u (c + u d)) for u from 0 to 1/2. */
+/* Return the minimum of f + u (r + u (c + u d)) for u from 0 to 1/2. */
 static double least_of_cubic(double f, double r, double c, double d)
 {
     const double root = sqrt(max_of(0.0, c * c - 3.0 * d * r)), u = c > 0.0 ? -r / (c + root) : (root - c) / (3.0 * d);
@@ -136,16 +145,16 @@ static double least_of_cubic(double f, double r, double c, double d)
 }
 
 /*
- * What is known of a margin between two places, where it lies beside their cubic by 16 error u^2 (1 - u)^2 at most, as
- * the error of Hermite's cubic does: its rate then by 3.1 error at most.
+ * Classify an event function between samples a and b: CLEAR, FALLS or UNKNOWN. It differs from their cubic by 16 error
+ * u^2 (1 - u)^2 at most, as the error of Hermite's cubic does, and its rate by 3.1 error.
  */
 static int bound_by_cubic(Place a, Place b, double error, double least)
 {
     const double w = b.s - a.s, r = w * a.slope, r_end = w * b.slope, rise = b.f - a.f;
-    const double c = 3.0 * rise - 2.0 * r - r_end, d = r + r_end - 2.0 * rise, beside = 16.0 * error;
+    const double c = 3.0 * rise - 2.0 * r - r_end, d = r + r_end - 2.0 * rise, deviation = 16.0 * error;
     const int ends = b.f >= (b.s < 1.0 || b.slope > 0.0 ? least : 0.0);
-    if (ends && least_of_cubic(a.f, r, c - beside, d) >= least
-        && least_of_cubic(b.f, -r_end, c + 3.0 * d - beside, -d) >= least)
+    if (ends && least_of_cubic(a.f, r, c - deviation, d) >= least
+        && least_of_cubic(b.f, -r_end, c + 3.0 * d - deviation, -d) >= least)
         return CLEAR;
     double steepest = max_of(r, r_end);
     if (d < 0.0 && c > 0.0 && c < -3.0 * d)
@@ -155,7 +164,10 @@ static int bound_by_cubic(Place a, Place b, double error, double least)
     return ends ? CLEAR : FALLS;
 }
 
-/* The cubic's error in the middle, its value's and an eighth of its rate's: what the halves are allowed. */
+/*
+ * Return the error of the cubic of a and b at the middle sample: that of its value plus an eighth of that of its rate.
+ * It is the allowed error of both halves.
+ */
 static double error_of_cubic(Place a, Place middle, Place b)
 {
     const double w = b.s - a.s;
@@ -165,22 +177,23 @@ static double error_of_cubic(Place a, Place middle, Place b)
 }
 
 /*
- * FALLS with the places between which margin k crosses zero for the first time, or CLEAR up to a share `until` of the
- * step. below: where it is probably below zero; the first part ends there if that is within the first half of the step.
+ * Find the first zero of event function k on the dense output, by bisection. Return FALLS with the bracket low, high,
+ * or CLEAR up to a fraction `until` of the step. below: where it is probably negative; the first part ends there if
+ * that is within the first half of the step.
  */
 static int first_zero(
     Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low, Place *high)
 {
     const double least = penetration_rounding(p, k), close = 4.0 * event_time_tolerance(run, step);
-    Stretch part[MAX_BISECTIONS + 1] = {{bracket_end(run, step, k), INFINITY}};
+    PartOfStep part[MAX_BISECTIONS + 1] = {{bracket_end(run, step, k), INFINITY}};
     Place from = bracket_begin(run, step, k);
     const Place early = min_of(below, until) <= 0.5 ? gap_point_at(run, step, min_of(below, until), k, p)
         : (Place){0.0, NAN, NAN};
     int n = 1;
     if (isfinite(early.f))
-        part[n++] = (Stretch){early, INFINITY};
+        part[n++] = (PartOfStep){early, INFINITY};
     for (int samples = 0; n > 0 && from.s < until;) {
-        const Stretch now = part[n - 1];
+        const PartOfStep now = part[n - 1];
         const double w = now.end.s - from.s;
         int found = from.f >= least ? bound_by_cubic(from, now.end, now.error, least) : FALLS;
         if (found == UNKNOWN) {
@@ -189,7 +202,7 @@ static int first_zero(
             if (isfinite(middle.f)) {
                 const double error = w > 0.5 ? INFINITY : error_of_cubic(from, middle, now.end);
                 part[n - 1].error = error;
-                part[n] = (Stretch){middle, error};
+                part[n] = (PartOfStep){middle, error};
                 n++;
                 continue;
             }
@@ -207,19 +220,19 @@ static int first_zero(
 }
 
 /*
- * Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. Zeros beyond the
- * share `until` may be left out.
+ * Return whether event function k of a joint with play has a zero in the step, and its bracket low, high. Zeros after
+ * the fraction `until` may be omitted.
  */
 static int has_zero(Integrator *run, Step *step, int k, const Parameters *p, double until, Place *low, Place *high)
 {
     double below = 1.0;
-    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &below);
+    int found = is_far_from_zero(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &below);
     *low = bracket_begin(run, step, k);
     *high = bracket_end(run, step, k);
     if (found == UNKNOWN)
         found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR
             : first_zero(run, step, k, p, until, below, low, high);
     if (low->f < 0.0 && low->f >= penetration_rounding(p, k) && low->slope > 0.0)
-        low->f = 0.0; /* rounded: it leaves zero */
+        low->f = 0.0; /* within rounding, and increasing */
     return found == FALLS;
 }

@@ -1,19 +1,22 @@
 /*
- * Where along a step a margin crosses zero (zeros.h): samples of the step's interpolant, and how near the tolerance of
- * the run asks a zero to be located.
+ * Location of events on the dense output of a step: samples of the event functions, and the tolerance to which a zero
+ * is located. Read zeros.h first.
  */
-#define ONSET_TIME_TOLERANCE 1e-9   /* of a step, behind the begin of a contact, at most */
-#define AT_END 1e-6     /* the same behind its end */
-#define AT_SWITCH 1e-2  /* of a step, behind a corner, at most */
-#define HARMLESS_ERROR 1e-4    /* of the tolerance, that its wrong branch may change a step by */
+#define ONSET_TIME_TOLERANCE 1e-9   /* of a step, after the onset of a contact, at most */
+#define MAX_END_OVERSHOOT 1e-6     /* of a step, after the end of a contact, at most */
+#define MAX_SWITCH_OVERSHOOT 1e-2  /* of a step, after a switching point, at most */
+#define HARMLESS_ERROR 1e-4    /* of the tolerance: change of a step by the inactive branch that is accepted */
 
-
+/* Evaluate the dense output at fraction s of the step: y[N_Y], not projected. */
 static void interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
     step->method->interpolate(run, step, s, y);
 }
 
-/* State, projected, and right-hand side at share s of the step. */
+/*
+ * Compute the projected state y, its rates dy and the right-hand side's outputs at fraction s of the step. Returns a
+ * status.
+ */
 static int state_at(
     Integrator *run, const Step *step, double s, const Parameters *p, double *y, double *dy, RhsOutputs *rhs)
 {
@@ -30,8 +33,8 @@ static int state_at(
 }
 
 /*
- * What joints with play tell at a state: all of rates() where contacts are rigid, whose forces follow from
- * accelerations.
+ * Evaluate the contacts of joints with play at a state. Forces of rigid contacts follow from accelerations, so that
+ * these scenes evaluate the whole right-hand side. Returns a status.
  */
 static int play(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
@@ -47,7 +50,7 @@ static int play(Integrator *run, double t, const double *y, const Parameters *p,
 #endif
 }
 
-/* What joints with play tell at share s of the step. */
+/* Evaluate the contacts of joints with play at fraction s of the step. Returns a status. */
 static int play_in(Integrator *run, const Step *step, double s, const Parameters *p, RhsOutputs *rhs)
 {
     double y[N_Y];
@@ -65,7 +68,7 @@ static int play_in(Integrator *run, const Step *step, double s, const Parameters
 #endif
 }
 
-/* By how much margin k grows per share of the step; NAN where a right-hand side does not tell. */
+/* Return the rate of event function k per fraction of the step; NAN if the right-hand side does not contain it. */
 static double event_function_slope(const Integrator *run, const Step *step, const RhsOutputs *rhs, int k)
 {
     if (k >= N_CLEARANCES || (run->discrete.contact[k].closed && !gives(k)))
@@ -73,23 +76,30 @@ static double event_function_slope(const Integrator *run, const Step *step, cons
     return (run->discrete.contact[k].closed ? step->h : -step->h) * rhs->clearance[k].deltadot;
 }
 
-/* Forget the samples of another step. */
+/* Discard the samples of the previous step. */
 static void forget_samples(Integrator *run)
 {
     run->roots.samples.n = 0;
     run->roots.samples.beyond = NAN;
 }
 
-/* Where in run->roots.looked a share is, with all margins or those of joints with play alone; -1: nowhere. */
-static int find_sample(const DenseSamples *looked, double s, int joints_alone)
+/*
+ * Return the index of the stored sample at fraction s, -1 if there is none. joints_alone: whether a sample of the gaps
+ * alone is sufficient.
+ */
+static int find_sample(const DenseSamples *stored, double s, int joints_alone)
 {
-    for (int i = looked->n; i > 0 && i > looked->n - N_DENSE_SAMPLES; i--)
-        if (looked->fraction[(i - 1) % N_DENSE_SAMPLES] == s
-            && joints_alone >= looked->joints_alone[(i - 1) % N_DENSE_SAMPLES])
+    for (int i = stored->n; i > 0 && i > stored->n - N_DENSE_SAMPLES; i--)
+        if (stored->fraction[(i - 1) % N_DENSE_SAMPLES] == s
+            && joints_alone >= stored->joints_alone[(i - 1) % N_DENSE_SAMPLES])
             return (i - 1) % N_DENSE_SAMPLES;
     return -1;
 }
 
+/*
+ * Store the event functions and slopes at fraction s of the step; joints_alone: those of joints with play only. Returns
+ * the index of the sample.
+ */
 static int add_sample(Integrator *run, const Step *step, double s, const RhsOutputs *rhs, int joints_alone)
 {
     const int slot = run->roots.samples.n++ % N_DENSE_SAMPLES;
@@ -102,46 +112,49 @@ static int add_sample(Integrator *run, const Step *step, double s, const RhsOutp
     return slot;
 }
 
-/* As find_sample() for all margins, looked at if they have not been. k: the margin for whose zero is looked, -1: none.
+/*
+ * Return the index of the sample of all event functions at fraction s; evaluate it if it is not stored; -1: it failed.
+ * The whole state is stored as well if event function k is negative there (k = -1: never).
  */
 static int sample_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
 {
-    DenseSamples *looked = &run->roots.samples;
+    DenseSamples *stored = &run->roots.samples;
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    int slot = find_sample(looked, s, 0);
+    int slot = find_sample(stored, s, 0);
     if (slot >= 0 || state_at(run, step, s, p, y, dy, &rhs))
         return slot;
     slot = add_sample(run, step, s, &rhs, 0);
-    if (k >= 0 && looked->event_function[slot][k] < 0.0) {
-        looked->beyond = s;
-        memcpy(looked->y, y, sizeof y);
-        memcpy(looked->dy, dy, sizeof dy);
-        looked->rhs = rhs;
+    if (k >= 0 && stored->event_function[slot][k] < 0.0) {
+        stored->beyond = s;
+        memcpy(stored->y, y, sizeof y);
+        memcpy(stored->dy, dy, sizeof dy);
+        stored->rhs = rhs;
     }
     return slot;
 }
 
-/* Margin k at a share of a step, which is in a slot of run->roots.looked; -1: it is not known. */
-static Place bracket_point_of_sample(const DenseSamples *looked, int slot, double s, int k)
+/* Return value and slope of event function k in the stored sample `slot`; NAN for slot -1. */
+static Place bracket_point_of_sample(const DenseSamples *stored, int slot, double s, int k)
 {
     return slot < 0 ? (Place){s, NAN, NAN}
-        : (Place){s, looked->event_function[slot][k], k < N_CLEARANCES ? looked->slope[slot][k] : NAN};
+        : (Place){s, stored->event_function[slot][k], k < N_CLEARANCES ? stored->slope[slot][k] : NAN};
 }
 
-/* The same, sampled there if it has not been. */
+/* Return value and slope of event function k at fraction s of the step; NAN if they cannot be evaluated. */
 static Place bracket_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
 {
     const int slot = sample_at(run, step, s, k, p);
     return bracket_point_of_sample(&run->roots.samples, slot, s, k);
 }
 
+/* Return the value of event function k at fraction s of the step. */
 static double event_function_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
 {
     return bracket_point_at(run, step, s, k, p).f;
 }
 
-/* The same of a joint with play, of which no more than its margin is known afterwards. */
+/* Return value and slope of event function k of a joint with play at fraction s, by evaluating the contacts alone. */
 static Place gap_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
 {
     int slot = find_sample(&run->roots.samples, s, 1);
@@ -151,18 +164,22 @@ static Place gap_point_at(Integrator *run, const Step *step, double s, int k, co
     return bracket_point_of_sample(&run->roots.samples, slot, s, k);
 }
 
-/* Margin k at both ends of a step. */
+/* Return value and slope of event function k at the beginning of a step. */
 static Place bracket_begin(const Integrator *run, const Step *step, int k)
 {
     return (Place){0.0, event_function(&run->discrete, &run->rhs, k), event_function_slope(run, step, &run->rhs, k)};
 }
 
+/* Return value and slope of event function k at the end of a step. */
 static Place bracket_end(const Integrator *run, const Step *step, int k)
 {
     return (Place){1.0, event_function(&run->discrete, &step->rhs, k), event_function_slope(run, step, &step->rhs, k)};
 }
 
-/* A bracket with those two of the stages in it at which margin k is nearest to zero. */
+/*
+ * Return the bracket of event function k from low to high, with those two stages between them at which it is nearest to
+ * zero.
+ */
 static Bracket stage_bracket(const Step *step, int k, Place low, Place high)
 {
     Place nearest = {NAN, NAN, NAN}, next = nearest;
@@ -179,38 +196,40 @@ static Bracket stage_bracket(const Step *step, int k, Place low, Place high)
     return (Bracket){{low, high, nearest, next}, 2 + (nearest.s == nearest.s) + (next.s == next.s)};
 }
 
-/* The share to which a zero is located: 4 ulp of the time, or a tick. */
+/* Return the fraction of the step to which events are located: 4 ulp of the time, or the resolution of event times. */
 static double event_time_tolerance(const Integrator *run, const Step *step)
 {
     return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->roots.time_resolution) / step->h;
 }
 
-/* Whether margin k may be found behind its zero: of a contact that gives, of a corner where branches meet. */
+/*
+ * Return whether event function k may be located after its zero: that of a compliant contact, or of a switching point
+ * whose branches meet. Steps of fixed length and watched functions never are.
+ */
 static int may_be_located_after_zero(const Integrator *run, int k)
 {
-    const int corner = k - N_CLEARANCES;
+    const int switch_index = k - N_CLEARANCES;
     if (run->control.fixed > 0.0 || watched_as[k] >= 0)
         return 0;
-    return corner < 0 ? gives(k) : corner < N_SWITCHES && meets[corner];
+    return switch_index < 0 ? gives(k) : switch_index < N_SWITCHES && meets[switch_index];
 }
 
 /*
- * How far behind its zero the margin of a contact that gives may be found, as a share of a step. Forces may begin with
- * a jump, and how long a contact lasts is not known before it begins, nor by others: of one as short as the
- * tolerance's share of the step that finds its onset, the tolerance is missed. The step that finds an end is a part of
- * the contact.
+ * Return the largest fraction of a step by which a compliant contact may be located after its zero. Forces may begin
+ * with a jump, and the length of a contact is not known before its onset. The step that finds the end is a part of the
+ * contact, so that its limit is less strict.
  */
 static double max_overshoot_of_contact(const Integrator *run, int k)
 {
     const double tolerance = tolerance_of(run);
-    return run->discrete.contact[k].closed ? min_of(AT_END, tolerance * sqrt(tolerance))
+    return run->discrete.contact[k].closed ? min_of(MAX_END_OVERSHOOT, tolerance * sqrt(tolerance))
         : min_of(ONSET_TIME_TOLERANCE, tolerance * tolerance);
 }
 
 /*
- * How near its zero margin k is located: of a corner, where branches meet, as far after it as the wrong one does no
- * harm. Rates differ in proportion to the margin, and what that does grows with the square of the way: at the step's
- * end they do so by what step->harm tells.
+ * Return the tolerance to which event function k is located. The rates of the branches of a switching point differ in
+ * proportion to its function, so that the error of the frozen branch grows with the square of the distance. It is
+ * step->harm tolerances at the end of the step.
  */
 static ZeroTolerance event_function_tolerance(const Integrator *run, const Step *step, int k)
 {
@@ -220,16 +239,19 @@ static ZeroTolerance event_function_tolerance(const Integrator *run, const Step 
     if (k < N_CLEARANCES)
         return (ZeroTolerance){width, max_overshoot_of_contact(run, k), INFINITY, 1.0};
     return (ZeroTolerance){
-        width, AT_SWITCH, HARMLESS_ERROR * fabs(event_function(&run->discrete, &step->rhs, k)), step->harm};
+        width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(event_function(&run->discrete, &step->rhs, k)), step->harm};
 }
 
-/* How many places tell where a zero is: near one that is located to rounding a fourth tells of that alone. */
+/*
+ * Return the number of samples through which the zero of event function k is interpolated. A fourth one near a zero
+ * that is located to rounding contains rounding only.
+ */
 static int n_interpolation_points(const Integrator *run, int k)
 {
     return MOST_PLACES - !may_be_located_after_zero(run, k);
 }
 
-/* Margin k of a step, whose zero is located; whether it has not been sampled yet. */
+/* Event function k of a step, whose zero is located. first: it has not been sampled yet. */
 typedef struct {
     Integrator *run;
     const Step *step;
@@ -237,7 +259,10 @@ typedef struct {
     int k, first;
 } EventFunctionOfStep;
 
-/* The first sample is seldom the last one, after which the whole state is needed. */
+/*
+ * Evaluate an event function at fraction s for locate_zero(). The first sample of a gap evaluates the contacts only,
+ * because the whole state is needed at the last sample alone.
+ */
 static int evaluate_event_function(void *context, double s, Place *now)
 {
     EventFunctionOfStep *of = context;
@@ -247,12 +272,12 @@ static int evaluate_event_function(void *context, double s, Place *now)
     return 0;
 }
 
-/* The first share at which margin k is below zero, from a bracket of it and a guess. */
+/* Return the first fraction at which event function k is negative, from its bracket and a guess. */
 static double locate_root(Integrator *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
     EventFunctionOfStep event_function_of_step = {run, step, p, k, 1};
-    const ZeroTolerance near = event_function_tolerance(run, step, k);
+    const ZeroTolerance tolerance = event_function_tolerance(run, step, k);
     (void)locate_zero(
-        evaluate_event_function, &event_function_of_step, &near, n_interpolation_points(run, k), guess, &of);
+        evaluate_event_function, &event_function_of_step, &tolerance, n_interpolation_points(run, k), guess, &of);
     return of.at[1].s;
 }

@@ -1,28 +1,31 @@
 /*
- * Pulses: terms of the equations that hang on time alone, at rest wherever a step looks and active in between. Their
- * bounds over the gaps between its looks are known (ranges.h): where one goes beyond what both ends of a gap show by
- * more than a quarter of what the step has seen of it, that place is looked at.
+ * Transients in terms of time alone: pulses that are at rest at all nodes of a step and active between them. Bounds
+ * over the intervals between the nodes are known (ranges.h). A term is checked where it exceeds the values at both ends
+ * of an interval by more than a quarter of its range at all nodes.
  */
 
-/* Terms over a part of the time from t on, h long. */
+/* Compute bounds of all terms of time over fractions a to b of the interval of length h from t on: out[N_TERMS]. */
 static void terms_over(double t, double h, double a, double b, const Parameters *p, Range *out)
 {
     time_terms((Range){t + a * h, t + b * h, h, h, 0}, p, out);
 }
 
 #if N_PULSES
-enum { N_PLACES = 16, GAP_PARTS = 64, MAX_HARMLESS = 4 };
-#define UNSEEN 0.25 /* of what was seen of a term, that it may go beyond in a gap */
+enum { MAX_NODES = 16, GAP_PARTS = 64, MAX_HARMLESS_CHECKS = 4 };
+#define MAX_UNSEEN_CHANGE 0.25 /* of a term's range at the nodes: allowed excess between them */
 
-/* Whether what happens at a share of the step is nothing to speak of; `sure`: it is more than bounds that are wide. */
+/* Return whether the step is accurate at a fraction of it. sure: a term certainly changes there. */
 typedef int Harmless(void *context, double fraction, int sure);
 
-/* A part of a gap; how far terms may go in it beyond what was seen, and how far they do so in its middle. */
+/* A part of an interval between nodes; the excess of terms by their bounds, and the certain one in its middle. */
 typedef struct {
     double from, to, most, surely;
 } GapPart;
 
-/* `low` and `high`: terms at both ends of the gap, `slack`: what they may go beyond these. */
+/*
+ * Return the excess of the terms over a part of an interval. low, high: terms at both ends of the interval; slack:
+ * allowed excess of each.
+ */
 static GapPart interval_part(double t, double h, double from, double to, const Range *low, const Range *high,
     const double *slack, const Parameters *p)
 {
@@ -41,7 +44,7 @@ static GapPart interval_part(double t, double h, double from, double to, const R
     return part;
 }
 
-/* Whether every term goes one way only from share a to b. */
+/* Return whether every term is monotone from fraction a to b. */
 static int is_monotone(double t, double h, double a, double b, const Parameters *p)
 {
     Range f[N_TERMS];
@@ -52,13 +55,15 @@ static int is_monotone(double t, double h, double a, double b, const Parameters 
     return one_way;
 }
 
-/* A place between shares a and b where a term acts unseen, and not harmless; 0: none. The part that may hide most is
- * halved first. */
+/*
+ * Return a fraction between nodes a and b at which a term acts unseen and the step is not accurate; 0: none. The part
+ * with the largest excess is bisected first.
+ */
 static double undersampled_in_interval(double t, double h, double a, double b, const Range *low, const Range *high,
     const double *slack, Harmless *harmless, void *context, const Parameters *p)
 {
     GapPart parts[GAP_PARTS + 1];
-    int n = 0, looks = 0;
+    int n = 0, n_checks = 0;
     if (!is_monotone(t, h, a, b, p))
         parts[n++] = interval_part(t, h, a, b, low, high, slack, p);
     while (n > 0) {
@@ -67,13 +72,14 @@ static double undersampled_in_interval(double t, double h, double a, double b, c
             k = parts[i].most > parts[k].most ? i : k;
         const GapPart part = parts[k];
         const double middle = 0.5 * (part.from + part.to);
-        const int told = part.surely >= 0.5 * part.most || n == GAP_PARTS || !(part.from < middle && middle < part.to);
-        if (!(part.most > 0.0) || looks == MAX_HARMLESS)
+        const int is_known =
+            part.surely >= 0.5 * part.most || n == GAP_PARTS || !(part.from < middle && middle < part.to);
+        if (!(part.most > 0.0) || n_checks == MAX_HARMLESS_CHECKS)
             return 0.0;
-        if (told && !harmless(context, middle, part.surely >= 0.5 * part.most))
+        if (is_known && !harmless(context, middle, part.surely >= 0.5 * part.most))
             return middle;
-        looks += told;
-        if (told) {
+        n_checks += is_known;
+        if (is_known) {
             parts[k] = parts[--n];
         } else {
             parts[k] = interval_part(t, h, part.from, middle, low, high, slack, p);
@@ -83,27 +89,30 @@ static double undersampled_in_interval(double t, double h, double a, double b, c
     return 0.0;
 }
 
-/* The first share of the time h from t on where a term acts unseen by looks at `place` (from 0 to 1); 0: none. */
-static double undersampled_term(double t, double h, const double *place, int n, Harmless *harmless, void *context,
+/*
+ * Return the first fraction of the interval of length h from t on at which a term acts unseen between n nodes (0 to 1),
+ * and the step is not accurate; 0: none.
+ */
+static double undersampled_term(double t, double h, const double *node, int n, Harmless *harmless, void *context,
     const Parameters *p)
 {
-    Range at[N_PLACES][N_TERMS];
+    Range at[MAX_NODES][N_TERMS];
     double slack[N_PULSES], fraction = 0.0;
     if (is_monotone(t, h, 0.0, 1.0, p))
-        return 0.0; /* what it does shows at its ends */
+        return 0.0; /* its change shows at both ends */
     for (int i = 0; i < n; i++)
-        terms_over(t, h, place[i], place[i], p, at[i]);
+        terms_over(t, h, node[i], node[i], p, at[i]);
     for (int k = 0; k < N_PULSES; k++) {
         double least = INFINITY, most = -INFINITY;
         for (int i = 0; i < n; i++) {
             least = min_of(least, at[i][k].lo);
             most = max_of(most, at[i][k].lo);
         }
-        slack[k] = UNSEEN * (most - least);
+        slack[k] = MAX_UNSEEN_CHANGE * (most - least);
     }
     for (int i = 1; i < n && fraction == 0.0; i++)
         fraction =
-            undersampled_in_interval(t, h, place[i - 1], place[i], at[i - 1], at[i], slack, harmless, context, p);
+            undersampled_in_interval(t, h, node[i - 1], node[i], at[i - 1], at[i], slack, harmless, context, p);
     return fraction;
 }
 #endif

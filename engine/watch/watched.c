@@ -1,46 +1,50 @@
 /*
- * Corners of the user's expressions and user events along a step. The stages of a long step see next to nothing of a
- * function that swings or dips meanwhile; but the step's interpolant says between which bounds the state stays over
- * any part of it, so that the expressions have bounds there too (ranges.h). Parts over which one may be negative are
- * halved until it is monotone there, or clear of zero: no zero of the interpolant is missed, however many.
+ * Switching points of the user's expressions and user events along a step, for scenes in which they have bounds. Stages
+ * of a long step may miss an oscillation of such a function. Bounds of the dense output over any part of it give bounds
+ * of the functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or clear
+ * of zero. No zero of the dense output is missed.
  */
-/* A step's interpolant in powers of the share s, from which bounds follow, its place in time. */
+/* The dense output of a step in powers of the fraction s, for its bounds; begin t and length h of the step, s. */
 typedef struct {
     double power[N_DENSE + 1][2 * N_X + 1], t, h;
     int degree;
-} Course;
+} DensePolynomial;
 
 /*
- * Values of watched functions that are below their uncertainty (run/uncertainty.c) mean nothing, as of a velocity that
- * something holds at zero: a step is not ended by their signs, nor searched for them.
- *
- * How large margins are that mean nothing, at whichever end of a step that is less: by rounding, and by the tolerance
- * of an error of the state. They are found once they are asked for.
+ * Uncertainties of the watched event functions in a step (run/uncertainty.c): by rounding, and by an error of one
+ * tolerance of the state, each at the end of the step where it is less. They are computed on first use. Smaller values,
+ * as of a velocity that a constraint holds at zero, neither end a step nor start a search.
  */
 typedef struct {
     int known;
-    double rounding[N_WATCHED], tolerance[N_WATCHED], lowest[N_WATCHED]; /* its lower bound over the whole step */
-} Noise;
+    double rounding[N_WATCHED], tolerance[N_WATCHED];
+    double whole_lower[N_WATCHED]; /* lower bound of the function over the whole step */
+} EventUncertainties;
 
-static void estimate_uncertainties(Integrator *run, const Step *step, Noise *noise, const Parameters *p)
+/* Compute the uncertainties of all watched functions in a step, unless they are known. */
+static void estimate_uncertainties(
+    Integrator *run, const Step *step, EventUncertainties *uncertain, const Parameters *p)
 {
     double error[2 * N_X + 1], at_end[N_WATCHED];
-    if (noise->known)
+    if (uncertain->known)
         return;
-    noise->known = 1;
+    uncertain->known = 1;
     for (int k = 0; k < 2 * N_X; k++)
         error[k] = 1.0 / run->norm.weight[k];
-    uncertainty(run, step->t, run->y, p, noise->rounding);
-    error_of_watched(run, step->t, run->y, error, p, noise->tolerance);
+    uncertainty(run, step->t, run->y, p, uncertain->rounding);
+    error_of_watched(run, step->t, run->y, error, p, uncertain->tolerance);
     uncertainty(run, step->t + step->h, step->y, p, at_end);
     for (int i = 0; i < N_WATCHED; i++)
-        noise->rounding[i] = min_of(noise->rounding[i], at_end[i]);
+        uncertain->rounding[i] = min_of(uncertain->rounding[i], at_end[i]);
     error_of_watched(run, step->t + step->h, step->y, error, p, at_end);
     for (int i = 0; i < N_WATCHED; i++)
-        noise->tolerance[i] = min_of(noise->tolerance[i], at_end[i]);
+        uncertain->tolerance[i] = min_of(uncertain->tolerance[i], at_end[i]);
 }
 
-/* The state at share s of a step, on the constraints; that at its begin where the time alone is read. */
+/*
+ * Compute the projected state y at fraction s of a step. If watched functions depend on time alone, y is that at the
+ * beginning.
+ */
 static void watched_state(Integrator *run, const Step *step, double s, const Parameters *p, double *y)
 {
     memcpy(y, s < 1.0 ? run->y : step->y, N_Y * sizeof *y);
@@ -54,7 +58,7 @@ static void watched_state(Integrator *run, const Step *step, double s, const Par
 #endif
 }
 
-/* Whether margin i, of this value at share s of a step, is below its uncertainty there. */
+/* Return whether the value of watched function i at fraction s of a step is below its uncertainty there. */
 static int is_below_uncertainty(Integrator *run, const Step *step, double s, int i, double value, const Parameters *p)
 {
     double y[N_Y], error[N_WATCHED];
@@ -64,16 +68,17 @@ static int is_below_uncertainty(Integrator *run, const Step *step, double s, int
 }
 
 /*
- * Whether a margin is taken as zero over a part: it is no larger than rounding at both ends, and its bounds are within
- * what the tolerance allows; or they are so wide because they do not know how its terms depend on each other, and
- * become narrower with the part, as those of a function do that hides nothing in it.
+ * Return whether watched function i is zero within its uncertainty over a part of length `width`. Both ends are within
+ * rounding, and its bounds f are within the tolerance, or narrow with the part because interval arithmetic
+ * overestimates them.
  */
-static int is_held_at_zero(const Noise *noise, int i, Range f, double at_a, double at_b, double width)
+static int is_held_at_zero(const EventUncertainties *uncertain, int i, Range f, double at_a, double at_b, double width)
 {
-    return fabs(at_a) <= noise->rounding[i] && fabs(at_b) <= noise->rounding[i] && !f.partly
-        && (f.lo >= -noise->tolerance[i] || is_narrowing(f.lo, width, noise->lowest[i]));
+    return fabs(at_a) <= uncertain->rounding[i] && fabs(at_b) <= uncertain->rounding[i] && !f.partly
+        && (f.lo >= -uncertain->tolerance[i] || is_narrowing(f.lo, width, uncertain->whole_lower[i]));
 }
 
+/* Evaluate all watched event functions at fraction s of a step: out[N_WATCHED]. */
 static void event_functions_at(Integrator *run, const Step *step, double s, const Parameters *p, double *out)
 {
     RhsOutputs rhs = s < 1.0 ? run->rhs : step->rhs;
@@ -87,11 +92,11 @@ static void event_functions_at(Integrator *run, const Step *step, double s, cons
 }
 
 #if WATCHES_STATE
-/* y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), as all methods write it, multiplied out. */
-static void course_of(const Integrator *run, const Step *step, Course *course)
+/* Expand the dense output y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), the form of all methods, into powers of s. */
+static void expand_dense_output(const Integrator *run, const Step *step, DensePolynomial *powers)
 {
     const int degree = step->method->degree;
-    course->t = step->t, course->h = step->h, course->degree = degree;
+    powers->t = step->t, powers->h = step->h, powers->degree = degree;
     for (int i = 0; i < 2 * N_X; i++) {
         double c[N_DENSE + 1] = {step->dense[degree - 1][i]};
         for (int k = degree - 1; k >= 0; k--) {
@@ -101,22 +106,25 @@ static void course_of(const Integrator *run, const Step *step, Course *course)
             c[0] = (turned ? c[0] : 0.0) + (k > 0 ? step->dense[k - 1][i] : run->y[i]);
         }
         for (int j = 0; j <= degree; j++)
-            course->power[j][i] = c[j];
+            powers->power[j][i] = c[j];
     }
 }
 
-/* The state over shares a to b: the polynomial about the middle, each power by its own bounds. */
-static void state_over(const Course *course, double a, double b, Range *y)
+/*
+ * Compute bounds y of the state over fractions a to b of a step: the polynomial about the middle, each power by its own
+ * bounds.
+ */
+static void bound_state(const DensePolynomial *powers, double a, double b, Range *y)
 {
     const double middle = 0.5 * (a + b), reach = 0.5 * (b - a);
     for (int i = 0; i < 2 * N_X; i++) {
         double c[N_DENSE + 1], lo = 0.0, hi = 0.0, slope = 0.0, power = 1.0;
-        for (int j = 0; j <= course->degree; j++)
-            c[j] = course->power[j][i];
-        for (int k = 0; k < course->degree; k++)
-            for (int j = course->degree - 1; j >= k; j--)
+        for (int j = 0; j <= powers->degree; j++)
+            c[j] = powers->power[j][i];
+        for (int k = 0; k < powers->degree; k++)
+            for (int j = powers->degree - 1; j >= k; j--)
                 c[j] += middle * c[j + 1];
-        for (int j = 1; j <= course->degree; j++) {
+        for (int j = 1; j <= powers->degree; j++) {
             slope += j > 1 ? j * fabs(c[j]) * power : 0.0;
             power *= reach;
             lo += power * (j % 2 ? -fabs(c[j]) : min_of(c[j], 0.0));
@@ -127,7 +135,7 @@ static void state_over(const Course *course, double a, double b, Range *y)
 }
 
 #endif
-/* All margins over ranges of time and state. */
+/* Compute bounds of all watched event functions from bounds of time and state: out[N_WATCHED]. */
 static void event_functions_of_ranges(const Integrator *run, Range t, const Range *y, const Parameters *p, Range *out)
 {
     watched_ranges(t, y, y + N_X, &run->discrete, p, out);
@@ -139,47 +147,51 @@ static void event_functions_of_ranges(const Integrator *run, Range t, const Rang
     }
 }
 
-/* All margins over shares a to b of the step. */
+/* Compute bounds of all watched event functions over fractions a to b of the step. */
 static void event_function_ranges(
-    const Integrator *run, const Course *course, double a, double b, const Parameters *p, Range *out)
+    const Integrator *run, const DensePolynomial *powers, double a, double b, const Parameters *p, Range *out)
 {
-    const Range t = {course->t + a * course->h, course->t + b * course->h, course->h, course->h, 0};
+    const Range t = {
+        powers->t + a * powers->h, powers->t + b * powers->h, powers->h, powers->h, 0};
     Range y[2 * N_X + 1] = { {0} };
 #if WATCHES_STATE
-    state_over(course, a, b, y);
+    bound_state(powers, a, b, y);
 #endif
     event_functions_of_ranges(run, t, y, p, out);
 }
 
-/* The search along a step: its interpolant, all margins at the begin of the part that is judged. */
+/* The search along a step: its dense output, and all event functions at the beginning of the current part. */
 typedef struct {
     Integrator *run;
     Step *step;
     const Parameters *p;
-    Course course;
+    DensePolynomial powers;
     double at_a[N_WATCHED];
-    Noise noise;
+    EventUncertainties uncertain;
 } WatchedStep;
 
-/* zero_verdict of margin i over a part up to b; at_b is set to 0 where it means nothing. */
+/*
+ * Return zero_verdict() of watched function i over a part up to b. at_b: its value there, set to 0 if it is below its
+ * uncertainty.
+ */
 static int classify_event_function(WatchedStep *of, int i, Range f, double b, double width, int small, double *at_b)
 {
     const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
     int result = zero_verdict(f, of->at_a[i], *at_b, width, small);
     if (width == 1.0)
-        of->noise.lowest[i] = f.lo;
+        of->uncertain.whole_lower[i] = f.lo;
     if (result > 0 && is_below_uncertainty(of->run, of->step, b, i, *at_b, of->p)) {
         *at_b = 0.0;
         result = zero_verdict(f, of->at_a[i], 0.0, width, small);
     }
     if (result < 0) {
-        estimate_uncertainties(of->run, of->step, &of->noise, of->p);
-        result = -!is_held_at_zero(&of->noise, i, f, of->at_a[i], *at_b, width);
+        estimate_uncertainties(of->run, of->step, &of->uncertain, of->p);
+        result = -!is_held_at_zero(&of->uncertain, i, f, of->at_a[i], *at_b, width);
     }
     return f.partly && !small && event >= 0 && !of->run->events.no_number[event] ? -1 : result;
 }
 
-/* Judges a part of a step by the bounds of all margins over it: 1 where the first zero of some is found. */
+/* Classify a part of a step for first_part(): 1 if a watched function has its first zero in it, stored in the step. */
 static int classify_event_functions(void *context, double a, double b, int small)
 {
     WatchedStep *of = context;
@@ -189,7 +201,7 @@ static int classify_event_functions(void *context, double a, double b, int small
     double at_b[N_WATCHED];
     int found = 0;
     event_functions_at(run, step, b, of->p, at_b);
-    event_function_ranges(run, &of->course, a, b, of->p, f);
+    event_function_ranges(run, &of->powers, a, b, of->p, f);
     for (int i = 0; i < N_WATCHED; i++) {
         const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
         const int result = classify_event_function(of, i, f[i], b, b - a, small, &at_b[i]);
@@ -212,8 +224,11 @@ static int classify_event_functions(void *context, double a, double b, int small
 }
 
 #if WATCHES_STATE
-/* Whether no margin may be below zero anywhere between the stages of an explicit step: most are done with this. */
-static int is_clear(Integrator *run, const Step *step, Noise *noise, const Parameters *p)
+/*
+ * Return whether no watched function can be negative between the stages of an explicit step. Bounds of the state are
+ * the range of the stages, extended by a quarter; they decide most steps.
+ */
+static int is_clear(Integrator *run, const Step *step, EventUncertainties *uncertain, const Parameters *p)
 {
     Range f[N_WATCHED], y[2 * N_X + 1] = { {0} };
     const Range t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
@@ -228,36 +243,37 @@ static int is_clear(Integrator *run, const Step *step, Noise *noise, const Param
         const double to = event_function(&run->discrete, &step->rhs, watched[i]);
         if (f[i].lo >= 0.0 && !f[i].partly && !(to < 0.0))
             continue;
-        estimate_uncertainties(run, step, noise, p);
-        if (!is_held_at_zero(noise, i, f[i], from, to, 1.0))
+        estimate_uncertainties(run, step, uncertain, p);
+        if (!is_held_at_zero(uncertain, i, f[i], from, to, 1.0))
             return 0;
     }
     return 1;
 }
 
 #endif
-/* The first zero of what is watched along an accepted step: `from` where it is not yet, `to` where it is over. */
+/* Find the first zero of the watched functions along an accepted step. step->from and step->to enclose it; 0: none. */
 static void search_step(Integrator *run, Step *step, const Parameters *p)
 {
-    WatchedStep of = {.run = run, .step = step, .p = p, .course = {.t = step->t, .h = step->h}};
+    WatchedStep of = {.run = run, .step = step, .p = p, .powers = {.t = step->t, .h = step->h}};
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear(run, step, &of.noise, p)) || make_dense(run, p, step))
+    if ((!step->method->stiff && is_clear(run, step, &of.uncertain, p)) || make_dense(run, p, step))
         return;
-    course_of(run, step, &of.course);
+    expand_dense_output(run, step, &of.powers);
 #endif
     event_functions_at(run, step, 0.0, p, of.at_a);
     (void)first_part(0.0, 1.0, 4.0 * event_time_tolerance(run, step), classify_event_functions, &of);
 }
 
+/* Return 0: bounds resolve every step. */
 static int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;
 }
 
-/* Where watched margin i is below zero for the first time; 0: nowhere. */
+/* Return the fraction at which watched function i is first negative, and its value; 0: nowhere. */
 static double first_negative_sample(const Integrator *run, const Step *step, int i, const Parameters *p, double *value)
 {
     (void)run, (void)p;

@@ -1,70 +1,72 @@
 /*
- * Root finding: zeros of event functions along an interval. Nothing here knows of a run, a step or a method; steps
- * (roots.c, watched.c) and kinematic motions (kinematic/events.c) hand over their functions.
+ * Root finding: zeros of event functions along an interval. This file does not depend on a run, a step or a method.
+ * Steps (roots.c, watched.c) and kinematic motions (kinematic/events.c) pass their functions.
  *
  * Arguments, which mean the same everywhere:
- *   s         location in the interval: a fraction of a step, or a time in s, as the caller likes; finite.
+ *   s         location in the interval: a fraction of a step, or a time in s, as the caller chooses; finite.
  *   f         value of an event function times its branch, in any unit: f >= 0 before the event, f < 0 after it.
  *   slope     df/ds; NAN: not known.
- *   width     in s: closer locations are the same. 0: neighbouring numbers.
- *   context   of the caller, handed back to its functions; nothing here reads it or keeps it.
- * All memory belongs to the caller. A status is 0, or what a function of the caller returned to end the search.
+ *   width     in s: locations nearer than that are the same. 0: neighbouring floating-point numbers.
+ *   context   of the caller, passed to its functions; no function here reads or stores it.
+ * All memory belongs to the caller. A status is 0, or the value with which a function of the caller ended the search.
  *
  *   locate_zero    narrows a bracket until it is at most `width` wide.
  *   first_part     halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
- *                  of them (grazes) however near; a zero of even order changes no sign and is no event.
+ *                  of them (grazes) however near; a zero of even order changes no sign and is not an event.
  *   zero_verdict   decides by bounds and two values: a zero, none, or to be halved.
- *   is_near_pole   tells poles, at which a sign changes as well.
+ *   is_near_pole   distinguishes poles, at which a sign changes as well, from zeros.
  *
- * Guarantees: a bracket with f >= 0 at its lower end and f < 0 at its upper one stays so, whatever f does between, and
- * three evaluations halve it at least from the QUICK-th one on. first_part misses no zero of a function whose bounds
- * hold, as far as parts are wider than `width` and no more than MAX_PARTS_SEEN are needed.
+ * Guarantees: a bracket with f >= 0 at its lower end and f < 0 at its upper end remains one, whatever f does between.
+ * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. first_part misses no zero of a function
+ * whose bounds hold, if parts are wider than `width` and no more than MAX_PARTS_SEEN are needed.
  */
 #ifndef GUDGEON_ZEROS_H
 #define GUDGEON_ZEROS_H
 #include "ranges.h"
 
 enum {
-    QUICK = 6,          /* evaluations by which a zero is located as a rule */
-    MOST_PLACES = 4,    /* that tell where a zero is */
-    DEEPEST = 64,       /* halvings of an interval */
+    FAST_EVALUATIONS = 6, /* evaluations that usually locate a zero */
+    MOST_PLACES = 4,      /* samples through which a zero is interpolated */
+    DEEPEST = 64,         /* halvings of an interval */
     MAX_PARTS_SEEN = 2000
 };
-#define FAR_ENOUGH 1e-4     /* of a bracket, a third place from its ends: a nearer one tells of rounding */
-#define ENOUGH_PARTS 0.13   /* of an interval, over which bounds tell whether they become narrower with it */
-#define POLE_DISTANCE 64.0  /* widths after a located change of sign, where its function is compared */
-#define ROUNDINGS 1024.0    /* ulp: rounding errors that a coordinate or a velocity collects */
-#define LEFT 16.0           /* steps that close the linkage, as they are left over, that a state may be wrong by */
+#define MIN_THIRD_DISTANCE 1e-4 /* of a bracket: a third point nearer to an end shows rounding only */
+#define NARROWING_WIDTH 0.13 /* of an interval: longer parts do not show whether bounds narrow */
+#define POLE_DISTANCE 64.0  /* event tolerances after a change of sign, at which its function is compared */
+#define ROUNDINGS 1024.0    /* ulp: accumulated rounding error of a coordinate or a velocity */
+#define LEFT 16.0           /* error of a state, in remaining Newton steps of the closures */
 
-/* An event function at a location. */
+/* A sample of an event function: location s, value f and slope df/ds there. */
 typedef struct {
     double s, f, slope;
 } Place;
 
-/* A zero's bracket, and other places near it, nearest first. Samples of less accuracy may serve for the first guess. */
+/* The bracket of a zero and other samples near it, nearest first. Less accurate ones may serve for the first guess. */
 typedef struct {
     Place at[MOST_PLACES]; /* low: f >= 0, high: f < 0, others */
-    int n;                 /* how many are known, at least 2 */
+    int n;                 /* number of known samples, at least 2 */
 } Bracket;
 
 /*
- * How near a zero is located: to `width`, or earlier at a place after it with f < 0, at a distance d <= beyond at which
- * what is wrong does no harm: harm |df/ds| d^2 <= harmless, in any common unit. beyond = 0: to `width`.
+ * The tolerance of a location: `width`, or a sample after the zero with f < 0 at a distance d <= beyond whose error is
+ * small: harm |df/ds| d^2 <= harmless, in any common unit. beyond = 0: `width` only.
  */
 typedef struct {
     double width, beyond, harmless, harm;
 } ZeroTolerance;
 
-/* Sets f and slope of `now` at s, which lies within the bracket. Returns a status. */
+/* Evaluate f and slope of `now` at s, which lies within the bracket. Return a status. */
 typedef int EvaluatePlace(void *context, double s, Place *now);
 
 /*
- * Judges the part from a to b: 1 where the search ends in it, 0 where the next part follows, which begins at b, -1
- * where it is to be halved: its first half follows, then its second one. Not -1 if it is `small`.
+ * Classify the part from a to b. Return 1 if the search ends in it, 0 if the next part follows, which begins at b, and
+ * -1 if it is to be halved: its first half follows, then its second half. A `small` part is never halved.
  */
 typedef int JudgePart(void *context, double a, double b, int small);
 
-/* Where the polynomial s(f) through n places of different f meets f = 0 (Neville's scheme). */
+/*
+ * Return s at f = 0 of the polynomial s(f) through n samples of different f (inverse interpolation, Neville's scheme).
+ */
 static inline double inverse_zero(const Place *place, int n)
 {
     double s[MOST_PLACES];
@@ -77,15 +79,15 @@ static inline double inverse_zero(const Place *place, int n)
 }
 
 /*
- * A zero, between a bracket's ends, of the cubic that has their values and slopes and, where that helps, the value of a
- * third place too: of the polynomial of order 4 then.
+ * Return a zero, between both ends of a bracket, of the cubic that has their values and slopes. If a third sample is
+ * finite and far enough from both ends, use the polynomial of degree 4 that has its value as well.
  */
 static inline double hermite_zero(Place low, Place high, Place third)
 {
     const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
     const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
     const double less = third.f - (a + x * (r + x * (c + x * d))); /* than the cubic there */
-    const double e = isfinite(third.f) && fabs(v) > FAR_ENOUGH ? less / (v * v) : 0.0;
+    const double e = isfinite(third.f) && fabs(v) > MIN_THIRD_DISTANCE ? less / (v * v) : 0.0;
     double from = 0.0, to = 1.0, u = -a / b;
     for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
         const double back = 1.0 - u, bend = u * back;
@@ -104,7 +106,10 @@ static inline double hermite_zero(Place low, Place high, Place third)
     return low.s + w * u;
 }
 
-/* Where a polynomial through what is known has its zero; of values alone through so many places at most. */
+/*
+ * Return the estimated location of the zero of a bracket: by a Hermite polynomial if slopes are known, else by inverse
+ * interpolation through at most `places` samples.
+ */
 static inline double guess_zero(const Bracket *of, int places)
 {
     const Place low = of->at[0], high = of->at[1];
@@ -113,7 +118,7 @@ static inline double guess_zero(const Bracket *of, int places)
     return inverse_zero(of->at, of->n < places ? of->n : places);
 }
 
-/* A guess within the bracket. */
+/* Return a guess of the zero if it lies within the bracket, else the middle of the bracket. */
 static inline double about_where(double guess, const Bracket *of)
 {
     const double low = of->at[0].s, high = of->at[1].s;
@@ -121,8 +126,8 @@ static inline double about_where(double guess, const Bracket *of)
 }
 
 /*
- * How far after the zero near `about` a place may be found. Its function falls there at most as fast as towards the
- * places that are known.
+ * Return the largest allowed distance of the location after the zero, which is near `about`. The slope of the function
+ * is estimated as the steepest one from there to the known samples.
  */
 static inline double distance_beyond(const Bracket *of, const ZeroTolerance *near, double about)
 {
@@ -134,10 +139,10 @@ static inline double distance_beyond(const Bracket *of, const ZeroTolerance *nea
 }
 
 /*
- * Locates the zero of a bracket to a tolerance: at the zero of a polynomial through what is known, or a little after
- * it, on the other side of it once that is known so well, and in the middle where evaluations do not halve the bracket.
- * guess: the first of these zeros; NAN: the middle. places: so many tell where it is, 2: of a function with nothing but
- * a sign. `of` is narrowed; f < 0 at its upper end, where the zero is located.
+ * Locate the zero of a bracket to a tolerance, by zeros of interpolants, and by bisection if they do not halve the
+ * bracket. guess: the first location to evaluate; NAN: the middle. places: number of samples for inverse interpolation;
+ * 2 for a function of which only the sign is known. `of` is narrowed; its upper end, with f < 0, is the location.
+ * Returns a status.
  */
 static inline int locate_zero(EvaluatePlace *evaluate, void *context, const ZeroTolerance *near, int places,
     double guess, Bracket *of)
@@ -149,7 +154,7 @@ static inline int locate_zero(EvaluatePlace *evaluate, void *context, const Zero
         const double distance = distance_beyond(of, near, s), close = max_of(distance, near->width);
         if (!(to - from > close))
             return 0;
-        if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
+        if (!(s > from && s < to) || (i >= FAST_EVALUATIONS && to - from > 0.5 * before))
             s = 0.5 * (from + to);
         else if (s - from < 2.0 * close)
             s = min_of(from + 0.9 * (to - from), s + 0.75 * close);
@@ -165,7 +170,7 @@ static inline int locate_zero(EvaluatePlace *evaluate, void *context, const Zero
         const int status = evaluate(context, s, &now), end = now.f >= 0.0 ? 0 : 1;
         if (status)
             return status;
-        /* how f falls there, or from the bracket's lower end to there */
+        /* df/ds there, or the mean slope from the bracket's lower end to there */
         const double slope = isfinite(now.slope) ? now.slope : (now.f - of->at[0].f) / (s - from);
         const int reached = now.f < 0.0 && now.f >= slope * distance;
         of->n = of->n < MOST_PLACES ? of->n + 1 : MOST_PLACES;
@@ -177,7 +182,7 @@ static inline int locate_zero(EvaluatePlace *evaluate, void *context, const Zero
     }
 }
 
-/* Judges the parts of an interval from a to b in order; 1 where one ends the search, else 0. */
+/* Classify the parts of an interval from a to b in order, by bisection. Return 1 if a part ends the search, else 0. */
 static inline int first_part(double a, double b, double width, JudgePart *judge, void *context)
 {
     double end[DEEPEST + 2] = {b};
@@ -197,9 +202,10 @@ static inline int first_part(double a, double b, double width, JudgePart *judge,
 }
 
 /*
- * What bounds f of an event function tell of a part whose length is `width` times the unit of its slopes, with values
- * at both ends: it is below zero at the end and not before (1), nowhere (0), or that is not known (-1; never of a small
- * part). Bounds are rounded: what is computed at the end comes first.
+ * Decide by bounds whether a function has a zero in a part. f: bounds of its values and slopes; at_a, at_b: values at
+ * both ends; width: length of the part in the unit of the slopes. Return 1 if it is negative at the end and not before,
+ * 0 if it is negative nowhere, -1 if that is not known (never for a `small` part). Bounds contain rounding errors: the
+ * sign computed at the end has priority.
  */
 static inline int zero_verdict(Range f, double at_a, double at_b, double width, int small)
 {
@@ -217,21 +223,21 @@ static inline int zero_verdict(Range f, double at_a, double at_b, double width, 
 }
 
 /*
- * Whether a lower bound over a share `width` of an interval is negative only because bounds do not know how their terms
- * depend on each other: it has become narrower with the part, as that of a function does that hides nothing in it.
- * whole: the lower bound over the interval.
+ * Return whether a lower bound over a fraction `width` of an interval is negative only because interval arithmetic
+ * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole: the lower
+ * bound over the whole interval.
  */
 static inline int is_narrowing(double lo, double width, double whole)
 {
-    return width <= ENOUGH_PARTS && lo >= 4.0 * width * whole;
+    return width <= NARROWING_WIDTH && lo >= 4.0 * width * whole;
 }
 
-/* Whether a sign changes at a pole: a function is larger where it does than POLE_DISTANCE widths further on. */
+/* Return whether a change of sign is a pole: the function is larger at it than POLE_DISTANCE tolerances further on. */
 static inline int is_near_pole(double here, double further) { return isinf(here) || fabs(here) > 2.0 * fabs(further); }
 
 /*
- * Whether event i of the user, seen last on `branch` of zero (1 or -1; 0: nowhere yet), has crossed to `value` in a
- * direction that counts; `branch` is where it is then. A zero itself lies on neither side.
+ * Return whether user event i has crossed zero to `value` in a direction that counts. `branch`: the last sign of its
+ * function (1 or -1; 0: none yet), updated. A value of zero keeps the sign.
  */
 static inline int event_crosses(int i, signed char *branch, double value)
 {
@@ -242,7 +248,10 @@ static inline int event_crosses(int i, signed char *branch, double value)
 }
 
 #if N_WATCHED && KNOWN_BOUNDS
-/* By how much errors of n positions and velocities change each watched function; 0 where they lead to a pole. */
+/*
+ * Estimate by how much errors of n positions and velocities (q_error, v_error) change each watched function. out:
+ * N_WATCHED half widths of its bounds; 0 where they include a pole.
+ */
 static inline void error_by_bounds(double t, const double *q, const double *v, const double *q_error,
     const double *v_error, int n, const DiscreteState *discrete, const Parameters *p, double *out)
 {
