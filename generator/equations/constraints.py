@@ -1,4 +1,4 @@
-"""Φ, Φ_q, ν and γ, row by row (physics.md, section 1): every joint type is derived the same way."""
+"""Constraint equations: Φ, Φ_q, ν and γ of each joint and drive (physics.md, section 1), derived in one way for all."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from gudgeon.language.tree import functions
 
 @dataclass(frozen=True)
 class Row:
-    """One row of Φ with what follows from it; all in the derived symbols of the geometry."""
+    """One constraint equation of Φ with its derivatives, in the derived symbols of the geometry."""
 
     name: str  # "A.x"
     owner: str  # joint or drive
@@ -37,15 +37,16 @@ class Row:
 
 
 class Constraints(Freezable):
-    """Derives rows; `t` is time, `drive_angles` holds what each drive prescribes."""
+    """Derives the constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive."""
 
     def __init__(self, geometry: Geometry) -> None:
+        """Begin without drives, on the symbols and points of a geometry."""
         self.geometry, self.symbols = geometry, geometry.symbols
         self.t = self.symbols.new("time", Place("t"), "time", "s")
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def joint_rows(self, joint: Joint) -> list[Row]:
-        """The rows of a joint, named "<joint>.<row>"."""
+        """Return the constraint equations of a joint, named "<joint>.<row>"."""
         kind = joint_types()[joint.kind]
         first, second = self._point(joint.first), self._point(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
@@ -58,20 +59,21 @@ class Constraints(Freezable):
         ]
 
     def drive_rows(self, drive: Drive) -> list[Row]:
-        """What the drive prescribes, less f(t): one row, named as the drive."""
+        """Return the constraint equation of a drive in a list: the driven quantity less f(t)."""
         measured, bodies, unit = self._measured(drive)
         phi = measured - self.drive_value(drive)
         return [self._row(drive.name, drive.name, "drive", unit, phi, bodies)]
 
     def _point(self, ref: PointRef) -> PointFrame:
+        """Return the frame of a named point."""
         return self.geometry.point(ref)
 
     def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
-        """Coordinates and velocities that the bodies move with."""
+        """Return the pairs (coordinate, velocity) that move the bodies."""
         return [(q, v) for body in bodies for q, v in zip(body.q, body.v, strict=True)]
 
     def _measured(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
-        """The driven quantity with the bodies that it depends on."""
+        """Return the quantity that a drive prescribes, the bodies on which it depends, and its unit."""
         if drive.kind == "distance":
             first, second = (self._point(ref) for ref in drive.points)
             return self._distance(drive.name, first, second), self._bodies(first, second), "m"
@@ -82,8 +84,9 @@ class Constraints(Freezable):
         return measured, bodies, "rad"
 
     def _distance(self, name: str, first: PointFrame, second: PointFrame) -> sp.Symbol:
-        """‖r_Q − r_P‖ as a symbol, with u its direction: d length = u · dr, du = (ẑ × u)(ẑ × u · dr)/length.
+        """Return ‖r_Q − r_P‖ as a symbol, with the rules of its derivatives.
 
+        With its direction u: d length = u · dr and du = (ẑ × u)(ẑ × u · dr)/length.
         Written out, the second derivatives of the root would be thousands of terms.
         """
         define, rules = self.symbols.define, self.symbols.rules
@@ -105,7 +108,7 @@ class Constraints(Freezable):
         return length
 
     def drive_value(self, drive: Drive) -> sp.Symbol:
-        """f(t), f′ and f″ as symbols that know that they are each other's derivatives."""
+        """Return the symbol of a drive's f(t); f, f′ and f″ are defined once, as each other's derivatives."""
         if drive.name in self.drive_angles:
             return self.drive_angles[drive.name][0]
         slots, define = self.geometry.slots, self.symbols.define
@@ -124,9 +127,11 @@ class Constraints(Freezable):
 
     @staticmethod
     def _bodies(*points: PointFrame) -> list[BodySymbols]:
+        """Return the bodies of some points, without the ground."""
         return [point.body for point in points if point.body is not None]
 
     def _row(self, name: str, owner: str, kind: str, unit: str, phi: sp.Expr, bodies: list[BodySymbols]) -> Row:
+        """Return the constraint equation `phi` = 0 with Φ_q, Φ_q q̇, ν and γ by differentiation."""
         diff, t = self.symbols.diff, self.t
         pairs = self._pairs(bodies)
         phi_q = {q: entry for q, _ in pairs if (entry := sp.expand(diff(phi, q))) != 0}
@@ -139,7 +144,10 @@ class Constraints(Freezable):
 
 @lru_cache(maxsize=256)
 def rate_jumps(drive: Drive) -> bool:
-    """Whether what a drive prescribes has corners: the linkage then follows by an impulse. A root of a square has."""
+    """Return whether the rate of a drive may jump, because its expression has switching points or a root of a square.
+
+    The linkage then follows by an impulse.
+    """
     if not CORNERED.isdisjoint(functions(drive.value.value)):
         return True
     return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
@@ -149,9 +157,9 @@ _WITH_CORNERS = (Pick, Upon, Apart, Largest, Smallest, sp.Abs, sp.Max, sp.Min, s
 
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there.
+    """Return d/dt of an expression; at a switching point of min, max and abs it is the rate before the point.
 
-    Of max and min the rate is that of one of their arguments, also where several are equal.
+    No impulse arises there. The rate of max and min is that of one argument, also where several are equal.
     """
     if value.has(*_WITH_CORNERS):
         value = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
@@ -165,5 +173,5 @@ def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
 
 
 def _plain(x: sp.Expr) -> sp.Expr:
-    """|x|; SymPy differentiates that of what may be complex, acos(t) beyond 1, by its real and imaginary parts."""
+    """Return |x| in a form that SymPy differentiates without real and imaginary parts, such as for acos(t) beyond 1."""
     return sp.Abs(x) if x.is_real else x * Upon(x)

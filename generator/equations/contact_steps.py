@@ -1,7 +1,8 @@
-"""What happens in a joint with play around its force laws, as equations in the order of their use.
+"""The equations of a joint with play around its force laws, as steps in the order of their use.
 
-physics.md, sections 2 to 4. The emitted C and the written equations both come from these steps; what is
-no equation (the normal at e = 0, free or closed, the latching of δ̇⁻ at onset) is in engine/ and templates/c/play.
+They follow physics.md, sections 2 to 4. The emitted C and the printed equations both come from these steps. What is
+not an equation is in engine/ and templates/c/play: the normal at e = 0, free or closed, the approach speed δ̇⁻ that
+is stored at onset.
 """
 
 from __future__ import annotations
@@ -19,13 +20,14 @@ EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped
 
 @dataclass(frozen=True)
 class Step:
-    """symbol = value."""
+    """One equation symbol = value."""
 
     symbol: sp.Symbol
     value: sp.Expr
 
 
 def _symbol(name: str) -> sp.Symbol:
+    """Return the real symbol of a name."""
     return sp.Symbol(name, real=True)
 
 
@@ -44,12 +46,12 @@ de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e a
 
 
 def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
-    """F_t, M_i, M_j of the dry contact or of the film."""
+    """Return the symbol of F_t, M_i or M_j of one part: "dry" for the dry contact, "film" for the film."""
     return _symbol(f"{symbol.name}_{part}")
 
 
 def gap(clearance: Clearance) -> list[Step]:
-    """Eccentricity's length, normal, penetration and their rates; t is n turned by +90°."""
+    """Return the equations of e, the normal n, the penetration δ and their rates; t is n turned by +90°."""
     if clearance.contour:
         return _gap_of_contour(clearance, clearance.contour)
     if clearance.wall:
@@ -65,11 +67,12 @@ def gap(clearance: Clearance) -> list[Step]:
 
 
 def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
-    """The same where c is c + w(β), β the eccentricity's angle in the bearing: δ = e − c − w(β).
+    """Return the equations of the gap of a bearing with a contour: δ = e − c − w(β), β the angle of e in it.
 
-    An elastic force −U′(δ) has U for its energy where it acts along the gradient of δ: by e that is
-    u − w′/e t, u along e and t across it, whose length is `steep`, and by the bearing's angle w′. So n is that
-    direction, `slant` = e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
+    An elastic force −U′(δ) has the energy U if it acts along the gradient of δ. By e that gradient is u − w′/e t, with
+    u
+    along e and t across it; its length is `steep`. By the bearing's angle it is w′. So n is that direction, `slant` =
+    e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
     """
     return [
         Step(e, sp.sqrt(e_x**2 + e_y**2)),
@@ -90,10 +93,10 @@ def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
 
 
 def _gap_at_wall(clearance: Clearance, wall: Wall) -> list[Step]:
-    """Of a slider's corner at a wall of its guide, whose outward normal n turns with the guide: ṅ = ω_i t.
+    """Return the equations of the gap of a slider's corner at a wall of its guide.
 
-    e_x, e_y lead from the guide's point to the centre of the corner's radius; e is what that lies nearer to the wall
-    than in the middle of the guide.
+    The outward normal n turns with the guide: ṅ = ω_i t. (e_x, e_y) leads from the guide's point to the centre of the
+    corner's radius; e is its displacement towards the wall from the middle of the guide.
     """
     return [
         Step(along, e_y * n_x - e_x * n_y),
@@ -105,12 +108,16 @@ def _gap_at_wall(clearance: Clearance, wall: Wall) -> list[Step]:
 
 
 def penetration(clearance: Clearance) -> Step:
-    """The penetration, of all but contours by e alone."""
+    """Return the equation of the penetration δ: without a contour it depends on e alone."""
     return next(step for step in gap(clearance) if step.symbol == delta)
 
 
 def gap_by_angle(clearance: Clearance) -> list[Step]:
-    """That of a contour in the directions along e and across it, of rates `de_n` and `across`, of w and w′."""
+    """Return the equations of the gap of a contour in directions along e and across it.
+
+    `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the depth w and its derivative
+    w′.
+    """
     return [
         Step(delta, e - clearance.pair.c - worn),
         Step(lean, worn_slope / e),
@@ -121,7 +128,7 @@ def gap_by_angle(clearance: Clearance) -> list[Step]:
 
 
 def before_dry(clearance: Clearance) -> list[Step]:
-    """Levers of the contact point, in the middle of the penetration, and the surfaces' slip."""
+    """Return the equations of the lever arms of the contact point, mid-penetration, and of the slip v_t."""
     pair = clearance.pair
     clipped = [Step(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
     if clearance.contour:
@@ -136,17 +143,17 @@ def before_dry(clearance: Clearance) -> list[Step]:
 
 
 def pressing(clearance: Clearance) -> list[Step]:
-    """The force along the normal of a contour, by which friction goes."""
+    """Return the equation of the normal force of a contour, on which friction depends; none without a contour."""
     return [Step(F_N, steep * _symbol("F_n"))] if clearance.contour else []
 
 
 def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """The force of a contour along e and across it: −F_n of δ's gradient, and friction across that."""
+    """Return the force of a contour along e and across it: −F_n along the gradient of δ, friction across it."""
     return -F_n + tangential * lean / steep, F_n * lean + tangential / steep
 
 
 def after_dry(clearance: Clearance) -> list[Step]:
-    """Moments about the centres of bearing i and journal j."""
+    """Return the equations of the moments of the dry contact about the centres of bearing i and journal j."""
     tangential = of_part(F_along_t, "dry")
     rhs = -worn_slope * _symbol("F_n") if clearance.contour else 0
     return [
@@ -156,12 +163,12 @@ def after_dry(clearance: Clearance) -> list[Step]:
 
 
 def at_wall(F_n: sp.Expr) -> Step:
-    """The moment about the guide's point: what acts there, and the force along n by where the corner is."""
+    """Return the equation of the moment about the guide's point, with the lever arm of the force along n."""
     return Step(M_i, of_part(M_i, "dry") - along * F_n)
 
 
 def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
-    """Eccentricity ratio and the effective squeeze velocity over the film's clearance."""
+    """Return the equations of the eccentricity ratio ε and of the effective squeeze velocity w over the clearance."""
     c = clearance.constants.get("film_clearance", clearance.constants.get(MEAN_CLEARANCE, clearance.pair.c))
     turning = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
     return [
@@ -172,7 +179,10 @@ def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
 
 
 def after_film(film: LawEquations) -> list[Step]:
-    """Without shear the resultant acts at the journal's centre; with shear at each pin's own."""
+    """Return the equations of the moments of the film about both centres.
+
+    Without shear the resultant acts at the journal's centre; with shear, at the middle between both centres.
+    """
     tangential = of_part(F_along_t, "film")
     if not film.options.get("shear", False):
         return [Step(of_part(M_i, "film"), -e * tangential), Step(of_part(M_j, "film"), sp.Integer(0))]
@@ -184,10 +194,11 @@ def after_film(film: LawEquations) -> list[Step]:
 
 
 def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
-    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17), or by a law of sharing.
+    """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17).
 
-    Of a `closed` contact: without the corner at e = c, which closing and opening it stand for. A law of sharing is
-    given `depth`, for it need not be a number at δ < 0, where a step may look that ends at the separation.
+    A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which opening and
+    closing represent. The law is given `depth`, since it may be undefined at δ < 0, where samples before a separation
+    lie.
     """
     if clearance.mixed is not None:
         own = {delta: depth if closed else sp.Max(0, delta)}
@@ -197,7 +208,10 @@ def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
 
 
 def resultant(clearance: Clearance) -> list[Step]:
-    """Force on the journal in ground axes and both moments, film and dry contact blended."""
+    """Return the equations of the force on the journal in ground axes and of both moments.
+
+    If the joint has a film and a dry contact, these are blended.
+    """
     dry, film = clearance.normal is not None, clearance.film is not None
     normal, radial = -(F_N if clearance.contour else _symbol("F_n")), _symbol("F_r")
     steps: list[Step] = []
@@ -215,7 +229,7 @@ def resultant(clearance: Clearance) -> list[Step]:
 
 
 def moments(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
-    """The symbols of the moments about both centres."""
+    """Return the symbols of the moments about both centres."""
     if clearance.normal is not None and clearance.film is not None:
         return M_i, M_j
     part = "film" if clearance.normal is None else "dry"

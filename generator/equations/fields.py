@@ -1,4 +1,4 @@
-"""A joint's own fields, and a force element's, as their files ask for them."""
+"""The fields of a joint and of a force element as expressions, for the files that define their types."""
 
 from __future__ import annotations
 
@@ -19,17 +19,18 @@ ZERO = sp.Integer(0)
 
 
 class JointFields:
-    """What a joint file may ask for; numbers come as slots or as what `prepare` derives from them."""
+    """The fields that the file of a joint type may read; values are parameters or derived parameters."""
 
     def __init__(self, joint: Joint, geometry: Geometry) -> None:
+        """Read the fields of one joint, on the symbols of a geometry."""
         self._joint, self._slots, self._geometry = joint, geometry.slots, geometry
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
-        """A vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
+        """Return a vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
         return unit_vector(self._joint.vectors[name], self._joint.name, name, self._slots)
 
     def angle_of(self, name: str) -> sp.Expr:
-        """The angle of a vector field in its body's frame (rad)."""
+        """Return the angle of a vector field in its body's frame, in rad."""
         x, y = self.direction(name)
         return self._slots.derive(
             f"{self._joint.name}_{name}_angle",
@@ -39,21 +40,21 @@ class JointFields:
         )
 
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
-        """A number field, or `default` where the user gave none."""
+        """Return a number field, or `default` if the user gave none."""
         quantity = self._joint.quantities.get(name)
         return sp.sympify(default) if quantity is None else self._slots.use(quantity)
 
     def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
-        """Both numbers of a vector field."""
+        """Return both components of a vector field as parameters."""
         x, y = self._joint.vectors[name]
         return self._slots.use(x), self._slots.use(y)
 
     def option(self, name: str) -> str:
-        """A structural choice."""
+        """Return the value of a field with fixed choices."""
         return self._joint.options[name]
 
     def body_angle(self, name: str) -> sp.Expr:
-        """θ of the body that a body field names; 0 for the ground."""
+        """Return θ of the body that a body field names; 0 for the ground."""
         body = self._joint.options[name]
         return ZERO if body == GROUND else self._geometry.bodies[body].theta
 
@@ -82,13 +83,13 @@ class JointFields:
         return found[0]
 
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
-        """A number that is computed once a run."""
+        """Return a derived parameter of the joint, computed once a run from other parameters."""
         return self._slots.derive(
             f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}", of=Owned(self._joint.name, name)
         )
 
     def at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
-        """`expression` of angles at the start's guess or set values (0 where there are none)."""
+        """Return `expression` with the angles at the start's guess or set values, 0 where there are none."""
         start = self._geometry.mechanism.start
         values = {}
         for body in self._geometry.bodies.values():
@@ -99,11 +100,12 @@ class JointFields:
 
 
 def unit_vector(vector: Vector, owner: str, name: str, slots: Slots) -> tuple[sp.Expr, sp.Expr]:
-    """A vector's direction; along an axis it is exactly (±1, 0) or (0, ±1)."""
+    """Return the direction of a vector of the file; along an axis it is exactly (±1, 0) or (0, ±1)."""
     x, y = slots.use(vector[0]), slots.use(vector[1])
     length = sp.sqrt(x**2 + y**2)
 
     def component(axis: str, own: sp.Expr, other: sp.Expr) -> sp.Expr:
+        """Return one component: 0, ±1 by the sign of the value, or a derived parameter."""
         if own == 0:
             return ZERO
         if other == 0:
@@ -118,29 +120,32 @@ def unit_vector(vector: Vector, owner: str, name: str, slots: Slots) -> tuple[sp
 
 
 class ElementFields:
-    """What a force element's file may ask for."""
+    """The fields that the file of a force element type may read."""
 
     def __init__(self, element: ForceElement, geometry: Geometry, t: sp.Symbol) -> None:
+        """Read the fields of one force element; `t` is the symbol of time."""
         self._element, self._geometry, self._t = element, geometry, t
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
-        """A vector field as a unit vector."""
+        """Return a vector field as a unit vector."""
         return unit_vector(self._element.vectors[name], self._element.name, name, self._geometry.slots)
 
     def quantity(self, name: str) -> sp.Expr:
-        """A number field; 0 where the user gave none."""
+        """Return a number field; 0 if the user gave none."""
         quantity = self._element.quantities.get(name)
         return ZERO if quantity is None else self._value(quantity)
 
     def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
+        """Return both components of a vector field."""
         x, y = self._element.vectors[name]
         return self._value(x), self._value(y)
 
     def option(self, name: str) -> str:
+        """Return the value of a field with fixed choices."""
         return self._element.options[name]
 
     def named(self, name: str, value: sp.Expr) -> sp.Expr:
-        """A temporary of the emitted code; numbers stay as they are."""
+        """Return the value as a named local of the emitted code; numbers and symbols stay as they are."""
         if value.is_number or value.is_Symbol:
             return value
         return self._geometry.symbols.define(
@@ -148,10 +153,11 @@ class ElementFields:
         )
 
     def named_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        """Return both components as named locals of the emitted code."""
         return self.named(f"{name}_x", value[0]), self.named(f"{name}_y", value[1])
 
     def _value(self, quantity: Quantity) -> sp.Expr:
-        """A slot for an expression of parameters; an expression of t and motion is written out."""
+        """Return a quantity: a parameter, or its expression if that contains t or the motion."""
         variable = VariableNames(self._geometry, self._t)
         if not any(variable.is_variable(name) for name in names(quantity.value)):
             return self._geometry.slots.use(quantity)
@@ -159,15 +165,18 @@ class ElementFields:
 
 
 class VariableNames:
-    """Names in a force's expression: t, parameters, coordinates and velocities of bodies and points."""
+    """Resolver of names in a force's expression: t, parameters, coordinates and velocities of bodies and points."""
 
     def __init__(self, geometry: Geometry, t: sp.Symbol) -> None:
+        """Resolve names on a geometry; `t` is the symbol of time."""
         self._geometry, self._t = geometry, t
 
     def is_variable(self, name: Name) -> bool:
+        """Return whether a name is time or part of the motion, not a parameter."""
         return name.path == "t" or "." in name.path
 
     def __call__(self, path: str) -> sp.Expr:
+        """Return the expression of a name, such as "t", "k", "rod.theta" or "rod.head.vx"."""
         if path == "t":
             return self._t
         if "." not in path:

@@ -1,4 +1,4 @@
-"""Coordinates, angles and points: what every joint row and every force is written in.
+"""Coordinates, angles and points of the bodies, in which all constraint equations and forces are written.
 
 q_i = (x_i, y_i, θ_i) with the origin at the centre of mass (physics.md, section 1). A point is
 r = (x, y) + A(θ) s; its arm A(θ) s is a symbol pair that turns: d arm/dθ = ẑ × arm.
@@ -22,7 +22,7 @@ _SMALL = 1e-12  # m^2: where every point is a centre of mass
 
 @dataclass(frozen=True)
 class BodySymbols:
-    """Coordinates and velocities of one body; `mass`, `inertia` are slots, or mean nothing (`is_massless`)."""
+    """Symbols of one body's coordinates and velocities; mass and inertia are parameters (1 if `is_massless`)."""
 
     name: str
     index: int  # of x in q
@@ -37,16 +37,18 @@ class BodySymbols:
 
     @property
     def q(self) -> tuple[sp.Symbol, sp.Symbol, sp.Symbol]:
+        """Return the coordinates (x, y, θ)."""
         return self.x, self.y, self.theta
 
     @property
     def v(self) -> tuple[sp.Symbol, sp.Symbol, sp.Symbol]:
+        """Return the velocities (ẋ, ẏ, ω)."""
         return self.vx, self.vy, self.omega
 
 
 @dataclass(frozen=True)
 class PointFrame:
-    """A point of a body (or of the ground: `body` None) as joints and forces see it."""
+    """A point of a body (or of the ground: `body` None), with its position, velocity and directions."""
 
     geometry: Geometry
     body: BodySymbols | None
@@ -54,34 +56,41 @@ class PointFrame:
 
     @property
     def x(self) -> sp.Expr:
+        """Return the x coordinate in the ground frame."""
         return self.arm[0] + (self.body.x if self.body else ZERO)
 
     @property
     def y(self) -> sp.Expr:
+        """Return the y coordinate in the ground frame."""
         return self.arm[1] + (self.body.y if self.body else ZERO)
 
     @property
     def theta(self) -> sp.Expr:
+        """Return the angle of the point's body; 0 on the ground."""
         return self.body.theta if self.body else ZERO
 
     @property
     def omega(self) -> sp.Expr:
+        """Return the angular velocity of the point's body; 0 on the ground."""
         return self.body.omega if self.body else ZERO
 
     @property
     def velocity(self) -> tuple[sp.Expr, sp.Expr]:
-        """ṙ = (ẋ, ẏ) + ω ẑ × arm."""
+        """Return the velocity ṙ = (ẋ, ẏ) + ω ẑ × arm."""
         if self.body is None:
             return ZERO, ZERO
         return self.body.vx - self.arm[1] * self.body.omega, self.body.vy + self.arm[0] * self.body.omega
 
     def direction(self, local: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """A direction fixed in the body, in ground axes."""
+        """Return a direction that is fixed in the body, in ground axes."""
         return local if self.body is None else self.geometry.turn(self.body, local, f"axis_{self.body.name}")
 
 
 class Turned(NamedTuple):
-    """A component of what turns with a body: of a point's arm, or (no point) of a direction, the number-th there."""
+    """One component of a vector that turns with a body: of a point's arm or, without a point, of a direction.
+
+    `number` counts the directions of a body.
+    """
 
     body: str
     point: str
@@ -93,6 +102,7 @@ class Geometry(Freezable):
     """Makes the symbols of bodies and points, each once."""
 
     def __init__(self, scene: Scene, symbols: Symbols, slots: Slots) -> None:
+        """Make the bodies of a scene and the local vectors of all their points."""
         self.symbols, self.slots, self.mechanism = symbols, slots, scene.mechanism
         self.bodies = {name: self._body(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())}
         self.local = {
@@ -108,6 +118,7 @@ class Geometry(Freezable):
         self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
 
     def _body(self, number: int, body: Body) -> BodySymbols:
+        """Return the symbols of the body with a number: three coordinates, three velocities, mass and inertia."""
         new, index, name = self.symbols.new, 3 * number, body.name
         (x, y, theta), (vx, vy, omega) = (
             [new(f"{name}_{c}", Place(array)[index + k], f"{name}.{c}") for k, c in enumerate(coordinates)]
@@ -119,19 +130,23 @@ class Geometry(Freezable):
         return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
 
     def _unit_inertia(self) -> sp.Expr:
-        """Of bodies of 1 kg that are as large as the points of all lie apart: only the metric of a closed linkage."""
+        """Return the inertia that replaces missing ones: of 1 kg at the mean squared distance of all points.
+
+        It defines only the metric in which a closed linkage is solved.
+        """
         lengths = [x for pair in self.local.values() for x in pair if x != 0]
         size = sp.Add(*(x**2 for x in lengths)) / max(len(lengths), 1)
         return self.slots.derive("unit_inertia", size + sp.Float(_SMALL, 17), "in place of moments of inertia")
 
     @staticmethod
     def point_names(body: Body) -> list[str]:
-        """Every point of a body: the implied ones, then the user's."""
+        """Return the names of all points of a body: head, tail, origin and com, then the user's."""
         # the head first: a bar's other points are then written with its positive length
         implied = (["head", "tail"] if body.length else []) + ["origin", "com"]
         return implied + [name for name in body.points if name not in implied]
 
     def _in_body(self, body: Body, point: str, com: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        """Return a point in the body's own frame, whose origin the user chose."""
         if point in body.points:
             x, y = body.points[point]
             return self.slots.use(x), self.slots.use(y)
@@ -140,7 +155,7 @@ class Geometry(Freezable):
         return (self.slots.use(body.length), ZERO) if point == "head" and body.length else (ZERO, ZERO)
 
     def _local(self, body: Body, point: str) -> tuple[sp.Expr, sp.Expr]:
-        """A point in the centre-of-mass frame, as numbers that `prepare` derives."""
+        """Return a point in the centre-of-mass frame, as derived parameters."""
         if body.com is not None:
             com = (self.slots.use(body.com[0]), self.slots.use(body.com[1]))
         else:
@@ -158,10 +173,11 @@ class Geometry(Freezable):
         return x, y
 
     def ground_vector(self, vector: Vector) -> tuple[sp.Expr, sp.Expr]:
+        """Return both components of a vector of the ground as parameters."""
         return self.slots.use(vector[0]), self.slots.use(vector[1])
 
     def angle(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
-        """cos θ and sin θ of a body."""
+        """Return cos θ and sin θ of a body as symbols."""
         if body.name not in self._angles:
             define, name = self.symbols.define, body.name
             cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
@@ -173,7 +189,10 @@ class Geometry(Freezable):
     def turn(
         self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], wanted: str, point: str = ""
     ) -> tuple[sp.Expr, sp.Expr]:
-        """A(θ) s as a pair of symbols; the opposite of a known arm is its negative. `point`: whose arm it is."""
+        """Return A(θ) s as a pair of symbols; the opposite of a known arm is its negative.
+
+        `wanted`: base of the symbols' names. `point`: the point whose arm it is.
+        """
         if s == (ZERO, ZERO):
             return ZERO, ZERO
         if (body.name, -s[0], -s[1]) in self._turned:
@@ -193,7 +212,10 @@ class Geometry(Freezable):
         return self._turned[body.name, *s]
 
     def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> PointFrame:
-        """The frame of what lies beside a named point, by an offset in its body's frame; `wanted` names it."""
+        """Return the frame of a point at an offset from a named point, given in its body's frame.
+
+        `wanted` is the base of its symbols' names.
+        """
         s = self._beside(ref, offset, wanted)
         if ref.body == GROUND:
             return PointFrame(self, None, s)
@@ -201,7 +223,10 @@ class Geometry(Freezable):
         return PointFrame(self, body, self.turn(body, s, f"arm_{wanted}"))
 
     def _beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
-        """The same from the centre of mass, or on the ground; the opposite of another one is its negative."""
+        """Return the vector to such a point from the centre of mass, or its position on the ground.
+
+        The opposite of a known vector is its negative.
+        """
         if ref.body == GROUND:
             of = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
         else:
@@ -213,7 +238,7 @@ class Geometry(Freezable):
         return x, y
 
     def point(self, ref: PointRef) -> PointFrame:
-        """The frame of a named point."""
+        """Return the frame of a named point."""
         if ref.body == GROUND:
             at = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
             return PointFrame(self, None, at)

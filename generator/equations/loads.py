@@ -1,7 +1,7 @@
-"""Forces at work: the generalized forces of force elements, and slip velocities that friction may hold at zero.
+"""Applied forces: generalized forces of force elements, and slip velocities that dry friction may hold at zero.
 
-Stick's row is v = J q̇ − speed = 0 on velocity level: J q̈ = γ − 2α v. The friction force f acts on the
-second body along u, so its generalized force is Jᵀ f: −Jᵀ λ in stick, −Jᵀ kinetic sgn v in slip.
+The equation of stick is v = J q̇ − speed = 0 on velocity level: J q̈ = γ − 2α v. The friction force f acts on the
+second body along u, so its generalized force is Jᵀ f: −Jᵀ λ at stick, −Jᵀ kinetic sgn v at slip.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from gudgeon.generator.symbols.symbols import Symbols
 
 
 class PointLoad(NamedTuple):
-    """A force (ground axes) at a point, and a moment, on the point's body."""
+    """A force in ground axes at a point, and a moment, both on the point's body."""
 
     point: PointFrame
     x: sp.Expr
@@ -30,19 +30,19 @@ class PointLoad(NamedTuple):
 
 @dataclass(frozen=True)
 class AppliedElement:
-    """An element with its targets' frames and its equations."""
+    """A force element with the frames of its points and its equations."""
 
     element: ForceElement
     targets: tuple[PointFrame, ...]
     loads: Loads
 
     def on_points(self) -> list[PointLoad]:
-        """Its loads with the points at which they act."""
+        """Return the loads of the element with the points at which they act."""
         loads = self.loads.loads
         return [PointLoad(self.targets[load.target], load.x, load.y, load.moment) for load in loads]
 
     def add_to(self, forces: list[sp.Expr]) -> None:
-        """Adds to the generalized forces (n): F at the centre of mass, moment arm × F + M."""
+        """Add the generalized forces to `forces` (n) in place: F at the centre of mass, moment arm × F + M."""
         for load in self.loads.loads:
             point = self.targets[load.target]
             if point.body is not None:
@@ -53,7 +53,7 @@ class AppliedElement:
 
 
 def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
-    """The equations of one element."""
+    """Return a force element with its equations on a geometry; `t` is the symbol of time."""
     targets = tuple(geometry.point(ref) for ref in element.targets)
     loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)
@@ -61,7 +61,7 @@ def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> Ap
 
 @dataclass(frozen=True)
 class Friction:
-    """One sliding contact; `jacobian` is J by coordinate, `gamma` what J q̈ must be at constant slip."""
+    """One dry friction element; `jacobian` is J by coordinate, `gamma` the value of J q̈ at constant slip."""
 
     name: str
     slip: Slip
@@ -72,7 +72,10 @@ class Friction:
 def make_friction(
     name: str, slip: Slip, pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
 ) -> Friction:
-    """J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t; `pairs` are coordinates with their velocities."""
+    """Return a friction with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t.
+
+    `pairs` are the coordinates with their velocities.
+    """
     jacobian = {q: entry for q, v in pairs if (entry := sp.expand(symbols.diff(slip.v, v))) != 0}
     gamma = -sum((symbols.diff(slip.v, q) * v for q, v in pairs), sp.Integer(0)) - symbols.diff(slip.v, t)
     return Friction(name, slip, jacobian, sp.expand(gamma))

@@ -1,13 +1,11 @@
-"""The derived equations of one scene: what the emitted code computes, and what a class reads.
+"""The derived equations of one scene, from which the C code is emitted and which Python programs can read.
 
-Every member is in the derived symbols of the geometry (cos θ, arms, drive angles) but for the
-properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇, t and parameters.
-
-Events of the user: where an expression of t and motion crosses zero, a run records the time, or ends.
-
-A crossing is a change of sign: "rising" from below zero to above it, "falling" the other way, "both" either. A
-zero that is touched and left on the side from which it was reached is none, and a run does not cross a zero on
-which it starts: so it goes on from where an event ended another.
+Every member is in the derived symbols of the geometry (cos θ, arms, drive angles), except the properties Phi, Phi_q,
+nu, gamma, M and g, which are written out in q, q̇, t and parameters.
+The events of the user are here as well: a run records the time at which an expression of t and the motion crosses
+zero, or ends there. A crossing is a change of sign: "rising" from below zero to above it, "falling" in the other
+direction, "both" either. A zero that is touched without a change of sign is not an event. A run does not cross a zero
+on which it starts, so that it resumes from the state at which an event ended another run.
 """
 
 from __future__ import annotations
@@ -38,7 +36,7 @@ SIGNS = {"rising": 1, "falling": -1, "both": 0}
 
 @dataclass(frozen=True)
 class Event:
-    """`expression` is in t and the symbols of bodies and points; action: "record" or "stop"."""
+    """An event of the user; `expression` is in t and the symbols of bodies and points, action is "record" or "stop"."""
 
     name: str
     expression: sp.Expr
@@ -47,13 +45,16 @@ class Event:
 
 
 def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
-    """One event of a scene. Raises BadValueError for an expression that is finite for no motion."""
+    """Return an event of the scene. Raise BadValueError for an expression that is finite for no motion."""
     expression = quantity_to_sympy(event.zero, VariableNames(geometry, t))
     return Event(event.name, expression, event.action, event.direction)
 
 
 def refuse_constant(event: EventSpec, made: Event, geometry: Geometry, t: sp.Symbol) -> None:
-    """Raise BadValueError where nothing that moves is left in the expression; geometry: of absolute coordinates."""
+    """Raise BadValueError if an event's expression contains nothing that moves.
+
+    geometry: that of the absolute coordinates.
+    """
     moving = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
     if not geometry.symbols.explicit(made.expression).free_symbols & moving:
         message, hint = f"{event.zero.address} never changes: its terms cancel", "expected an expression that varies"
@@ -61,22 +62,25 @@ def refuse_constant(event: EventSpec, made: Event, geometry: Geometry, t: sp.Sym
 
 
 class Lettered(sp.Matrix):
-    """A matrix like any other; `str`, `repr`, `sympy.latex` and notebooks ask `letters` how its entries are written."""
+    """A matrix whose printed form (str, repr, sympy.latex, notebooks) uses the notation that `letters` gives."""
 
     letters: Callable[[], Any] | None = None  # gives an object with latex(matrix) and text(matrix)
 
     def _latex(self, printer: Any) -> str:
+        """Return the LaTeX text of the matrix, which sympy.latex asks for."""
         return str(self.letters().latex(self) if self.letters else printer._print_MatrixBase(self))
 
     def _sympystr(self, printer: Any) -> str:
+        """Return the plain text of the matrix, which SymPy's printer asks for."""
         return str(self.letters().text(self) if self.letters else printer._print_MatrixBase(self))
 
     def __str__(self) -> str:
+        """Return the matrix in its notation, or as SymPy prints it without one."""
         return repr(self) if self.letters else super().__str__()
 
 
 def lettered(matrix: sp.Matrix, letters: Callable[[], Any] | None) -> Lettered:
-    """The same entries; without letters as SymPy prints them."""
+    """Return a matrix with the same entries that prints in the given notation; None: as SymPy prints it."""
     found = Lettered._fromrep(matrix._rep)
     found.letters = letters
     return found
@@ -101,10 +105,11 @@ def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
 
 
 def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
-    """Rows of Φ that the start holds apart: where they are, and the eccentricity e and its rate there.
+    """Return the equations of Φ that the start violates by a journal's eccentricity: index, e and its rate.
 
-    Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. That of a slider
-    is its offset and its tilt, which are −e there (`start_kernel`).
+    Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. Φ of a slider is
+    its
+    offset and its tilt, which are −e there (`start_kernel`).
     """
     given, found = model.scene.mechanism.start.play, []
     for name in model.scene.play:
@@ -115,7 +120,7 @@ def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
 
 @dataclass(frozen=True)
 class Redundancy:
-    """Names of rows to leave out, and of joints or drives whose multipliers are not determined."""
+    """Names of redundant equations to leave out, and of joints or drives with indeterminate multipliers."""
 
     dropped: tuple[str, ...] = ()
     indeterminate: tuple[str, ...] = ()
@@ -150,78 +155,84 @@ class Model:
     targets: Mapping[str, Callable[[Model], Any]] = field(default_factory=dict)  # of generator/targets
 
     def without(self, redundancy: Redundancy) -> Model:
-        """The same scene without the rows that say nothing new."""
+        """Return the model of the same scene without its redundant constraint equations."""
         kept = tuple(row for row in self.rows if row.name not in redundancy.dropped)
         return replace(self, rows=kept, redundancy=redundancy)
 
     def thawed(self) -> Model:
-        """The same equations with symbols and derived numbers to which one program adds its own."""
+        """Return a copy whose symbols and derived parameters one program may extend."""
         symbols = self.symbols.thawed()
         return replace(self, symbols=symbols, slots=self.slots.thawed().beside(symbols))
 
     def freeze(self) -> None:
-        """Make every table read only."""
+        """Make every table of the model read only."""
         for tables in (self.symbols, self.slots, self.geometry, self.constraints):
             tables.freeze()
 
     @property
     def bodies(self) -> tuple[BodySymbols, ...]:
+        """Return the symbols of all bodies in the order of the file."""
         return tuple(self.geometry.bodies.values())
 
     @cached_property
     def q(self) -> tuple[sp.Symbol, ...]:
-        """Coordinates (x, y, θ of each body's centre of mass), in the order of the file."""
+        """Return the coordinates (x, y, θ of each body's centre of mass), in the order of the file."""
         return tuple(symbol for body in self.bodies for symbol in body.q)
 
     @cached_property
     def v(self) -> tuple[sp.Symbol, ...]:
-        """Velocities q̇ in the order of q."""
+        """Return the velocities q̇ in the order of q."""
         return tuple(symbol for body in self.bodies for symbol in body.v)
 
     @property
     def t(self) -> sp.Symbol:
+        """Return the symbol of time."""
         return self.constraints.t
 
     @property
     def degrees_of_freedom(self) -> int:
+        """Return the number of coordinates minus the number of constraint equations."""
         return len(self.q) - len(self.rows)
 
     @property
     def law_states(self) -> int:
-        """Inner states of the laws of a joint with play, of the one that has most."""
+        """Return the number of inner states per joint with play: the largest of all its laws."""
         return max((len(clearance.states) for clearance in self.clearances), default=0)
 
     @property
     def rigid(self) -> tuple[str, ...]:
-        """Joints with play whose surfaces do not give."""
+        """Return the names of the joints with play whose surfaces are rigid."""
         return tuple(clearance.name for clearance in self.clearances if clearance.rigid)
 
     @property
     def rubbed(self) -> tuple[str, ...]:
-        """Those of them that have friction."""
+        """Return the names of the joints with play whose surfaces are rigid and have friction."""
         return tuple(clearance.name for clearance in self.clearances if clearance.rigid and clearance.friction)
 
     @property
     def rows_change(self) -> bool:
-        """Whether constraints come and go with the motion: then a pivot that vanishes is told, not mended."""
+        """Return whether constraint equations come and go with the motion: dry friction or rigid contacts.
+
+        A vanishing pivot is then reported, not handled by the singular equations.
+        """
         return bool(self.frictions or self.rigid)
 
     def squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
-        """s_x², s_y² of each point of a body's joints, s from its centre of mass."""
+        """Return s_x², s_y² of each joint's point on a body, s measured from its centre of mass."""
         mechanism, local = self.scene.mechanism, self.geometry.local
         ends = [end for joint in mechanism.joints.values() for end in (joint.first, joint.second)]
         points = dict.fromkeys((end.body, end.point) for end in ends if end.body == body and (body, end.point) in local)
         return tuple(s**2 for point in points for s in local[point])
 
     def turning_inertia(self, body: str) -> sp.Expr:
-        """J + Σ m s² of a body, s from its centre of mass to the points of its joints."""
+        """Return J + Σ m s² of a body, s from its centre of mass to the points of its joints."""
         of = self.geometry.bodies[body]
         return sp.Add(of.inertia, *(of.mass * square for square in self.squared_arms(body)))
 
     def is_light(self, body: str, joint: Joint | None) -> bool:
-        """Whether a body has hardly any moment of inertia about a joint, at the defaults: a mass lumped there.
+        """Return whether a body has nearly no moment of inertia about a joint: its mass is lumped there.
 
-        No joint: about its centre of mass.
+        Values are the defaults of the file. No joint: about its centre of mass.
         """
         of, default = self.geometry.bodies[body], self.slots.default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
@@ -231,19 +242,20 @@ class Model:
 
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:
-        """The diagonal of M, in the order of q."""
+        """Return the diagonal of M in the order of q."""
         return tuple(m for body in self.bodies for m in (body.mass, body.mass, body.inertia))
 
     def numpy(self) -> Any:
-        """The same equations as functions in NumPy, with their text as `source`: Φ, Φ_q, ν, γ, M, right-hand side.
+        """Return the same equations as functions in NumPy: Φ, Φ_q, ν, γ, M and the right-hand side.
 
-        A NumPyModel (generator/targets/numpy/module.py says shapes and units): the plainest form of all that the
-        emitted C computes at a state.
+        A NumPyModel, with their text as `source` (generator/targets/numpy/module.py says shapes and units): the
+        plainest form
+        of all that the emitted C computes at a state.
         """
         return self.written("numpy")
 
     def written(self, target: str) -> Any:
-        """The equations in another language, once made: what the folder of that name in generator/targets gives."""
+        """Return the equations in another language, made once, by the name of a folder in generator/targets."""
         if target not in self.targets:
             known = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
             raise ValueError(f"no target {target!r} of a model: there is {known}")
@@ -253,23 +265,27 @@ class Model:
 
     @cached_property
     def _written(self) -> dict[str, Any]:
+        """Return the cache of equations in other languages, by target."""
         return {}
 
     def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
+        """Return expressions as a column matrix, written out in q, q̇, t and parameters."""
         return self._lettered([as_written(self.symbols.explicit(e)) for e in expressions])
 
     def _lettered(self, entries: list[Any]) -> sp.Matrix:
-        """A matrix that prints with the letters of the scene's documents."""
+        """Return a matrix that prints in the notation of the scene's documents."""
         return lettered(sp.Matrix(entries), (lambda: self.written("letters")) if "letters" in self.targets else None)
 
     def _repr_latex_(self) -> str:
+        """Return Φ(q, t) = 0 as LaTeX for notebooks."""
         return f"$\\displaystyle {self.written('letters').equation().latex}$" if "letters" in self.targets else ""
 
     def _repr_html_(self) -> str | None:
+        """Return Φ(q, t) = 0 as HTML for notebooks; None without a notation."""
         return str(self.written("letters").html()) if "letters" in self.targets else None
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """What notebooks ask for first: Φ(q, t) = 0 as LaTeX, MathML and text."""
+        """Return Φ(q, t) = 0 as text, HTML and LaTeX, which notebooks ask for first."""
         if "letters" not in self.targets:
             return {}
         text = self.written("letters").equation().text
@@ -277,33 +293,33 @@ class Model:
 
     @cached_property
     def Phi(self) -> sp.Matrix:
-        """Φ(q, t), (m, 1); m and rad."""
+        """Return Φ(q, t), (m, 1); m and rad."""
         return self._column(row.phi for row in self.rows)
 
     @cached_property
     def Phi_q(self) -> sp.Matrix:
-        """∂Φ/∂q, (m, n)."""
+        """Return ∂Φ/∂q, (m, n)."""
         zero = sp.Integer(0)
         return self._lettered([[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows])
 
     @cached_property
     def nu(self) -> sp.Matrix:
-        """ν = −Φ_t, (m, 1): Φ_q q̇ = ν."""
+        """Return ν = −Φ_t, (m, 1): Φ_q q̇ = ν."""
         return self._column(row.nu for row in self.rows)
 
     @cached_property
     def gamma(self) -> sp.Matrix:
-        """γ, (m, 1): Φ_q q̈ = γ."""
+        """Return γ, (m, 1): Φ_q q̈ = γ."""
         return self._column(row.gamma for row in self.rows)
 
     @cached_property
     def M(self) -> sp.Matrix:
-        """Mass matrix, (n, n), diagonal: the coordinates are those of the centres of mass."""
+        """Return the mass matrix, (n, n), diagonal: the coordinates are those of the centres of mass."""
         return self._lettered(sp.diag(*self.masses).tolist())
 
     @cached_property
     def g(self) -> sp.Matrix:
-        """Generalized applied forces without those of joints with play, (n, 1): gravity, force elements."""
+        """Return the generalized applied forces, (n, 1): gravity and force elements, not those of joints with play."""
         gx, gy = self.gravity
         forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
         for element in self.elements.values():
@@ -312,7 +328,7 @@ class Model:
 
 
 def make_model(scene: Scene) -> Model:
-    """Derive one scene, joint by joint."""
+    """Derive the equations of one scene, joint by joint."""
     check_own_laws(scene)
     mechanism, symbols = scene.mechanism, Symbols()
     slots = Slots(scene, symbols)
@@ -363,7 +379,7 @@ def make_model(scene: Scene) -> Model:
 
 
 def offer_materials(scene: Scene, slots: Slots) -> None:
-    """The numbers of all materials that a run may choose for what this scene has, and which one it has chosen."""
+    """Make parameters of all materials that a run may choose for this scene, and of the choice itself."""
     for choice in scene.mechanism.choices.values():
         if any(number.address in slots.entries for number in choice.numbers.values()):
             of = scene.mechanism.materials.values()
@@ -376,7 +392,7 @@ def offer_materials(scene: Scene, slots: Slots) -> None:
 
 
 def offer_further(model: Model) -> None:
-    """The numbers that no equation has: of points on the ground, of the start, of methods."""
+    """Make parameters of the values that no equation contains: ground points, the start, settings of methods."""
     for vector in model.scene.mechanism.ground.values():
         model.geometry.ground_vector(vector)
     for group in start_values(model).values():
@@ -387,5 +403,5 @@ def offer_further(model: Model) -> None:
 
 
 def stick_gain(model: Model) -> sp.Expr:
-    """2α of a stick, of its own: methods that project have no other stabilisation."""
+    """Return 2α of a sticking friction as a derived parameter; methods that project stabilise nothing else."""
     return model.slots.derive("two_alpha_stick", 2 * model.slots.entries[STICK].symbol, "2 alpha of a stick")

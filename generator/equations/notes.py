@@ -1,4 +1,4 @@
-"""What a scene's equations mean for its user, in sentences: what it does without, and masses that it lacks."""
+"""Notes for the user about a scene's equations: what it leaves out, and errors for missing masses."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from gudgeon.generator.mechanism import Body, Mechanism
 
 
 def scene_notes(model: Model) -> tuple[str, ...]:
-    """What this scene does not have, and so does not pay for."""
+    """Return sentences on what this scene leaves out: redundant equations, massless bodies and the like."""
     notes = []
     if model.redundancy.dropped:
         notes.append(
@@ -51,25 +51,25 @@ def scene_notes(model: Model) -> tuple[str, ...]:
 
 
 def has_jumps(model: Model) -> bool:
-    """Whether any drive's rate may jump, whatever is free to move."""
+    """Return whether the rate of any drive may jump, whatever the degrees of freedom."""
     return any(map(rate_jumps, model.scene.mechanism.drives.values()))
 
 
 def jumping_drives(model: Model) -> tuple[str, ...]:
-    """Drives whose rate may jump before something that is free to move."""
+    """Return the drives whose rate may jump in a scene with degrees of freedom."""
     drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
     return tuple(drive.name for drive in drives if rate_jumps(drive))
 
 
 def refuse_massless(model: Model) -> None:
-    """Raise a MissingKeyError for bodies without mass or inertia, where the motion depends on them."""
+    """Raise MissingKeyError for bodies without mass or inertia if the motion depends on them."""
     asks = _asks(model)
     if asks and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))):
         raise together(errors)
 
 
 def _asks(model: Model) -> str:
-    """Why a scene needs masses; "" where it does not."""
+    """Return why a scene needs masses, for messages; "" if it does not."""
     if model.clearances:
         return f"has play in {', '.join(clearance.name for clearance in model.clearances)}"
     if (free := model.degrees_of_freedom) > 0:
@@ -80,7 +80,7 @@ def _asks(model: Model) -> str:
 
 
 def lacking(mechanism: Mechanism, asks: str) -> Iterator[MissingKeyError]:
-    """An error for the bodies that lack mass, inertia or both, at the first one; `asks` says who needs them."""
+    """Yield one error for all bodies that lack the same of mass and inertia; `asks` says why they are needed."""
     alike: dict[tuple[str, ...], list[Body]] = {}
     for body in mechanism.bodies.values():
         if body.lacks:

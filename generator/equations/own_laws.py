@@ -1,9 +1,8 @@
-"""Checks of a scene's laws that its user wrote: forces as expressions of the penetration, and laws in Python.
+"""Checks of user-defined laws of a scene: forces as expressions of the penetration, and laws in Python.
 
-A force is a number that pushes. A name has one meaning. The results of a law have the units that its role needs, and
-what it adds or compares is alike.
-
-A number that stands in a law is a pure one, but for 0, which has any unit; what has a unit is a field of the law.
+A force must be a finite number that pushes. A name has one meaning. The results of a law have the units that its role
+needs, and terms that are added or compared have the same unit.
+A number that stands in a law is dimensionless, except 0, which has any unit; a value with a unit is a field of the law.
 """
 
 from __future__ import annotations
@@ -44,13 +43,14 @@ _SMALLEST = 1e-6  # of the largest of them
 
 
 def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: Slots) -> sp.Expr:
-    """The force in `delta` and the numbers of a run; `most` is the penetration (m) up to which it is looked at.
+    """Return a force of the file as an expression of `delta` and parameters, checked up to the penetration `most` (m).
 
-    What it is at δ = 0 becomes a number of the run where SymPy does not see that it is 0: every run then asks for it.
-    Raises BadValueError for what is no number there, pulls, or has no slope at δ = 0.
+    If SymPy does not see that the force at δ = 0 is 0, its value there becomes a parameter, which every run checks.
+    Raises BadValueError for a force that is not finite, pulls, or has no slope at δ = 0.
     """
 
     def symbol(path: str) -> sp.Expr:
+        """Return the symbol of a name in the expression: `delta` or a parameter."""
         if path == "delta":
             return delta
         known: sp.Symbol = slots.entries[f"parameters.{path}"].symbol
@@ -69,7 +69,7 @@ def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: Slots) -> sp
 
 
 def _look(force: Quantity, most: float, slots: Slots) -> None:
-    """Raise BadValueError where the force is no number or negative, with the scene's own numbers."""
+    """Raise BadValueError if the force is not finite or negative at sampled penetrations, with the scene's values."""
     depths = np.union1d(np.geomspace(_SMALLEST * most, most, LOOKS // 2), np.linspace(0.0, most, LOOKS // 2)[1:])
     found = np.broadcast_to(
         evaluate(
@@ -85,7 +85,7 @@ def _look(force: Quantity, most: float, slots: Slots) -> None:
 
 
 def _look_at_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: Slots) -> None:
-    """Raise BadValueError where the slope at δ = 0 is infinite: no Jacobian has it."""
+    """Raise BadValueError if the slope at δ = 0 is infinite, so that no Jacobian exists."""
     numbers = {entry.symbol: sp.Float(entry.default, 17) for entry in slots.entries.values()}
     slope = sp.diff(value, delta).xreplace(numbers).subs(delta, 0)
     if slope.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
@@ -116,7 +116,7 @@ _RATIO = classes_where(lambda f: f.units is Units.RATIO)
 
 
 class _Flexible:
-    """No dimension of its own: a number as it stands, or what has a number that the file may give any unit."""
+    """A dimension that is not fixed: of a plain number, or of a value that may have any unit in the file."""
 
 
 _BARE, _ANY = _Flexible(), _Flexible()
@@ -124,7 +124,7 @@ _Found = Dimension | _Flexible
 
 
 def check_units(law: Law, use: LawUse) -> None:
-    """Raise LawError where a result of a law has another unit than its role needs, or unlike ones are added."""
+    """Raise LawError if a result of a law has another unit than its role needs, or if unlike units are added."""
     made = probe(law, use.options, use.quantities)
     known: dict[str, _Found] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
     known |= {f"probe_{name}": number.dimension or _ANY for name, number in use.quantities.items()}
@@ -144,21 +144,25 @@ def check_units(law: Law, use: LawUse) -> None:
 
 @dataclass
 class _Units:
+    """Dimensions of a law's expressions, found from those of its symbols in `known`."""
+
     law: Law
     known: Mapping[str, _Found]  # by names of symbols
     seen: dict[sp.Expr, _Found] = field(default_factory=dict)
 
     @property
     def whose(self) -> str:
+        """Return the beginning of a message: the law and the file that defines it."""
         return prefix(self.law.name, ORIGINS.get(self.law.name))
 
     def of(self, name: str, e: sp.Expr) -> _Found:
-        """The dimension of an expression in the step of that name. Raises LawError where it has none."""
+        """Return the dimension of an expression in the step `name`. Raise LawError if it has none."""
         if e not in self.seen:
             self.seen[e] = self._of(name, e)
         return self.seen[e]
 
     def _of(self, name: str, e: sp.Expr) -> _Found:
+        """Return the dimension of an expression without looking it up in the cache."""
         if e.is_number:
             return _BARE
         if e.is_Symbol:
@@ -177,6 +181,7 @@ class _Units:
         return DIMENSIONLESS
 
     def _one(self, name: str, e: sp.Expr, found: list[_Found]) -> _Found:
+        """Return the common dimension of terms that are added or compared. Raise LawError if they differ."""
         units = sorted({x for x in found if isinstance(x, Dimension)}, key=str)
         bare = next((part for part, x in zip(e.args, found, strict=True) if x is _BARE and not part.is_zero), None)
         unlike = describe(units[1]) if len(units) > 1 else ""
@@ -191,6 +196,7 @@ class _Units:
         return units[0] if units else _ANY if _ANY in found else _BARE
 
     def _power(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _Found:
+        """Return the dimension of base**exponent. Raise LawError if the exponent has a unit."""
         self._pure(name, "an exponent", self.of(name, exponent))
         found = self.of(name, base)
         if not isinstance(found, Dimension) or found == DIMENSIONLESS:
@@ -198,12 +204,14 @@ class _Units:
         return found ** Fraction(str(exponent)).limit_denominator(1000) if exponent.is_number else _ANY
 
     def _pure(self, name: str, what: str, found: _Found) -> None:
+        """Raise LawError if a value that must be dimensionless, described by `what`, has a unit."""
         if isinstance(found, Dimension) and found != DIMENSIONLESS:
             told = f"{self.whose}{name} has {what} of {describe(found)}, expected {describe(DIMENSIONLESS)}"
             raise LawError(told, hint="divide by a number of that unit: one of the law's fields")
 
     @staticmethod
     def _product(found: list[_Found]) -> _Found:
+        """Return the dimension of a product of factors."""
         if _ANY in found:
             return _ANY
         units = [x for x in found if isinstance(x, Dimension)]
@@ -214,7 +222,7 @@ class _Units:
 
 
 def _shown(e: sp.Expr) -> sp.Expr:
-    """With numbers called as the law calls them."""
+    """Return an expression with parameters named as in the law, for messages."""
     return e.xreplace({s: sp.Symbol(s.name.removeprefix("probe_"), real=True) for s in e.free_symbols})
 
 
@@ -234,7 +242,7 @@ _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s
 
 
 def check_own_laws(scene: Scene) -> None:
-    """Raise LawError where a name in a user-defined law has two meanings, and for units that do not fit."""
+    """Raise LawError if a name in a user-defined law has two meanings, or if units do not fit."""
     for play in scene.play.values():
         some = [(laws()[use.law], use) for use in play.contact.laws]
         if any(law.name in OWN for law, _ in some):
@@ -246,16 +254,17 @@ def check_own_laws(scene: Scene) -> None:
 
 
 class _Names:
-    """What a law calls the locals and the numbers of its function."""
+    """Names of the locals and parameters in the function of a law."""
 
     def __init__(self, law: Law, use: LawUse) -> None:
+        """Collect the names by building the law with probe symbols."""
         made = probe(law, use.options, use.quantities)
         self.law = law
         self.locals = [*(state.name for state in law.states), *(name for name in made.steps if name not in law.results)]
         self.numbers = [*use.quantities, *made.derived]
 
     def check(self) -> None:
-        """Raise LawError for a name that is no identifier, or that the law is given for something else."""
+        """Raise LawError for a name that is not an identifier, or that the law is given for something else."""
         given = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
         every = [*self.locals, *self.numbers]
         for name in every:
@@ -269,7 +278,10 @@ class _Names:
 
 
 def _check_together(dry: Sequence[_Names]) -> None:
-    """The slopes of a dry contact are one function: what is local there has one meaning."""
+    """Raise LawError if a local of one law has another meaning in the other law of a dry contact.
+
+    The derivatives of a dry contact are one function, in which each local has one meaning.
+    """
     for one, other in itertools.permutations(dry, 2):
         if both := {*one.locals} & {*other.locals, *other.numbers}:
             told = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
@@ -277,11 +289,12 @@ def _check_together(dry: Sequence[_Names]) -> None:
 
 
 def _whose(law: Law) -> str:
+    """Return the beginning of a message: the law and the file that defines it."""
     return prefix(law.name, ORIGINS.get(law.name))
 
 
 def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: Slots) -> None:
-    """Raise LawError where a force is no finite real number, with the numbers that the file gives."""
+    """Raise LawError if a force is not a finite real number at sampled states, with the values of the file."""
     numbers = {symbol: np.float64(number_of(slots, symbol)) for symbol in _constants(steps, slots)}
     known, functions = [*numbers, *variables], {}
     for name, step in steps.items():
@@ -308,12 +321,13 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
 
 
 def _constants(steps: Mapping[str, sp.Expr], slots: Slots) -> set[sp.Symbol]:
+    """Return the parameters that the steps of a law read."""
     members = set(slots.members())
     return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
 
 
 def number_of(slots: Slots, symbol: sp.Symbol) -> float:
-    """The file's own value of a number, or of what is derived from such."""
+    """Return the file's value of a parameter or of a derived parameter; NaN if it is not real."""
     for entry in slots.entries.values():
         if entry.symbol == symbol:
             return entry.default

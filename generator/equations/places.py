@@ -1,9 +1,9 @@
-"""Where the bodies of a joint with play touch: a journal in its bearing, or each corner of a slider at its wall.
+"""Contact points of joints with play: a journal in its bearing, or the four corners of a slider at their walls.
 
 A slider is a block between parallel walls, which are fixed in the joint's first body: with n the axis turned by +90°,
 the upper wall's outward normal is n and the lower one's −n. Its corners are in front (along the axis) or at the rear.
 P. Flores, J. Ambrósio, J. C. P. Claro, H. M. Lankarani, J. Comput. Nonlinear Dyn. 3 (2008) 011007; P. Flores, R. Leine,
-C. Glocker, Multibody Syst. Dyn. 23 (2010) 165–190. Corners have a radius ρ here, 0 of sharp ones.
+C. Glocker, Multibody Syst. Dyn. 23 (2010) 165–190. Corners have a radius ρ here, 0 for sharp ones.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from gudgeon.generator.symbols.numbers import Slots
 class Wall:
     """A wall of a guide: its outward normal, fixed in the first body, in ground axes.
 
-    `rise` is how far the centre of a corner's radius is from the axis with the slider in the middle.
+    `rise`: distance of the centre of a corner's radius from the axis with the slider in the middle, in m.
     """
 
     normal: tuple[sp.Expr, sp.Expr]
@@ -34,10 +34,11 @@ class Wall:
 
 @dataclass(frozen=True)
 class Place:
-    """One place of contact: its name, "guide.front_upper" of a corner, and that in code; points of both bodies.
+    """One contact point, with its name in the file ("guide.front_upper"), in code, and the points of both bodies.
 
-    The radii of `pair` are levers of the contact (a corner's: half the guide's width, ρ); those of `of_laws` are what
-    laws take their stiffness from: a wall is flat, R_i = ∞.
+    The radii of `pair` are lever arms of the contact (for a corner: half the guide's width, ρ). Those of `of_laws` give
+    the
+    stiffness: a wall is flat, R_i = ∞.
     """
 
     name: str
@@ -50,7 +51,7 @@ class Place:
 
 
 def places_of(joint: Joint, measures: Bearing | Guide, geometry: Geometry, slots: Slots) -> Iterator[Place]:
-    """Of a revolute joint one, of a translational one four."""
+    """Yield the contact points of a joint with play: one of a revolute joint, four of a translational one."""
     if isinstance(measures, Guide):
         yield from _corners(joint, measures, geometry, slots)
         return
@@ -59,18 +60,20 @@ def places_of(joint: Joint, measures: Bearing | Guide, geometry: Geometry, slots
 
 
 def _pair(bearing: Bearing, slots: Slots) -> PairSymbols:
+    """Return radii, clearance, length and elastic constants of a bearing and its journal as parameters."""
     R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
     R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
     return PairSymbols(R_i, R_j, c, slots.use(bearing.length), *_elastic(bearing, slots))
 
 
 def _elastic(measures: Bearing | Guide, slots: Slots) -> list[sp.Expr]:
-    """E_i, ν_i, E_j, ν_j."""
+    """Return E_i, ν_i, E_j, ν_j of both bodies as parameters."""
     materials = measures.bearing_material, measures.journal_material
     return [slots.use(material.numbers[what]) for material in materials for what in ("E", "nu")]
 
 
 def _corners(joint: Joint, guide: Guide, geometry: Geometry, slots: Slots) -> Iterator[Place]:
+    """Yield the four corners of a slider in its guide as contact points."""
     first = geometry.point(joint.first)
     a, b, c = (slots.use(number) for number in (guide.half_length, guide.half_height, guide.gap))
     radius = sp.Integer(0) if guide.corner_radius is None else slots.use(guide.corner_radius)
@@ -94,7 +97,7 @@ def _corners(joint: Joint, guide: Guide, geometry: Geometry, slots: Slots) -> It
 
 
 def _axis_in_slider(fields: JointFields, slots: Slots, joint: str) -> tuple[sp.Expr, sp.Expr]:
-    """The axis in the second body's frame where that is turned to the first as the joint says."""
+    """Return the guide's axis in the slider's frame, with the slider at the angle that the joint prescribes."""
     along = fields.angle_of("axis")
     turned = fields.quantity("angle", along)
     if turned == along:

@@ -37,10 +37,10 @@ VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
 
 @dataclass(frozen=True)
 class LawEquations:
-    """A law with its symbols filled in; `steps` are abbreviations, then the role's results.
+    """A law with its symbols filled in; `steps` are abbreviations, then the results of its role.
 
-    `variables` are what its function is given: those of its role, and what it reads besides.
-    `numbers` are those of the file by their names there, `derived` what the law makes of them and of the pair.
+    `variables` are the arguments of its function: those of its role, and further ones that it reads. `numbers` are
+    parameters by their names in the file, `derived` those that the law computes from them and from the pair.
     """
 
     law: Law
@@ -52,32 +52,33 @@ class LawEquations:
 
     @property
     def results(self) -> tuple[str, ...]:
-        """Names of the role's results, and of the rates of states, in `steps`."""
+        """Return the names in `steps` of the role's results and of the rates of inner states."""
         return tuple(letter_of(self.law, name) for name in self.law.results)
 
     @property
     def further(self) -> tuple[str, ...]:
-        """What it reads besides what all of its role do."""
+        """Return the names of the variables that the law reads in addition to those of its role."""
         return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
 
 
 @dataclass(frozen=True)
 class Contour:
-    """`count` depths at equal angles in the bearing's frame: the array `table` of Parameters."""
+    """The depth of a bearing beyond its circle at `count` equal angles in its frame, as an array of Parameters."""
 
     table: str
     count: int
 
     def at(self, angle: sp.Expr, order: int) -> sp.Expr:
-        """How much deeper than its circle the bearing is at an angle, or a derivative of that."""
+        """Return the depth w at an angle, or its derivative of an `order`, as an expression."""
         return contour_of(self.table, self.count, order, angle)
 
 
 @dataclass(frozen=True)
 class Clearance:
-    """Bearing i on the first body, journal j on the second; e = r_j − r_i, all in ground axes.
+    """Contact point of a joint with play: bearing i on the first body, journal j on the second, e = r_j − r_i.
 
-    Of a guide each corner of its slider is one, "guide.front_upper"; `label` is its name in code.
+    All vectors are in ground axes. Each corner of a slider in a guide is one, "guide.front_upper"; `label` is its name
+    in code.
     """
 
     name: str
@@ -99,68 +100,75 @@ class Clearance:
 
     @property
     def kind(self) -> str:
-        """What comments call it: a joint, or one of a slider's corners."""
+        """Return what comments call it: "joint", or "corner" of a slider."""
         return "corner" if self.wall else "joint"
 
     @property
     def laws(self) -> tuple[LawEquations, ...]:
-        """The laws that it has."""
+        """Return the laws that act here."""
         return tuple(law for law in (self.normal, self.friction, self.film, self.mixed) if law is not None)
 
     @property
     def rigid(self) -> bool:
-        """Whether its surfaces do not give: velocities jump, and a contact that lasts is a constraint."""
+        """Return whether the surfaces are rigid: velocities jump, and a lasting contact is a constraint."""
         return self.normal is not None and self.normal.law.rigid
 
     @property
     def states(self) -> tuple[State, ...]:
-        """Inner states of its laws: only those of friction have any so far."""
+        """Return the inner states of the laws; only friction laws have any."""
         return self.friction.law.states if self.friction else ()
 
     @property
     def also(self) -> tuple[sp.Expr, ...]:
-        """What its functions are given of the motion besides eccentricity, its rate and angular velocities."""
+        """Return the arguments of its functions in addition to e, ė and angular velocities.
+
+        They are the normal of a wall, or the angle of a bearing with a contour.
+        """
         if self.wall is not None:
             return self.wall.normal
         return (self.first.theta,) if self.contour else ()
 
     @property
     def eccentricity(self) -> tuple[sp.Expr, sp.Expr]:
+        """Return the eccentricity e = r_j − r_i in m."""
         return self.second.x - self.first.x, self.second.y - self.first.y
 
     @property
     def eccentricity_rate(self) -> tuple[sp.Expr, sp.Expr]:
+        """Return the rate ė of the eccentricity in m/s."""
         (vx_i, vy_i), (vx_j, vy_j) = self.first.velocity, self.second.velocity
         return vx_j - vx_i, vy_j - vy_i
 
     def on_points(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
-        """F on the journal, −F on the bearing, and both moments."""
+        """Return the loads on both bodies: F on the journal, −F on the bearing, and both moments."""
         return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
 
     def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
-        """F · ė + M_i ω_i + M_j ω_j (W)."""
+        """Return the power F · ė + M_i ω_i + M_j ω_j in W."""
         turning = moments[0] * self.first.omega + moments[1] * self.second.omega
         return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
 def make_clearances(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> list[Clearance]:
-    """The equations of one joint with play, at each place of contact."""
+    """Return the equations of one joint with play at each of its contact points."""
     made = [_clearance(joint, play, slots, place) for place in places_of(joint, play.bearing, geometry, slots)]
     return [replace(one, contour=_contour(joint, play, slots)) for one in made]
 
 
 def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearance:
-    """The equations at one place of contact."""
+    """Return the equations at one contact point."""
     constants: dict[str, sp.Expr] = {}
     pair = place.pair
 
     def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+        """Return a derived parameter named after contact and bearing, which joints with the same ones share."""
         # named after what it is made of: joints with the same bearing and contact share it
         wanted = f"{play.contact.name}_{play.bearing.name}_{name}"
         constants[name] = slots.derive(wanted, expression, meaning)
         return constants[name]
 
     def law(use: LawUse | None, of: PairSymbols = place.of_laws) -> LawEquations | None:
+        """Return a law of the contact with its symbols filled in; None if it has none."""
         return None if use is None else _law(use, of, slots, derive)
 
     contact = play.contact
@@ -193,12 +201,17 @@ def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearanc
 
 
 def _contour(joint: Joint, play: Play, slots: Slots) -> Contour | None:
+    """Return the contour of a bearing as a table of parameters; None if it is a circle."""
     if not play.contour:
         return None
     return Contour(slots.table(f"contour_{joint.name}", play.contour), len(play.contour))
 
 
 def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
+    """Return a law with the symbols of its parameters and variables filled in.
+
+    `derive` makes derived parameters from name, value and meaning.
+    """
     law = laws()[use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
     forces = {own.name for own in law.expressions}
@@ -223,9 +236,9 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
 
 
 def letter_of(law: Law, name: str) -> str:
-    """Return the identifier of what a law calls `name`: of a user-defined law one that nothing else has.
+    """Return the identifier for `name` in a law; a user-defined law gets one that nothing else has.
 
-    What the role names (`delta`, `F_n`) keeps its name. No fixed name has `__` in it, and neither has `made_name`.
+    Names of the role (`delta`, `F_n`) are kept. No fixed name contains `__`, and neither does `made_name`.
     """
     fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
     return f"{name}__" if law.name in OWN and name not in fixed else name

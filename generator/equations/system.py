@@ -1,9 +1,9 @@
-"""What is integrated: M q̈ + Φ_qᵀ λ = g with Φ(q, t) = 0, in whichever coordinates.
+"""The system that is integrated: M q̈ + Φ_qᵀ λ = g with Φ(q, t) = 0, in absolute or tree coordinates.
 
 A model's bodies move with the coordinates of a system: a body's (x, y, θ) have a Jacobian J in them, and
-r̈ = J q̈ + bias. In absolute coordinates J is the identity and M is diagonal (`absolute`); in tree coordinates
-most of Φ is gone (generator/reduction/reduction.py). Everything that is derived from a system (right-hand side,
-projection, Jacobians) holds for both.
+r̈ = J q̈ + bias. In absolute coordinates J is the identity and M is diagonal (`absolute`); in tree coordinates most of
+Φ is eliminated (generator/reduction/reduction.py). All functions derived from a system (right-hand side, projection,
+Jacobians) hold for both.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ ZERO, ONE = sp.Integer(0), sp.Integer(1)
 
 @dataclass(frozen=True)
 class Motion:
-    """How (x, y, θ) of a body follow the coordinates: three rows of J (non-zeros by index), three biases."""
+    """Motion of a body with the coordinates: three rows of J for (x, y, θ), non-zeros by index, and three biases."""
 
     jacobian: tuple[Mapping[int, sp.Expr], ...]
     bias: tuple[sp.Expr, ...]
@@ -32,7 +32,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Given:
-    """A coordinate z(t) that a drive prescribes; its equation gives what the drive must do, not an acceleration."""
+    """A coordinate z(t) that a drive prescribes; its equation gives the effort of the drive, not an acceleration."""
 
     name: str
     rate: sp.Expr
@@ -42,7 +42,7 @@ class Given:
 
 @dataclass(frozen=True)
 class Known:
-    """A coordinate that is computed before all else, a function of t, with its first three rates."""
+    """A dependent coordinate of a loop that drives determine, a function of t, with its first three rates."""
 
     q: sp.Symbol
     rate: sp.Symbol
@@ -52,7 +52,7 @@ class Known:
 
 @dataclass(frozen=True)
 class System:
-    """Coordinates q with velocities v; `mass` holds the lower triangle's non-zeros (i ≥ j) of M."""
+    """Equations of motion in coordinates q with velocities v; `mass` is the lower triangle (i ≥ j) of M by index."""
 
     model: Model
     q: tuple[sp.Symbol, ...]
@@ -67,9 +67,9 @@ class System:
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def turning_inertia(self, k: int) -> sp.Expr:
-        """What turns with coordinate k if it is an angle, else 0: J and m s² of its joints' points, s from the centre
+        """Return the inertia about an angle k, 0 for other coordinates: J and m s² of its joints' points.
 
-        of mass. A number of `prepare`, with which what elimination leaves of M is compared.
+        s is measured from the centre of mass. It is a derived parameter, to which pivots of M are compared.
         """
         if k % 3 != 2:
             return ZERO
@@ -77,11 +77,11 @@ class System:
         return self.model.slots.derive(f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints")
 
     def inertia_of_unit_mass(self, k: int) -> sp.Expr:
-        """What coordinate k moves of bodies of 1 kg: s² of its joints' points for an angle, else 1."""
+        """Return what coordinate k moves if bodies had 1 kg: s² of its joints' points for an angle, else 1."""
         return sp.Add(*self.model.squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
-        """Generalized forces (n) of loads, and those on given coordinates by name: Jᵀ f at each point."""
+        """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by name."""
         total = [ZERO] * len(self.q)
         for point, x, y, moment in loads:
             if point.body is not None:
@@ -92,7 +92,7 @@ class System:
         return total, {}
 
     def acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """r̈ of a point at accelerations a of the coordinates: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm."""
+        """Return r̈ of a point at accelerations a: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm."""
         if point.body is None:
             return ZERO, ZERO
         motion, (arm_x, arm_y), omega = self.motions[point.body.name], point.arm, point.body.omega
@@ -103,7 +103,7 @@ class System:
         return x - theta * arm_y - omega**2 * arm_x, y + theta * arm_x - omega**2 * arm_y
 
     def turning(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> sp.Expr:
-        """θ̈ of a point's body at accelerations a of the coordinates."""
+        """Return θ̈ of a point's body at accelerations a of the coordinates."""
         if point.body is None:
             return ZERO
         motion = self.motions[point.body.name]
@@ -111,7 +111,7 @@ class System:
 
 
 def absolute(model: Model) -> System:
-    """The system in the model's own coordinates, three a body."""
+    """Return the system in the model's own coordinates, three per body."""
     motions = {
         body.name: Motion(tuple({body.index + c: ONE} for c in range(3)), (ZERO, ZERO, ZERO)) for body in model.bodies
     }
@@ -120,7 +120,7 @@ def absolute(model: Model) -> System:
 
 
 def _weights(model: Model) -> tuple[sp.Expr, ...]:
-    """Weights of the bodies (n), as numbers of `prepare`."""
+    """Return the weights of the bodies (n) as derived parameters."""
     forces: list[sp.Expr] = []
     for body in model.bodies:
         for axis, component in zip("xy", model.gravity, strict=True):

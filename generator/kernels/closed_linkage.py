@@ -1,4 +1,4 @@
-"""Functions of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the start and the parameters."""
+"""Functions of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the start and the parameter table."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def prepare_kernel(model: Model) -> Kernel:
-    """Slots from what is given, the rest from their defaults; then everything derived from them."""
+    """Return the C function that fills the parameter table of a run.
+
+    Given values replace the defaults of the file; then the derived parameters are computed from them.
+    """
     slots: list[Statement] = []
     info = model.symbols.info
     for i, entry in enumerate(model.slots.entries.values()):
@@ -36,6 +39,7 @@ def prepare_kernel(model: Model) -> Kernel:
 
 
 def mass_kernel(model: Model) -> Kernel:
+    """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates."""
     build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
     build.section("M")
     for k, mass in enumerate(model.masses):
@@ -44,9 +48,13 @@ def mass_kernel(model: Model) -> Kernel:
 
 
 def row_kernels(model: Model) -> list[Kernel]:
-    """Φ, Φ_q (dense, row by row), ν and γ of the closed linkage."""
+    """Return the C functions of the constraint equations of the closed linkage: Φ, Φ_q (dense, row by row), ν and γ."""
 
     def kernel(name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr], per: str = "") -> Kernel:
+        """Return the C function `name` that writes one value of each constraint equation to the array `out`.
+
+        `velocity`: the value depends on velocities; `per`: suffix of the unit, such as "/s".
+        """
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):
@@ -63,6 +71,7 @@ def row_kernels(model: Model) -> list[Kernel]:
 
 
 def _jacobian_kernel(model: Model) -> Kernel:
+    """Return the C function of the dense constraint Jacobian Φ_q of the closed linkage, without zero entries."""
     build = KernelBuilder(model.symbols, "jacobian", ["Phi_q of the closed linkage, dense, row by row; zeros kept."])
     build.section("non-zeros")
     place = {q: k for k, q in enumerate(model.q)}
@@ -73,7 +82,10 @@ def _jacobian_kernel(model: Model) -> Kernel:
 
 
 def start_kernel(model: Model) -> Kernel:
-    """The numbers of the file's `start`; behind those that are set, and their rates, those of journals."""
+    """Return the C function that writes the values of the file's `start`: guesses, set values and rates.
+
+    Those of journals follow the set values and rates of coordinates.
+    """
     build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
     build.section("start")
     for key, group in start_values(model).items():

@@ -1,14 +1,12 @@
-"""Kernels of driven chains: steps towards their closures, and three rates of their coordinates.
+"""Kernels of kinematically determined loops (driven chains): Newton steps onto their closures, and three rates.
 
-With c the coordinates of the chains and Φ_c their closures' Jacobian, block by block
+With c the dependent coordinates and Φ_c the Jacobian of their closures, block by block
 (generator/solvers/square_rows.py):
-
     Φ_c δ = Φ,    Φ_c ε = Φ_cc[δ, δ]/2,    Φ_c ċ = ν,    Φ_c c̈ = γ,    Φ_c c⃛ = d/dt (γ − Φ_c c̈) at the same c̈.
-
-The step δ + ε is that of Chebyshev's method, of order 3 (J. F. Traub, Iterative Methods for the Solution of Equations,
-1964, section 5.2): a second solve costs less than other sines. The third rate is what ∂f/∂t of the equations of
-motion needs; the last derivative is taken forwards, by t alone. Cosines and sines of the closures' angles are
-computed once and read by all kernels of the motion.
+The step δ + ε is that of Chebyshev's method, of order 3 (J. F. Traub, Iterative Methods for the Solution of
+Equations, 1964, section 5.2): a second solve costs less than new sines. ∂f/∂t of the equations of motion needs the
+third rate; its last derivative is taken by forward differentiation, by t alone. Cosines and sines of the closures'
+angles are computed once and read by all kernels of the motion.
 """
 
 from __future__ import annotations
@@ -36,9 +34,13 @@ TOLD_SIDES = Section(HELD, (Branches(""),))
 
 
 class ChainKernels:
-    """The kernels of a system's chains; `corners`: the function that evaluates the switches of their drives, if any."""
+    """C functions of a system's kinematically determined loops: steps, rates, third rates, directions.
+
+    `corners` is the function that evaluates the switching functions of their drives; None where there are none.
+    """
 
     def __init__(self, system: System, chain: Chain) -> None:
+        """Derive the functions of the loops in `chain`, whose coordinates follow those of `system` in q."""
         self.system, self.chain, self.symbols = system, chain, system.model.symbols
         own = replace(
             system, q=tuple(k.q for k in chain.known), v=tuple(k.rate for k in chain.known), rows=chain.rows, known=()
@@ -58,10 +60,11 @@ class ChainKernels:
         self.size = self._extent() if any("." in name for name in chain.names) else ZERO
 
     def _all(self) -> list[Kernel]:
+        """Return the functions of the loops in the order in which they are printed."""
         return [self._directions(), self._step(), self._rates(), self._third()]
 
     def _directions(self) -> Kernel:
-        """Cosines and sines, which all other kernels read."""
+        """Return the C function of the cosines and sines of the loops' angles, which all other functions read."""
         build = KernelBuilder(
             self.symbols,
             DIRECTIONS,
@@ -77,14 +80,14 @@ class ChainKernels:
         return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("out")), owner="")
 
     def _extent(self) -> sp.Expr:
-        """The size that a step of a slide is measured by: of all points together."""
+        """Return the parameter that scales steps of a slide: the root of the sum of all points' squares, in m."""
         geometry, slots = self.system.model.geometry, self.system.model.slots
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
         squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
         return slots.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
 
     def _step(self) -> Kernel:
-        """A step towards the closures at a position."""
+        """Return the C function of one step of Chebyshev's method towards the closures, at given coordinates."""
         build = KernelBuilder(
             self.symbols,
             STEP,
@@ -114,13 +117,13 @@ class ChainKernels:
         return build.build((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
     def _curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
-        """Φ_cc[x, x]."""
+        """Return Φ_cc[x, x] of one constraint equation: its second derivative along the step x."""
         along = dict(zip([k.q for k in self.chain.known], x, strict=True))
         slope = sp.Add(*(entry * along[q] for q, entry in row.phi_q.items()))
         return sp.expand(sp.Add(*(self.symbols.diff(slope, q) * step for q, step in along.items())))
 
     def _rates(self) -> Kernel:
-        """First and second rates at a position that closes the chains."""
+        """Return the C function of the first and second rates ċ, c̈ at coordinates that close the loops."""
         build = KernelBuilder(
             self.symbols,
             RATES,
@@ -149,7 +152,7 @@ class ChainKernels:
         return build.build((*STATE[:2], DISCRETE, PARAMETERS, result("v")), status=True, owner="", prune=True)
 
     def _third(self) -> Kernel:
-        """Third rates, forwards: d/dt of γ − Φ_c c̈ at the same c̈."""
+        """Return the C function of the third rates, by forward differentiation: d/dt of γ − Φ_c c̈ at the same c̈."""
         build = KernelBuilder(
             self.symbols,
             THIRD,
@@ -173,7 +176,10 @@ class ChainKernels:
         return build.build((*STATE, DISCRETE, PARAMETERS, result("out")), status=True, owner="", prune=True)
 
     def _moving(self) -> list[sp.Symbol]:
-        """Definitions in the chains' rates: they come after these, not in front of the kernel."""
+        """Return the defined symbols that depend on the loops' rates but on no rate or coordinate of the system.
+
+        Their definitions follow the computed rates instead of standing at the beginning of the function.
+        """
         info, definitions = self.symbols.info, self.symbols.definitions
         moving = {k.rate for k in self.chain.known}
         others = {*self.system.v, *self.system.q}
@@ -188,7 +194,10 @@ class ChainKernels:
         return [symbol for symbol in found if symbol not in others]
 
     def _corners(self, sides: Sequence[BranchOf]) -> Kernel:
-        """Switching functions of the drives, which nobody else may look at."""
+        """Return the C function of the switching functions of the loops' drives.
+
+        No other function evaluates these.
+        """
         build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of what drives the chains."])
         build.section("corners")
         for side in dict.fromkeys(sides):

@@ -1,4 +1,4 @@
-"""The kernels of one scene: what is computed at a state, each a straight-line function."""
+"""The right-hand side of a scene: accelerations and multipliers from the KKT system, as one straight-line function."""
 
 from __future__ import annotations
 
@@ -37,9 +37,10 @@ def dynamics_kernel(
     stabilised: bool = True,
     rescue: OnDependence | None = None,
 ) -> Kernel:
-    """q̈ and λ at a state, forces of joints with play included.
+    """Return the C function of q̈ and λ at a state, with the forces of joints with play.
 
-    Without stabilisation the rows are γ alone and Φ, Φ̇ are not computed: for methods that project.
+    `kkt`: the factorization to print; `rescue`: prints what is solved where a pivot vanishes.
+    Without `stabilised` the right-hand sides are γ alone and Φ, Φ̇ are not computed: for methods that project.
     """
     model = system.model
     build = KernelBuilder(model.symbols, name, doc)
@@ -79,7 +80,7 @@ def dynamics_kernel(
 
 
 def _events(model: Model, build: KernelBuilder) -> None:
-    """What the user watches: known at every state, also where a pivot vanishes."""
+    """Append the user's event functions, which are known at every state, also where a pivot vanishes."""
     if model.events:
         build.section("events")
     for index, event in enumerate(model.events):
@@ -87,7 +88,7 @@ def _events(model: Model, build: KernelBuilder) -> None:
 
 
 def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
-    """Calls the joint's force function; its result acts on both bodies."""
+    """Append the call of a joint's force function; return its force and moments as loads on both bodies."""
     name, out = clearance.label, RHS["clearance"][index]
     build.section(f"clearance {clearance.kind} {clearance.name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
@@ -106,7 +107,10 @@ def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> l
 
 
 def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
-    """γ − 2αΦ̇ − β²Φ a row; the residuals are kept in `rhs` for the diagnostics."""
+    """Return the right-hand side γ − 2αΦ̇ − β²Φ of each constraint equation, by node of the KKT matrix.
+
+    Φ and Φ̇ are also written to `rhs`, for diagnostics. Without `stabilised` the right-hand side is γ.
+    """
     if not stabilised:
         if kkt.rows:
             build.section("constraints: gamma")
@@ -129,7 +133,10 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
 
 
 def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
-    """Slip velocities; the force of slip goes to the coordinates, the right-hand side of stick is returned."""
+    """Append the slip velocity and kinetic force of each dry friction element; return the right-hand sides for stick.
+
+    The kinetic force is added to `forces`, the generalized forces by coordinate, in place.
+    """
     rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
         build.section("friction: slip, or stick as a row")
@@ -150,7 +157,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
 
 
 def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
-    """In stick the force is what the row needs; the slip's rate is J q̈ − γ."""
+    """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ."""
     place = {q: k for k, q in enumerate(kkt.system.q)}
     for r, friction in enumerate(kkt.frictions):
         rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
@@ -162,7 +169,10 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
 
 
 def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
-    """Half the second rate of e · e in joints whose surfaces do not give: by it a run finds their forces."""
+    """Append half the second derivative of e · e in joints with rigid surfaces.
+
+    A run determines the contact forces of these joints from it.
+    """
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
             outward = _outward_rate(system, clearance, clearance.wall, x)
@@ -175,7 +185,7 @@ def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]
 
 
 def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[int, sp.Expr]) -> sp.Expr:
-    """δ̈ at a wall of a guide: ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t."""
+    """Return δ̈ at a wall of a guide: ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t."""
     second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
     (n_x, n_y), e, edot = wall.normal, clearance.eccentricity, clearance.eccentricity_rate
     omega, turning = clearance.first.omega, system.turning(clearance.first, x)
@@ -185,7 +195,7 @@ def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[i
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """The way out when a pivot vanishes (engine/scene/singular.c); none where every pivot is a constant."""
+    """Append the branch for a vanishing pivot, which calls engine/scene/singular.c; none if all pivots are constant."""
     if not build.has_jumps:
         return
     build.line(Jump())
@@ -195,9 +205,9 @@ def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) ->
 
 
 def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
-    """Power of the drives, of the force elements that store nothing, of the joints with play (W).
+    """Append the powers in W of the drives, of the dissipative force elements and of the joints with play.
 
-    A drive does −λᵀν, and what inertia and loads need at a coordinate that it prescribes.
+    A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.
     """
     model = kkt.system.model
     multipliers = {r: PlaceSymbol(RHS["lambda"][r]) for r, row in enumerate(kkt.rows) if row.nu != 0}

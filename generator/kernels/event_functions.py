@@ -1,15 +1,14 @@
-"""What a step must not miss: corners and user events, pulses of time.
+"""Event functions and transients of a scene, as functions of their own that the step search evaluates.
 
-Corners and events are functions of the state whose zeros end a step, apart from the rest. A step may be long where the
-motion is smooth, and an expression may change its sign many times meanwhile. So each is looked at along a step
-(engine/watch/watched.c), by bounds over its parts. This is the part of the right-hand side that they need: mostly no
-more than the positions in them.
-
-Pulses and narrow bumps are terms that hang on time alone and may rise and fall between two looks. A step of a method
-sees forces and drives at its stages only. Polynomials, sines and exponentials of a linear argument show there what they
-do; e^(−t²), 1/(1 + t²), tanh t or a sine of a sine may be at rest at all of them and act in between. While friction
-sticks, or a rigid contact is closed, nothing may move, steps are long, and sines are among those too. Such terms are
-known without the state, and so are their bounds over a part of a step (engine/watch/time_terms.c, ranges.h).
+Event functions are the switching functions of the scene and the events of the user. Each is evaluated along a step
+apart from the rest of the right-hand side, by bounds over parts of the step (engine/watch/watched.c): an expression
+may change its sign many times in one step. The function printed here is the part of the right-hand side that they
+need: mostly no more than the positions in them.
+Transients (pulses) are terms that depend on time alone and may rise and fall between two stages of a step.
+Polynomials, sines and exponentials of a linear argument show at the stages what they do between them. e^(−t²),
+1/(1 + t²), tanh t or a sine of a sine may be at rest at all stages and act in between. While friction sticks or a
+rigid contact is closed, steps may be long, so that sines count as transients too. Bounds of these terms over a part
+of a step need no state (engine/watch/time_terms.c, ranges.h).
 """
 
 from __future__ import annotations
@@ -35,9 +34,10 @@ _KNOWN_LATE = RHS.name  # what reads this is known only once forces or accelerat
 
 
 def watched_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
-    """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces.
+    """Return the C function that evaluates the event functions alone; None if they depend on forces.
 
-    `loop_switches`: the function that evaluates the switches of driven chains, which `dynamics` does not evaluate.
+    It is the part of the right-hand side `dynamics` that the switching functions and user events read.
+    `loop_switches`: the function of the switching functions of kinematically determined loops, which `dynamics` lacks.
     """
     corners = {switch.index for switch in model.symbols.switches.of("")}
     if not corners and not model.events:
@@ -75,7 +75,7 @@ def watched_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None 
 
 
 def _merge_sections(*kernels: Kernel | None) -> list[Section]:
-    """The sections of several functions of one scene one after the other, each local once."""
+    """Return the sections of several functions of one scene one after the other, each local defined once."""
     known: set[str] = set()
     merged = []
     for kernel in kernels:
@@ -87,7 +87,10 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
 
 
 def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:
-    """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
+    """Return the C function of the ranges of all event functions over ranges of t, q and v.
+
+    `watched`: the function of their values. Switching functions are written to `out` first, then `events` user events.
+    """
     place: dict[Place, int] = {RHS["g"][k]: i for i, k in enumerate(corners)}
     place |= {RHS["event"][k]: i for k, i in enumerate(range(len(corners), len(corners) + events))}
     sections = []
@@ -102,19 +105,19 @@ def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kerne
 
 
 def reads_state(kernel: Kernel) -> bool:
-    """Whether it hangs on more than time."""
+    """Return whether a function depends on the state, not on time and parameters only."""
     return reads_beyond(kernel, 0)
 
 
 def reads_beyond(kernel: Kernel, count: int) -> bool:
-    """Whether it reads a coordinate, or the rate of one, behind the first `count`."""
+    """Return whether a function reads a coordinate with an index of `count` or more, or the rate of one."""
     values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
     places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
     return any(place.path >= (count,) for place in places)
 
 
 def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
-    """What is written of a statement that tells a corner or an event."""
+    """Return the statement that writes an event function if `statement` computes one, else None."""
     value = statement.value
     if isinstance(value, BranchOf) and int(value.args[0]) in corners:
         return Statement(RHS["g"][int(value.args[0])], value.args[1])
@@ -131,20 +134,26 @@ _POWERS = range(1, 5)  # likewise, of what does
 
 @dataclass(frozen=True)
 class TimeTerms:
-    """Terms of time alone: the first `pulses` of them may hide within a step of any motion, all within one of rest."""
+    """Terms of time alone that may be transients. The first `pulses` may hide within a step of any motion.
+
+    The others may do so only in steps during which the mechanism may be at rest.
+    """
 
     kernel: Kernel | None = None  # None: there are none
     pulses: int = 0
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """Return the number of terms."""
         statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
         return sum(isinstance(s, Statement) and not s.defines for s in statements)
 
 
 def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
-    """What a right-hand side reads of time alone. rests: something may hold the motion while forces vary."""
+    """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
+
+    rests: stick or a rigid contact may hold the motion while forces vary, so that sines count too.
+    """
     found = _read(dynamics, False)
     terms = list(found.terms)[:MOST]
     pulses = len(terms)
@@ -155,6 +164,7 @@ def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
 
 
 def _read(dynamics: Kernel, rests: bool) -> _Terms:
+    """Return the reader of terms after it has read all statements of a right-hand side."""
     found = _Terms(rests)
     for section in dynamics.sections:
         for statement in section.statements:
@@ -164,6 +174,7 @@ def _read(dynamics: Kernel, rests: bool) -> _Terms:
 
 
 def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
+    """Return the C function that evaluates the collected terms at a time."""
     outs = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
     arguments = (TIME, PARAMETERS, RHS)
@@ -172,9 +183,10 @@ def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
 
 
 class _Terms:
-    """Reads statements in their order; `terms` are in the order in which they are met."""
+    """Collector of terms of time alone from statements; `terms` keeps the order in which they are found."""
 
     def __init__(self, rests: bool) -> None:
+        """Begin without terms; with `rests`, sines and cosines count as terms too, exponentials do not."""
         self.shows = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
@@ -184,6 +196,7 @@ class _Terms:
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read(self, statement: Statement) -> None:
+        """Collect the terms of time in one statement; note whether its local depends on time and parameters alone."""
         if isinstance(statement.value, sp.Expr):
             statement = replace(statement, value=as_written(statement.value))
         value, local = statement.value, statement.defines
@@ -208,26 +221,26 @@ class _Terms:
             self.timed[local] = self.written_out(value)
 
     def written_out(self, value: sp.Expr) -> sp.Expr:
-        """With the locals that hang on time as what they are."""
+        """Return the expression with the locals that depend on time replaced by their definitions."""
         if self.names_in(value).isdisjoint(self.timed):
             return value
         inner = {s: self.timed[s.name] for s in value.free_symbols if s.name in self.timed}
         return value.xreplace(inner) if inner else value
 
     def names_in(self, value: sp.Expr) -> frozenset[str]:
-        """Of its symbols; each part is looked at once."""
+        """Return the names of the symbols in an expression; the result is cached for each subexpression."""
         if value not in self._names:
             parts = (self.names_in(part) for part in value.args)
             self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
         return self._names[value]
 
     def is_timed(self, value: sp.Expr) -> bool:
-        """Whether it hangs on time, and on nothing but time and parameters."""
+        """Return whether an expression depends on time, and on nothing but time and parameters."""
         names = self.names_in(value)
         return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.timed))
 
     def collect(self, value: sp.Expr) -> None:
-        """The terms of a value, and those within them."""
+        """Add the terms of an expression that stages may miss, and such terms within them."""
         if not self.is_timed(value) or self.is_tame(value):
             return
         if isinstance(value, BranchOf):
@@ -243,12 +256,16 @@ class _Terms:
         return None
 
     def is_tame(self, value: sp.Expr) -> bool:
-        """Whether it shows at the stages what it does between them. Corners end steps: their branches count."""
+        """Return whether the stages of a step show what an expression does between them.
+
+        Steps end at switching points, so that each branch counts by itself.
+        """
         if value not in self._tame:
             self._tame[value] = self._is_tame(self.written_out(value))
         return self._tame[value]
 
     def _is_tame(self, value: sp.Expr) -> bool:
+        """Return is_tame of an expression without looking it up in the cache."""
         if self.time not in self.names_in(value):
             return True
         match value:
@@ -263,14 +280,14 @@ class _Terms:
         return isinstance(value, self.shows) and self.is_linear(value.args[0])
 
     def is_linear(self, value: sp.Expr) -> bool:
-        """Whether its form says that it is linear in time."""
+        """Return whether the form of an expression shows that it is linear in time."""
         timed = [part for part in value.args if self.time in self.names_in(part)]
         if isinstance(value, (sp.Add, sp.Mul)):
             return (len(timed) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, timed))
         return value.is_Symbol or not timed
 
     def needed(self, terms: list[sp.Expr]) -> list[Statement]:
-        """The locals that the terms read, in their order."""
+        """Return the definitions of the locals that the terms read, in their order."""
         waiting = [s.name for term in terms for s in term.free_symbols]
         read: set[str] = set()
         while waiting:
@@ -283,7 +300,10 @@ class _Terms:
 
 
 def _unheld(statement: Statement) -> Statement:
-    """A side as its function has it over a range: nothing is held where time alone is looked at."""
+    """Return a statement whose branch follows the sign of its switching function instead of the held branch.
+
+    Over a range of time no branch is held.
+    """
     if isinstance(statement.value, BranchOf):
         return replace(statement, value=sp.sign(statement.value.args[1]))
     return statement

@@ -1,4 +1,4 @@
-"""Kernels of a scene without freedom in tree coordinates: Newton's step with rates, then all bodies."""
+"""Kernels of a kinematically driven scene (dof = 0) in tree coordinates: Newton's step, rates, motion of all bodies."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
-    """`close_step` at a position, `arrive` at a position with its rates."""
+    """Return the C functions `close_step` (at a position) and `arrive` (at a position with its rates)."""
     return [side_by_side(without_unused(kernel)) for kernel in (_close_step(system, rows), _arrive(system, rows))]
 
 
 def _close_step(system: System, rows: SquareRows) -> Kernel:
+    """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position."""
     build = KernelBuilder(
         system.model.symbols,
         "close_step",
@@ -45,6 +46,7 @@ def _close_step(system: System, rows: SquareRows) -> Kernel:
 
 
 def _arrive(system: System, rows: SquareRows) -> Kernel:
+    """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state."""
     build = KernelBuilder(
         system.model.symbols,
         "arrive",

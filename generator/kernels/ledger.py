@@ -1,4 +1,4 @@
-"""The story of a scene's reduction, from what the generator has done: runtime/contract/ledger.py says what is in it."""
+"""The record of a scene's reduction, from what the generator has done; runtime/contract/ledger.py has its fields."""
 
 from __future__ import annotations
 
@@ -16,8 +16,11 @@ from gudgeon.generator.solvers.sparsity import Block
 
 
 def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]) -> Story:
-    """`system` is what is integrated, `solved` what a right-hand side of it factors (None: none is), `blocks` the
-    groups that are solved one after the other where no freedom is left."""
+    """Return the record of which coordinates and constraint equations the generator has eliminated, and how.
+
+    `system`: what is integrated; `solved`: the KKT matrix of its right-hand side (None: there is none).
+    `blocks`: the groups of equations that are solved one after the other where no degree of freedom is left.
+    """
     tree = system.tree if isinstance(system, TreeSystem) else None
     steps = [*_opened(model), *(_reduced(model, system) if isinstance(system, TreeSystem) else ())]
     names = _unknowns(model, system)
@@ -38,12 +41,14 @@ def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks
 
 
 def _unknowns(model: Model, system: System) -> tuple[str, ...]:
+    """Return the names of the unknowns of a system: tree coordinates, or all absolute coordinates."""
     if isinstance(system, TreeSystem):
         return system.unknowns
     return tuple(model.symbols.info[q].meaning for q in model.q)
 
 
 def _solve(kkt: KKT) -> Solve:
+    """Return the size and cost of a factorization: unknowns, equations, non-zeros of the matrix and of L, products."""
     elimination = kkt.elimination
     return Solve(
         kkt.n,
@@ -55,7 +60,7 @@ def _solve(kkt: KKT) -> Solve:
 
 
 def _opened(model: Model) -> Iterator[Step]:
-    """From the closed linkage to the rows that constrain the motion."""
+    """Yield the steps from the closed linkage to the equations of the scene: joints with play, redundant equations."""
     dropped = model.redundancy.dropped
     open_rows = tuple(r.name for r in model.all_rows if r.owner in model.scene.play)
     yield Step(told.PLAY, tuple(model.scene.play), rows_gone=open_rows)
@@ -64,7 +69,7 @@ def _opened(model: Model) -> Iterator[Step]:
 
 
 def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
-    """From the absolute rows to the closures of the tree."""
+    """Yield the steps from the absolute constraint equations to the loop closures of the tree."""
     yield from _angles(model, system.tree)
     yield from _hubs(system.tree)
     links = [link for link in system.tree.links if link.joint]
@@ -87,14 +92,19 @@ def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
 
 
 def _owners(links: Iterable[Link]) -> tuple[str, ...]:
+    """Return the names of the joints of some links of the tree."""
     return tuple(link.joint.name for link in links if link.joint)
 
 
 def _angles(model: Model, tree: Tree) -> Iterator[Step]:
-    """Angles that rows say in others: each row that was used up has taken one."""
+    """Yield the elimination of angles that equations give in other angles: prescribed, constant and dependent ones.
+
+    Each equation used has eliminated one angle.
+    """
     drives = model.scene.mechanism.drives
 
     def kind(affine: Affine) -> str:
+        """Return the kind of an angle: prescribed by drives, constant, or dependent on other angles."""
         keys = [k for k in affine if k != CONSTANT]
         if any(k not in drives for k in keys):
             return told.FOLLOWING
@@ -113,7 +123,7 @@ def _angles(model: Model, tree: Tree) -> Iterator[Step]:
 
 
 def _hubs(tree: Tree) -> Iterator[Step]:
-    """The file's pairs of points give way to those that the tree and its closures take."""
+    """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use."""
     for hub in tree.hubs:
         taken = [link.joint for link in tree.links if link.joint in hub.pairs]
         taken += [joint for joint in tree.closing if joint in hub.pairs]

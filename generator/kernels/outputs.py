@@ -1,4 +1,4 @@
-"""The kernels around the dynamics: parameters, the closed linkage's Φ and its parts, the start, outputs."""
+"""The function of the outputs: reactions, drive torques, results of force elements and energies."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def outputs_kernel(model: Model) -> Kernel:
-    """Reactions, drive torques and energies from q, q̇ and λ."""
+    """Return the C function of reactions, drive torques, element results and energies from q, q̇ and λ."""
     build = KernelBuilder(
         model.symbols,
         "outputs",
@@ -52,19 +52,22 @@ def outputs_kernel(model: Model) -> Kernel:
 
 
 def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
-    """Results of the force elements: "coil.F" -> (value, unit)."""
+    """Return the results of the force elements by name, such as "coil.F" -> (value, unit)."""
     return {f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()}
 
 
 def kept_joints(model: Model) -> list[Joint]:
-    """Joints that constrain the motion: those without play."""
+    """Return the joints that constrain the motion: those without play."""
     return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
 
 
 def _reaction(
     model: Model, joint: Joint, rows: list[Row], multiplier: dict[str, sp.Expr]
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Force on the second body and moment about the joint's point; on the ground: what all the others do not get."""
+    """Return the force (F_x, F_y) on the second body and the moment about the joint's point, from −Φ_qᵀ λ.
+
+    If the second body is the ground, they follow from the wrench on all other bodies of the joint.
+    """
     first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
     kind = joint_types()[joint.kind]
     at = first if kind.reaction_at == "first" else second

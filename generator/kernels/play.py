@@ -1,4 +1,4 @@
-"""A joint with play as functions: its laws, each once a scene, the steps round them, their slopes."""
+"""The functions of a joint with play: its laws (each once a scene), the steps around them, and their derivatives."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from gudgeon.generator.symbols.storage import Place, Result
 
 
 def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
-    """How a joint calls its laws, by role, as far as it has them."""
+    """Return how a joint calls its laws, by role (normal, friction, film), for those that it has."""
     found = {}
     for law in (clearance.normal, clearance.friction, clearance.film):
         if law is not None:
@@ -34,7 +34,7 @@ def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> di
 
 
 def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
-    """Of the law's numbers, by the names that they have in it."""
+    """Return the meanings of a law's parameters, by the names that they have in the law."""
     info = model.symbols.info
     law = equations.law
     derived = {letter_of(law, name): info[one].meaning for name, one in equations.derived.items() if one in info}
@@ -42,7 +42,7 @@ def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
 
 
 def law_name(equations: LawEquations) -> str:
-    """The law's own name, "own_" before it if it is the user's, with the options that are not the usual ones."""
+    """Return the C name of a law: "own_" before it if a user defined it, and its options that are not the defaults."""
     usual = {option.name: option.default for option in equations.law.options}
     chosen = {name: value for name, value in equations.options.items() if value != usual[name]}
     name = equations.law.name
@@ -51,7 +51,7 @@ def law_name(equations: LawEquations) -> str:
 
 
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
-    """Abbreviations become locals, results go to `F_…_out`; the law says its source and validity."""
+    """Return the C function of a law: its steps become locals, its results are written to `F_…_out`."""
     results = equations.results
     build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations))
     build.section("")
@@ -68,7 +68,7 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
 
 
 def law_doc(equations: LawEquations) -> list[str]:
-    """What a comment says of a law: title, source, validity, options."""
+    """Return the lines of a law's C comment: title, source, validity, options."""
     law = equations.law
     chosen = [f"{name}: {value}" for name, value in equations.options.items()]
     usual = {option.name: option.default for option in law.options}
@@ -120,25 +120,26 @@ class Pin:
 
     @property
     def further(self) -> tuple[str, ...]:
-        """What its normal law reads besides δ and δ̇/δ̇⁻."""
+        """Return the names of the variables that the normal law reads in addition to δ and δ̇/δ̇⁻."""
         return self.clearance.normal.further if self.clearance.normal else ()
 
     @property
     def given(self) -> tuple[Place, ...]:
-        """The same as what a joint has it under: a force that is held is one of the contact."""
+        """Return where these further variables are stored at a joint: for rigid surfaces, in its contact state."""
         return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further))
 
     @property
     def has_transition(self) -> bool:
-        """Film and dry contact, blended."""
+        """Return whether the joint blends a film with a dry contact."""
         return self.clearance.film is not None and self.clearance.normal is not None
 
 
 def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin:
-    """Derives the laws and the steps, and with them the corners of the joint."""
+    """Derive the laws, the steps and the switching functions of a joint with play."""
     name, film = clearance.name, clearance.film
 
     def held(steps: Sequence[Step]) -> Statements:
+        """Return the statements of some steps, with guards at the centre and with held branches."""
         return _statements(model, steps, name, _guards(clearance, steps))
 
     laws, parts = law_calls(model, clearance, shared), {}
@@ -158,7 +159,7 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
 
 
 def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Chosen]:
-    """What stands for steps that are no number at the centre."""
+    """Return the replacements, by symbol, for steps that divide by zero at e = 0."""
     if not clearance.contour:
         return {} if clearance.wall else _GUARDED
     value = {step.symbol: step.value for step in steps}
@@ -171,7 +172,7 @@ def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, C
 
 
 def _statements(model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]) -> Statements:
-    """Steps with parameters read in place and corners as sides of switches."""
+    """Return steps as statements that read parameters in place and take branches from the joint's switches."""
     statements = []
     for step in steps:
         statements.append(Statement(step.symbol.name, guards.get(step.symbol) or in_place(model, step.value)))
@@ -182,7 +183,7 @@ def _statements(model: Model, steps: Sequence[Step], owner: str, guards: Mapping
 
 
 def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
-    """Derivatives of the film's part, of the dry one and of their blend ("share"), as far as the joint has them."""
+    """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present."""
     own = {}
     if clearance.film is not None:
         own["film"] = film_slopes(model, clearance, clearance.film)
@@ -198,5 +199,6 @@ def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> d
 
 
 def _slope_name(clearance: Clearance, part: str) -> str:
+    """Return the C name of the derivatives of one part of a joint, from the names of its laws."""
     laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": [clearance.mixed]}[part]
     return "_".join([f"{part}_slopes", *(law_name(law) for law in laws if law)])

@@ -1,9 +1,9 @@
-"""Every function of a scene before any text: `make_program` derives them, targets print them.
+"""Every function of a scene before any text is printed: `make_program` derives them, targets print them.
 
-The order here decides names and the numbers that `prepare` computes, so all of it is in one place: first the absolute
-formulation and what the closed linkage needs, then the joints with play, the tree, and last what the methods read.
-A program has symbols, parameters and corners of its own, those of the model first; when `make_program` returns, they
-are frozen. So its parameter table depends on the scene and the formulation alone.
+The order of derivation decides names and the order of derived parameters, so all of it is in one place: first the
+absolute formulation and what the closed linkage needs, then the joints with play, the tree, and last what the
+methods read. A program has its own symbols, parameters and switches, those of the model first. They are frozen when
+`make_program` returns, so that the parameter table depends on the scene and the formulation alone.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from gudgeon.generator.solvers.square_rows import SquareRows
 
 @dataclass(frozen=True)
 class Integrated:
-    """What the loops move forward: a system, with the order of its pivots and its angles (1) and lengths (0)."""
+    """The system that is integrated, with its KKT elimination; `angles`: 1 for each angle, 0 for each length."""
 
     system: System
     kkt: KKT
@@ -53,16 +53,16 @@ class Integrated:
 
     @property
     def corners(self) -> list[int]:
-        """The scene's own switches."""
+        """Return the numbers of the scene's own switches, without those of joints with play."""
         return sorted(switch.index for switch in self.system.model.symbols.switches.of(""))
 
 
 @dataclass(frozen=True)
 class TreeFunctions:
-    """The reduced formulation: `around` leads to tree coordinates and back.
+    """The functions of the reduced formulation; `around` convert between tree coordinates and absolute ones.
 
-    `plain` are the kernels of the motion before sines are put side by side, `kernels` after. `rescued`: where a pivot
-    vanishes the absolute formulation solves.
+    `plain`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after. `rescued`: where a
+    pivot vanishes, the absolute formulation solves.
     """
 
     system: TreeSystem
@@ -74,17 +74,17 @@ class TreeFunctions:
 
     @property
     def every(self) -> tuple[Kernel, ...]:
-        """All of them."""
+        """Return all functions of the reduced formulation in the order of printing."""
         return (*self.around, *self.kernels, *(self.chains.kernels if self.chains else ()))
 
 
 @dataclass(frozen=True)
 class Methods:
-    """What the integrators need beside the motion.
+    """The functions that integrators need in addition to the right-hand side.
 
-    `slopes` by joint with play and part, of the functions `sloping`; `closing` projects onto the rows, `plain_closing`
-    before sines are put side by side; `gains` by name: 2α and β² of Baumgarte's terms, 2α of a stick, as far as there
-    are any.
+    `slopes`: derivatives of contact forces, by joint with play and part, which call the functions `sloping`; `closing`
+    projects onto the constraints, `plain_closing` is the same before sines are paired. `gains` by name: 2α and β² of
+    Baumgarte's terms, 2α of a sticking friction, as far as they exist.
     """
 
     newton: Newton
@@ -97,7 +97,7 @@ class Methods:
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """Newton's, then the slopes."""
+        """Return the functions of Newton's method, then those of the derivatives of contact forces."""
         newton = self.newton
         own = (newton.linearize, newton.factor, newton.substitute, newton.solve)
         return (*own, *self.sloping, *self.at_complex)
@@ -105,10 +105,10 @@ class Methods:
 
 @dataclass(frozen=True)
 class Course:
-    """What a scene without freedom needs: its positions, by Newton's method.
+    """The functions of a kinematically driven scene (dof = 0), whose positions Newton's method determines.
 
-    `rows`: in tree coordinates, by blocks; None: in absolute ones, by the pivots of `solved`. `pivots`: the rows that
-    a status counts through.
+    `rows`: blocks of equations in tree coordinates; None: absolute coordinates, with the pivots of `solved`. `pivots`:
+    names of the equations to which a status number refers.
     """
 
     kernels: tuple[Kernel, ...]
@@ -118,7 +118,7 @@ class Course:
 
     @property
     def groups(self) -> tuple[Block, ...]:
-        """Rows that are solved one group after the other."""
+        """Return the blocks of equations that are solved one after the other."""
         return tuple(self.rows.blocks or ()) if self.rows else ()
 
 
@@ -126,8 +126,8 @@ class Course:
 class Program:
     """The functions of one scene in one formulation.
 
-    `closed`: of the closed linkage, and the outputs; `dynamics` and `watched` in absolute coordinates, which both
-    formulations have. `methods` where something is integrated, else `course`.
+    `closed`: those of the closed linkage, and the outputs; `dynamics` and `watched` in absolute coordinates, which both
+    formulations have. `methods` is set if something is integrated, else `course`.
     """
 
     model: Model
@@ -147,40 +147,44 @@ class Program:
 
     @cached_property
     def prepare(self) -> Kernel:
-        """The parameter table, which is complete."""
+        """Return the C function that fills the parameter table, which is complete now."""
         return closed_linkage.prepare_kernel(self.model)
 
     @property
     def integrates(self) -> bool:
-        """Whether anything is left to be integrated."""
+        """Return whether a state is left to integrate."""
         return self.methods is not None
 
     @property
     def staged(self) -> bool:
-        """Whether methods have what they need to find their stages together."""
+        """Return whether methods have the complex functions with which they solve all stages together."""
         return bool(self.methods and self.methods.at_complex)
 
     @property
     def right_hand_side(self) -> list[Kernel]:
-        """In absolute coordinates; what is watched beside it where that is what is integrated."""
+        """Return the right-hand side in absolute coordinates, with its event functions if it is integrated."""
         watches = self.watched is not None and self.formulation == "full" and self.integrates
         return [self.dynamics, self.watched] if watches and self.watched else [self.dynamics]
 
     @property
     def has_lanes(self) -> bool:
-        """Whether runs go side by side: not where rows come and go by run, nor with contours, which each has."""
+        """Return whether several runs can share vectors (lanes).
+
+        They cannot if the constraint equations differ between runs, if a contour is given or if loops are dependent.
+        """
         contours = any(clearance.contour for clearance in self.model.clearances)
         alone = self.model.rows_change or contours
         return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
 
 
 def make_program(model: Model, formulation: str = "reduced") -> Program:
-    """Derive every function of a scene.
+    """Derive every function of a scene for a formulation: "reduced", "full", STAGES or TAYLOR.
 
-    What is integrated, or followed where no freedom is left, is the reduced formulation, or with "full" the absolute
-    one. Outputs and starts are absolute in both. STAGES is the reduced one with what methods need whose stages are
-    found together; where there is a film, or all coordinates, they are there anyway. TAYLOR is the reduced one with
-    the Taylor series of the motion; BadValueError where that is not smooth.
+    Starts and outputs are in absolute coordinates in all of them. STAGES is the reduced one with the functions of
+    methods
+    that solve their stages together; scenes with a film and the full formulation have them anyway. TAYLOR is the
+    reduced
+    one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth.
     """
     model, full, staged = model.thawed(), formulation == "full", formulation == STAGES
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
@@ -223,7 +227,10 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
 
 
 def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integrated]:
-    """The reduced formulation; `pivots`: rows through which a status of the absolute one counts."""
+    """Derive the functions of the reduced formulation.
+
+    `pivots`: names of the equations to which a status number of the absolute formulation refers.
+    """
     system = reduce(model)
     around = tuple(side_by_side(without_unused(kernel)) for kernel in motion_kernels(model, system))
     plain, kkt, chains = reduced_kernels(system)
@@ -238,6 +245,7 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
 
 
 def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
+    """Derive the functions that integrators need; `staged`: with the complex ones for stages solved together."""
     sloping = SharedFunctions()
     slopes = {clearance.name: pin_slopes(model, clearance, sloping) for clearance in model.clearances}
     newton = Newton(integrated.system)
@@ -254,7 +262,10 @@ def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
 
 
 def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:
-    """In tree coordinates, unless the closures' pattern leaves one of them open."""
+    """Derive the functions of a kinematically driven scene.
+
+    They are in tree coordinates unless the pattern of the closures leaves a coordinate undetermined.
+    """
     rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     if integrated.reduced and rows.fits:
         names = tuple(row.name for row in integrated.system.rows)

@@ -1,4 +1,4 @@
-"""Onto the constraints: the smallest changes of positions and velocities, in the metric of M."""
+"""Projection onto the constraints: the smallest changes of positions and velocities, in the metric of M."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motion
 
 
 def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
-    """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
+    """Return the C function of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, the smallest x in the metric of M with Φ_q x = r.
+
+    The KKT elimination that it prints is returned as well.
+    """
     system = with_least_masses(system)
     model, kkt = system.model, KKT(system, rows)
     build = KernelBuilder(
@@ -48,7 +51,7 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
 
 
 def with_film_masses(system: System) -> System:
-    """The system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films; itself without films or rows."""
+    """Return the system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films; itself without films or equations."""
     model = system.model
     films = [clearance for clearance in model.clearances if clearance.film is not None]
     if not films or not system.rows:
@@ -66,10 +69,13 @@ def with_film_masses(system: System) -> System:
 
 
 def with_least_masses(system: System) -> System:
-    """The system with no body lighter than a share of all others; itself where a drive's rate jumps, an impulse on M.
+    """Return the system with no body lighter than 1e-4 of the mass of all, for projections.
 
-    In the metric of M the rows of both joints of a light body depend on each other but for the share of the masses.
-    Errors of the constraints may be measured by any masses. Those of ordinary machines stay as they are, to the bit.
+    In the metric of M the equations of both joints of a light body nearly depend on each other. Errors of the
+    constraints
+    may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive whose rate
+    jumps
+    is returned as it is: its projection is an impulse, which needs M.
     """
     model, derive = system.model, system.model.slots.derive
     if any(rate_jumps(drive) for drive in model.scene.mechanism.drives.values()):
@@ -86,9 +92,9 @@ def with_least_masses(system: System) -> System:
 
 
 def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
-    """One Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
+    """Return the C function of one Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
 
-    A film turns a change of ė by a tolerance into a force that nothing carries: e and ė are left as they are.
+    A film turns a change of ė by a tolerance into a force that nothing carries, so that e and ė are kept as they are.
     """
     weighed = with_least_masses(system)
     kkt = KKT(with_film_masses(weighed), system.rows)

@@ -1,4 +1,4 @@
-"""The kernels of the reduced formulation: right-hand side in tree coordinates, and the ways there and back."""
+"""The kernels of the reduced formulation: right-hand side in tree coordinates, conversion to and from absolute ones."""
 
 from __future__ import annotations
 
@@ -30,19 +30,22 @@ _DOC = (
 
 
 def is_rescued(system: TreeSystem) -> bool:
-    """Whether a vanishing pivot is mended; where constraints come and go it is told."""
+    """Return whether the absolute formulation solves where a pivot vanishes.
+
+    In scenes with dry friction, whose equations change, a vanishing pivot is reported instead.
+    """
     return bool(system.rows and not system.model.rows_change)
 
 
 def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
-    """From tree coordinates to absolute ones and back."""
+    """Return the C functions that convert tree coordinates to absolute ones and back."""
     return [_expand(system), *_reduce(model, system)]
 
 
 def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels | None]:
-    """Closures, right-hand side and projection in tree coordinates, sines one by one; the order of the pivots.
+    """Return closures, right-hand side, event functions and projection in tree coordinates, with the KKT elimination.
 
-    The kernels of the driven chains, if there are any, come last: their switches are watched along with the others.
+    The functions of kinematically determined loops are returned last; their switches are among the event functions.
     """
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_rescue)
@@ -58,7 +61,7 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels
 
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """Where a pivot vanishes the absolute formulation solves, which finds out what is dependent."""
+    """Append the branch for a vanishing pivot: the absolute formulation solves and finds the dependent equations."""
     if not build.has_jumps:
         return
     build.line(Jump())
@@ -67,7 +70,7 @@ def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
 
 
 def _expand(system: TreeSystem) -> Kernel:
-    """Absolute coordinates and velocities of a state of the tree."""
+    """Return the C function of the absolute coordinates and velocities of all bodies at a state of the tree."""
     build = KernelBuilder(
         system.model.symbols,
         "expand",
@@ -84,7 +87,7 @@ def _expand(system: TreeSystem) -> Kernel:
 
 
 def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Tree coordinates of an absolute state, and the accelerations of an absolute one."""
+    """Return the C functions of tree coordinates, rates and (if rescued) accelerations from absolute ones."""
     pairs = list(zip(model.q, model.v, strict=True))
     diff = model.symbols.diff
     names = (*system.unknowns, *(system.chain.names if system.chain else ()))
@@ -115,7 +118,7 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
 
 
 def _tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) -> list[sp.Expr]:
-    """Coordinates of the tree in absolute ones: angles, and slides along their axes."""
+    """Return the tree coordinates `names` as expressions in absolute ones: angles, and slides along their axes."""
     slides: dict[str, sp.Expr] = {}
     for link in system.tree.links:
         body = model.geometry.bodies[link.body]
@@ -125,7 +128,7 @@ def _tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) ->
 
 
 def _slide(model: Model, link: Link) -> sp.Expr:
-    """How far the second body has slid along the axis of the first."""
+    """Return the displacement of the joint's point on the second body along the axis on the first, in m."""
     assert link.joint is not None
     geometry = model.geometry
     first, second = geometry.point(link.joint.first), geometry.point(link.joint.second)
@@ -134,9 +137,10 @@ def _slide(model: Model, link: Link) -> sp.Expr:
 
 
 def _closures(system: TreeSystem) -> list[Kernel]:
-    """Φ of the closures and its rate."""
+    """Return the C functions of Φ of the loop closures and of its rate Φ̇."""
 
     def kernel(name: str, doc: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+        """Return the C function `name` that writes one value of each closure to `out`."""
         build = KernelBuilder(system.model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(system.rows):

@@ -1,7 +1,7 @@
-"""Functions that joints share: the same equations are one function of their numbers, called with those of each joint.
+"""Functions that joints share: equal equations become one C function, called with the parameters of each joint.
 
-Numbers are called as in the law's file (`K`, `mu`), corners are counted from the joint's first. What is shared keeps
-the order in which the terms of the first joint stand.
+Parameters are named as in the law's file (`K`, `mu`), switches are counted from the joint's first. A shared function
+keeps the order of terms of the first joint.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _SIDE = "side_"
 
 @dataclass(frozen=True)
 class SharedCall:
-    """A joint's call: the function, the parameters that it is given, its first corner."""
+    """A joint's call of a shared function: the function, the parameters passed to it, its first switch."""
 
     kernel: Kernel
     numbers: tuple[Place, ...]
@@ -36,18 +36,20 @@ class SharedCall:
 
 
 class SharedFunctions:
-    """The functions of a scene, each once, in the order in which they were first called."""
+    """The shared functions of a scene, each once, in the order in which they were first called."""
 
     def __init__(self) -> None:
+        """Begin without functions."""
         self.kernels: list[Kernel] = []
         self._known: dict[object, Kernel] = {}
 
     def call(
         self, kernel: Kernel, numbers: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
     ) -> SharedCall:
-        """The call of a joint's own function: `numbers` are what parameters (`p.pin_radius`) are called in it (`R_i`).
+        """Return the call that replaces a joint's own function, and keep the function if it is new.
 
-        `meanings` of numbers by these names go to its doc comment.
+        `numbers`: names in the function of the parameters that a joint has (`p.pin_radius` -> `R_i`).
+        `meanings` by these names are added to the function's comment.
         """
         called, given = _called(kernel, numbers)
         names = [called[place] for place in given]
@@ -73,7 +75,7 @@ class SharedFunctions:
 
 
 def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
-    """What parameters are called in the equations of a joint with play, those of its laws first."""
+    """Return the names of parameters in the equations of a joint with play, those of its laws first."""
     laws = clearance.laws
     named = [(letter_of(law.law, name), value) for law in laws for name, value in law.numbers.items()]
     pair = clearance.pair
@@ -96,7 +98,7 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
 
 
 def _of_file(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
-    """Parameters that stand in a law's own expression, by their names in the file's order."""
+    """Yield the parameters in a law's user expression with their names, in the file's order."""
     varying = [law.numbers[own.name] for law in laws for own in law.law.expressions]
     used = set().union(*(value.free_symbols for value in varying))
     for entry in model.slots.entries.values():
@@ -105,7 +107,7 @@ def _of_file(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, 
 
 
 def _called(kernel: Kernel, numbers: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
-    """What symbols and parameters are called in the shared function; these in the order of its arguments."""
+    """Return the names of symbols and parameters in the shared function, and its parameters in argument order."""
     fields: dict[Key, Place] = {line.defines: place for line in _lines(kernel) if (place := _number(line))}
     for line in _lines(kernel):
         for expression in line.expressions:
@@ -117,22 +119,24 @@ def _called(kernel: Kernel, numbers: Mapping[Place, str]) -> tuple[dict[Key, str
 
 
 def _lines(kernel: Kernel) -> Iterator[Line]:
+    """Yield the statements of a function."""
     return (line for section in kernel.sections for line in section.statements)
 
 
 def _number(line: Line) -> Place | None:
-    """The parameter that a local is; None where it is none."""
+    """Return the parameter that a local is a copy of; None if it is not one."""
     place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
     return place if place and place.is_parameter else None
 
 
 def _without_numbers(kernel: Kernel) -> tuple[Section, ...]:
+    """Return the sections of a function without the statements that copy parameters to locals."""
     left = (Section(s.title, tuple(x for x in s.statements if not _number(x))) for s in kernel.sections)
     return tuple(section for section in left if section.statements)
 
 
 def _arguments(kernel: Kernel, numbers: list[str], corners: bool) -> tuple[Argument, ...]:
-    """Numbers in the place of all Parameters; sides only where there are corners."""
+    """Return the arguments with named parameters instead of the struct; branches only if the function has switches."""
     found: list[Argument] = []
     for argument in kernel.arguments:
         if argument == PARAMETERS:
@@ -145,14 +149,16 @@ def _arguments(kernel: Kernel, numbers: list[str], corners: bool) -> tuple[Argum
 
 
 def _corners(kernel: Kernel) -> set[int]:
+    """Return the numbers of the switches whose branch a function reads."""
     return {int(part.args[0]) for line in _lines(kernel) for x in line.expressions for part in x.atoms(BranchOf)}
 
 
 def _contents(kernel: Kernel) -> Iterator[object]:
-    """What tells two functions apart: their lines, in the names of their text."""
+    """Yield what distinguishes two functions: their statements, in the names of the printed text."""
     first = kernel.first_corner or 0
 
     def named(value: sp.Basic) -> sp.Basic:
+        """Return an expression with its symbols named, and its switches counted, as in the printed text."""
         known = {s: kernel.names[key] for s in value.free_symbols if (key := key_of(s)) in kernel.names}
         symbols = {s: sp.Symbol(str(name), real=True) for s, name in known.items()}
         sides = {part: BranchOf(part.args[0] - first, part.args[1]) for part in value.atoms(BranchOf)}

@@ -1,4 +1,4 @@
-"""Taylor series of the motion in coordinates of a tree: which scenes have them, and why others do not."""
+"""Taylor series of the motion in tree coordinates: which scenes have them, and why others do not."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NAME = "taylor"
 
 
 def taylor_series(program: Program) -> Series:
-    """Of accelerations and powers. Raises BadValueError where the motion is not smooth."""
+    """Return the Taylor series of accelerations and powers; BadValueError if the motion is not smooth."""
     try:
         return _series(program)
     except NoSeries as why:
@@ -36,6 +36,7 @@ def taylor_series(program: Program) -> Series:
 
 
 def _series(program: Program) -> Series:
+    """Return the series, or raise NoSeries with the first reason why the scene has none."""
     model, tree = program.model, program.tree
     if tree is None or not program.integrates:
         raise NoSeries("nothing is integrated in coordinates of a tree")
@@ -53,7 +54,7 @@ def _series(program: Program) -> Series:
 
 
 def _of_motion(system: TreeSystem) -> Series:
-    """The right-hand side again, its linear system told."""
+    """Return the series of the right-hand side, derived with a record of its linear system."""
     kkt = _Told(system, daring=is_rescued(system))
     dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_nobody))
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
@@ -62,7 +63,7 @@ def _of_motion(system: TreeSystem) -> Series:
 
 
 class _Told(KKT):
-    """A system whose right-hand sides are locals, and whose unknowns are known afterwards, by node."""
+    """A KKT system that records its right-hand sides as named locals, and the symbols of its unknowns, by node."""
 
     loads: dict[str, int]
     unknowns: dict[int, sp.Symbol]
@@ -70,14 +71,14 @@ class _Told(KKT):
     def factorize(
         self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
     ) -> Factor:
-        """The same, by thresholds that no run changes: no discrete is at hand."""
+        """Factorize with the default thresholds as constants, since no discrete state is passed to the series."""
         share, size = (Threshold(one.name, one) for one in (share, size))
         return super().factorize(build, jumps, share, size)
 
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """The same, with both told."""
+        """Solve, and record the names of the right-hand sides and the symbols of the unknowns."""
         build.section("right-hand side")
         named = {k: build.local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
         self.loads = {symbol.name: k for k, symbol in named.items()}
@@ -87,11 +88,11 @@ class _Told(KKT):
 
 
 def _nobody(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """Mends a vanishing pivot: another method takes the step."""
+    """Append nothing for a vanishing pivot: another method takes the step then."""
 
 
 def _place(target: Place) -> Place | None:
-    """Where a result goes: what other functions tell of a state nobody wants here."""
+    """Return where a result is written: accelerations and powers; None for results that a series does not need."""
     match target:
         case Place("a"):
             return target

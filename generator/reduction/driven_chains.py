@@ -1,17 +1,14 @@
-"""Driven chains: coordinates of a tree that the drives alone determine, through loops of their own.
+"""Kinematically determined loops (driven chains): tree coordinates that the drives alone determine through loops.
 
-A crank that is driven moves the rest of its four-bar as well, whatever else hangs on it. In the pattern of closures
-by coordinates such parts are the square blocks of the decomposition of A. L. Dulmage and N. S. Mendelsohn (Canad. J.
-Math. 10:517, 1958): what no free coordinate reaches along a maximum matching. They are functions of t like a driven
-angle: positions by Newton on their own closures, rates by linear solves (generator/kernels/driven_chains.py). All other
-equations see them as prescribed, with
-
+A driven crank moves the rest of its four-bar as well, whatever else is attached to it. In the pattern of closures by
+coordinates such parts are the square blocks of the decomposition of A. L. Dulmage and N. S. Mendelsohn (Canad. J.
+Math. 10:517, 1958): the coordinates that no free one reaches along a maximum matching. They are functions of t like a
+driven angle: positions by Newton's method on their own closures, rates by linear solves
+(generator/kernels/driven_chains.py). All other equations have them as prescribed, with
     M_s s̈ + Φ_sᵀ λ = g_s − M_sc c̈,    Φ_s s̈ = γ − Φ_c c̈,
-
-and what they ask of the drives is their own equation's M_cs s̈ + M_cc c̈ − g_c.
-
-The rows of the model are independent (redundancy.py), and those of a block have entries in its coordinates only: so
-each block is regular but at dead centres.
+and the effort of the drives is their own equation's M_cs s̈ + M_cc c̈ − g_c.
+The constraint equations of the model are independent (redundancy.py), and those of a block have entries in its
+coordinates only, so that each block is regular except at dead centres.
 """
 
 from __future__ import annotations
@@ -36,7 +33,7 @@ LARGEST = 8  # rows of a block: a larger one is cheaper solved with its multipli
 
 @dataclass(frozen=True)
 class Direction:
-    """Cosine and sine of an angle that drives and chains determine, and how it turns with the chains' coordinates."""
+    """Cosine and sine of an angle that drives and loops determine, and its rates by the dependent coordinates."""
 
     cos: sp.Symbol
     sin: sp.Symbol
@@ -45,7 +42,7 @@ class Direction:
 
 @dataclass(frozen=True)
 class Chain:
-    """The determined coordinates by name, with their rates; the closures that determine them, by blocks."""
+    """The dependent coordinates by name, with their rates, and the closures that determine them, by blocks."""
 
     names: tuple[str, ...]
     known: tuple[Known, ...]
@@ -54,7 +51,7 @@ class Chain:
 
 
 def with_directions(chain: Chain, system: System, frames: Iterable[Frame], prescribed: set[str]) -> Chain:
-    """The chain with the directions that its closures are made of: C keeps their cosines and sines behind q.
+    """Return the chain with the directions in its closures: C stores their cosines and sines after q.
 
     `prescribed`: names of the coordinates that drives prescribe.
     """
@@ -73,7 +70,7 @@ def with_directions(chain: Chain, system: System, frames: Iterable[Frame], presc
 
 
 def _read(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
-    """All symbols that expressions read, through those that stand for others."""
+    """Return all symbols that expressions read, directly or through definitions."""
     found: set[sp.Symbol] = set()
     waiting = [s for e in expressions for s in e.free_symbols]
     while waiting:
@@ -85,10 +82,11 @@ def _read(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
 
 
 def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[Block]:
-    """Square blocks, in the order in which they follow from each other; none has a banned coordinate.
+    """Return the square blocks in solving order; none contains a banned coordinate.
 
-    `pattern`: coordinates by row, of rows that may be used. What a coordinate without a row of its own reaches is
-    free; where a row has no coordinate of its own, those that it has in common with others stay as they are.
+    `pattern`: coordinates by equation, for usable equations. A coordinate is free if it has no equation of its own, or
+    if
+    a free one reaches it. Coordinates of an equation without a coordinate of its own stay as they are.
     """
     owner = match_rows(pattern)
     free = {column for column in range(n) if column not in owner}
@@ -115,10 +113,10 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
 
 
 def determined(system: System, held: set[str]) -> tuple[list[int], list[int]]:
-    """Coordinates and rows of the driven chains, by number; rows named in `held` determine nothing.
+    """Return the dependent coordinates and their equations by number; equations in `held` determine nothing.
 
-    Friction that may stick needs a coordinate that is free: where the drives alone tell its slip, its force is one
-    of the closures' among others, and the chain stays as it is.
+    Friction that may stick needs a free coordinate: if the drives alone determine its slip, its force is part of the
+    closures' multipliers, and the loop is not reduced.
     """
     place = {q: k for k, q in enumerate(system.q)}
     usable = [r for r, row in enumerate(system.rows) if row.name not in held]
@@ -138,10 +136,10 @@ S = TypeVar("S", bound=System)
 
 
 def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]) -> tuple[S, Chain]:
-    """The system with these coordinates as functions of t, without these rows; `names` are those of all coordinates.
+    """Return the system with these coordinates as functions of t and without these equations, and the chain.
 
-    In C the free coordinates come first in q, then the chains'; in v their rates, then second and third rates of the
-    chains'.
+    `names` are those of all coordinates. In C the free coordinates come first in q, then the dependent ones; in v their
+    rates, then second and third rates of the dependent ones.
     """
     kept = [k for k in range(len(system.q)) if k not in columns]
     known = _homes(system, names, kept, columns)
@@ -150,9 +148,11 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
     place = {k: i for i, k in enumerate(kept)}
 
     def mass(k: int, j: int) -> sp.Expr:
+        """Return an entry of M, whose lower triangle is stored."""
         return system.mass.get((max(k, j), min(k, j)), ZERO)
 
     def applied(k: int) -> sp.Expr:
+        """Return the applied force on a coordinate minus M c̈ of the dependent coordinates."""
         return sp.Add(system.applied[k], *(-mass(k, c) * x.second for c, x in zip(columns, known, strict=True)))
 
     given = tuple(_given(g, place, columns, known) for g in system.given)
@@ -181,11 +181,12 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
 
 
 def _homes(system: System, names: Sequence[str], kept: Sequence[int], columns: Sequence[int]) -> tuple[Known, ...]:
-    """Where C keeps the coordinates and their rates from now on."""
+    """Move the coordinates and rates to their new places in C; return the dependent coordinates with their rates."""
     symbols = system.model.symbols
     info = symbols.info
 
     def move(symbol: sp.Symbol, home: Place) -> None:
+        """Set the place at which C reads a symbol."""
         info[symbol] = replace(info[symbol], home=home)
 
     for i, k in enumerate((*kept, *columns)):
@@ -201,14 +202,14 @@ def _homes(system: System, names: Sequence[str], kept: Sequence[int], columns: S
 
 
 def _given(given: Given, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Given:
-    """A prescribed coordinate meets the chains' accelerations in its inertia."""
+    """Return a prescribed coordinate with the dependent accelerations in its applied force."""
     pushed = (-given.mass[c] * x.second for c, x in zip(columns, known, strict=True) if c in given.mass)
     own = {place[k]: m for k, m in given.mass.items() if k in place}
     return replace(given, mass=own, applied=sp.Add(given.applied, *pushed))
 
 
 def _row(row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System) -> Row:
-    """Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈."""
+    """Return a constraint equation with Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈."""
     rate_of = dict(zip(system.q, system.v, strict=True))
     own = {q: entry for q, entry in row.phi_q.items() if q not in rates}
     moved = {q: entry for q, entry in row.phi_q.items() if q in rates}
@@ -222,14 +223,14 @@ def _row(row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symb
 
 
 def _friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
-    """J ṡ̇ = γ − J_c c̈; the slip itself has the chains' rates in it."""
+    """Return a friction with J s̈ = γ − J_c c̈; the slip itself contains the dependent rates."""
     moved = (-entry * second[q] for q, entry in friction.jacobian.items() if q in second)
     own = {q: entry for q, entry in friction.jacobian.items() if q not in second}
     return replace(friction, jacobian=own, gamma=sp.Add(friction.gamma, *moved))
 
 
 def _motion(motion: Motion, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Motion:
-    """J of the free coordinates; the chains' accelerations go to the bias."""
+    """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias."""
     second = {c: x.second for c, x in zip(columns, known, strict=True)}
     bias = tuple(
         sp.Add(own, *(entry * second[k] for k, entry in line.items() if k in second))

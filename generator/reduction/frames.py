@@ -1,4 +1,4 @@
-"""Coordinates and turning frames of a tree: what angles and slides are, and how they move.
+"""Coordinates and turning frames of a tree: affine angles and slides, their values, rates and derivatives.
 
 A frame turns with an angle that is affine in the coordinates, θ = const + Σ c_k z_k; the z are the unknown
 coordinates s and those that drives prescribe. Bodies that keep their angle to each other share a frame.
@@ -19,7 +19,7 @@ CONSTANT = ""
 
 
 def substitute(affine: Affine, name: str, value: Affine) -> Affine:
-    """`affine` with the coordinate `name` replaced by what it is."""
+    """Return `affine` with the coordinate `name` replaced by the affine expression `value`."""
     if name not in affine:
         return affine
     out = {k: c for k, c in affine.items() if k != name}
@@ -34,7 +34,7 @@ Pair = tuple[sp.Expr, sp.Expr]
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A coordinate with its rate; `acceleration` is known where a drive prescribes it, else None."""
+    """A coordinate with its rate; `acceleration` is set if a drive prescribes it, else None."""
 
     name: str
     q: sp.Symbol
@@ -44,7 +44,7 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Frame:
-    """Directions that turn together; `turns` are the c_k by coordinate, none for the ground's."""
+    """Directions that turn together; `turns` are the c_k by coordinate, empty for the ground's."""
 
     name: str
     theta: sp.Expr
@@ -58,23 +58,29 @@ class Motions:
     """Values and rates of affine quantities, with the rules by which their symbols are differentiated."""
 
     def __init__(self, symbols: Symbols, slots: Slots, t: sp.Symbol) -> None:
+        """Begin without coordinates and arms."""
         self.symbols, self.slots, self.t = symbols, slots, t
         self.coordinates: dict[str, Coordinate] = {}
         self._arms: dict[tuple[str, sp.Expr, sp.Expr], Pair] = {}
 
     def hoisted(self, name: str, affine: Affine) -> Affine:
-        """Coefficients as numbers of `prepare`."""
+        """Return an affine expression with its coefficients as derived parameters."""
         return {k: self.slots.derive(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
 
     def value(self, affine: Affine) -> sp.Expr:
+        """Return the value of an affine expression."""
         terms = (c if k == CONSTANT else c * self.coordinates[k].q for k, c in affine.items())
         return sp.Add(*terms)
 
     def rate(self, affine: Affine) -> sp.Expr:
+        """Return the rate of an affine expression."""
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
     def rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """Derivatives by unknown coordinates, and by t through the prescribed ones, of what moves by `columns`."""
+        """Return the derivatives of a quantity with the given columns ∂/∂z: by unknown coordinates, and by t.
+
+        The derivative by t is through the prescribed coordinates.
+        """
         rules: dict[sp.Symbol, sp.Expr] = {}
         through_t = ZERO
         for k, entry in columns.items():
@@ -86,7 +92,7 @@ class Motions:
         return rules | ({self.t: through_t} if through_t != 0 else {})
 
     def rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """The same of Σ column · rate, where the columns themselves move."""
+        """Return the derivatives of a rate Σ column · ż, whose columns move as well."""
         by = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
         rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
         rules = {q: value for q in by if (value := self.symbols.diff(rate, q)) != 0}
@@ -96,19 +102,19 @@ class Motions:
         return rules
 
     def named(self, wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """A symbol that stands for `value` and moves by `columns`."""
+        """Return a new symbol for `value`, with derivatives by its columns."""
         symbol = self.symbols.define(wanted, value)
         self.symbols.rules[symbol] = self.rules(columns)
         return symbol
 
     def named_rate(self, wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """A symbol of a rate."""
+        """Return a new symbol for a rate, with derivatives by the columns of the quantity."""
         symbol = self.symbols.define(wanted, value)
         self.symbols.rules[symbol] = self.rate_rules(columns)
         return symbol
 
     def frame(self, name: str, affine: Affine) -> Frame:
-        """The frame that turns with θ = `affine`; its cosine and sine are one pair of symbols."""
+        """Return the frame that turns with θ = `affine`; its cosine and sine are one pair of symbols."""
         turns = {k: c for k, c in affine.items() if k != CONSTANT}
         theta, omega = self.value(affine), self.rate(affine)
         if not theta.is_Symbol:
@@ -123,7 +129,7 @@ class Motions:
         return frame
 
     def arm(self, frame: Frame, w: Pair, wanted: str) -> Pair:
-        """A(θ) w as a pair of symbols; the opposite of a known arm is its negative."""
+        """Return A(θ) w as a pair of symbols; the opposite of a known arm is its negative."""
         x, y = w
         if not frame.turns or w == (ZERO, ZERO):
             return w
@@ -141,7 +147,7 @@ class Motions:
         return self._arms[frame.name, x, y]
 
     def constant_vector(self, wanted: str, w: Pair, shown: str = "") -> Pair:
-        """Both components as numbers of `prepare`."""
+        """Return both components of a constant vector as derived parameters."""
         x, y = (
             self.slots.derive_signed(
                 f"{wanted}_{axis}", sp.expand(part), "vector in its frame", f"{shown}_{axis}" if shown else ""

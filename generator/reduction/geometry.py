@@ -29,7 +29,7 @@ GROUND_FRAME = Frame(GROUND, ZERO, ZERO, ONE, ZERO, {})
 
 @dataclass(frozen=True)
 class TreePoint(PointFrame):
-    """A point with its terms, written by the one that carries it; `place` is (x, y), `speed` (ẋ, ẏ)."""
+    """A point with its terms, relative to the body that carries it; `place` is (x, y), `speed` (ẋ, ẏ)."""
 
     terms: Terms
     place: Pair
@@ -37,30 +37,33 @@ class TreePoint(PointFrame):
 
     @property
     def x(self) -> sp.Expr:
+        """Return the x coordinate in the ground frame."""
         return self.place[0]
 
     @property
     def y(self) -> sp.Expr:
+        """Return the y coordinate in the ground frame."""
         return self.place[1]
 
     @property
     def velocity(self) -> Pair:
+        """Return the velocity (ẋ, ẏ)."""
         return self.speed
 
     @cached_property
     def columns(self) -> Mapping[str, Pair]:
-        """∂(x, y)/∂z by coordinate."""
+        """Return ∂(x, y)/∂z by coordinate."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         return geometry.columns(self.terms)
 
     @property
     def turns(self) -> Mapping[str, sp.Expr]:
-        """∂θ/∂z of its body."""
+        """Return ∂θ/∂z of the point's body by coordinate."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         return geometry.frame_of[self.body.name].turns if self.body else {}
 
     def flat(self) -> TreePoint:
-        """The same point as one sum: what two points share of their way from the root cancels in differences."""
+        """Return the same point as one sum of arms: in differences of two points, common arms cancel."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         rate = geometry.motions.coordinates
         speed = [sp.Add(*(c[i] * rate[k].v for k, c in self.columns.items())) for i in range(2)]
@@ -68,9 +71,10 @@ class TreePoint(PointFrame):
 
 
 class TreeGeometry(Geometry):
-    """Makes the symbols of the bodies from a tree; the functions that ask for points do not see a difference."""
+    """Makes the symbols of bodies and points from a tree, for functions that also take a `Geometry`."""
 
     def __init__(self, model: Model, tree: Tree, symbols: Symbols, slots: Slots) -> None:
+        """Begin with the ground; `place` adds the bodies."""
         self.symbols, self.slots, self.mechanism = symbols, slots, model.scene.mechanism
         self.local, self.tree, self._model = model.geometry.local, tree, model
         self.bodies: dict[str, BodySymbols] = {}
@@ -83,7 +87,10 @@ class TreeGeometry(Geometry):
         self._coms: dict[str, TreePoint] = {}
 
     def place(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
-        """Coordinates, frames, then body by body along the tree; `slides` are those that are known."""
+        """Make coordinates and frames, then position body by body along the tree.
+
+        `slides`: slides that are functions of other coordinates.
+        """
         self.motions = motions
         state = 0
         free = set(self.tree.free)
@@ -99,7 +106,7 @@ class TreeGeometry(Geometry):
             self._carry(link)
 
     def _coordinate(self, name: str, state: int) -> int:
-        """A new unknown."""
+        """Add an unknown coordinate with index `state`; return how many were added: 1."""
         new, owner = self.symbols.new, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
         q, v = (new(n, Place(letter)[state], name) for n, letter in zip(names, "qv", strict=True))
@@ -107,7 +114,7 @@ class TreeGeometry(Geometry):
         return 1
 
     def _turn_with(self, body: str) -> None:
-        """The body's frame: that of a body which keeps its angle to it, else a new one."""
+        """Set the frame of a body: that of a body with a constant angle to it, else a new one."""
         affine = self.motions.hoisted(f"{body}_theta", self.tree.angles[body])
         constant = affine.get(CONSTANT, ZERO)
         turns = {k: c for k, c in affine.items() if k != CONSTANT}
@@ -123,7 +130,7 @@ class TreeGeometry(Geometry):
         self.frame_of[body] = frame
 
     def in_frame(self, body: str, s: Pair, wanted: str) -> Pair:
-        """A vector of the body in its frame's axes."""
+        """Return a vector of a body in its frame's axes; `wanted`: base of the names of derived parameters."""
         offset = self._offset[body]
         if offset == 0 or s == (ZERO, ZERO):
             return s
@@ -134,7 +141,7 @@ class TreeGeometry(Geometry):
         return self.motions.constant_vector(wanted, turned, f"{wanted}_in_frame")
 
     def _carry(self, link: Link) -> None:
-        """Where the body is, from its parent; then its symbols."""
+        """Set where a body is, from its parent; then make its symbols."""
         body = link.body
         if link.joint is None:
             units = ((ONE, ZERO), (ZERO, ONE))
@@ -152,12 +159,13 @@ class TreeGeometry(Geometry):
         self._body_symbols(body)
 
     def _free(self, terms: Terms) -> TreePoint:
+        """Return the base point of a body that moves freely, at its two slides."""
         place = tuple(self.motions.value(self.slides[name]) for _, name in terms)
         speed = tuple(self.motions.rate(self.slides[name]) for _, name in terms)
         return TreePoint(self, None, (ZERO, ZERO), terms, (place[0], place[1]), (speed[0], speed[1]))
 
     def _slid(self, base: TreePoint, body: str, slide: str, w: Pair) -> TreePoint:
-        """The base moved along an axis of a body."""
+        """Return the base point moved along an axis w of a body."""
         frame, value, rate = self.frame_of[body], self.value(slide), self.rate(slide)
         u_x, u_y = self.motions.arm(frame, w, f"axis_{slide}")
         terms = self._sum(base.terms, {(frame.name, slide): w}, slide)
@@ -169,13 +177,15 @@ class TreeGeometry(Geometry):
         return TreePoint(self, None, (ZERO, ZERO), terms, place, speed)
 
     def value(self, slide: str) -> sp.Expr:
+        """Return the value of a slide; 1 for a term without one."""
         return self.motions.value(self.slides[slide]) if slide else ONE
 
     def rate(self, slide: str) -> sp.Expr:
+        """Return the rate of a slide; 0 for a term without one."""
         return self.motions.rate(self.slides[slide]) if slide else ZERO
 
     def _sum(self, terms: Terms, more: Terms, wanted: str) -> Terms:
-        """Terms of the same frame and slide are one."""
+        """Return the sum of terms; those with the same frame and slide are added."""
         out = dict(terms)
         for key, w in more.items():
             if key in out:
@@ -184,7 +194,7 @@ class TreeGeometry(Geometry):
         return {key: w for key, w in out.items() if w != (ZERO, ZERO)}
 
     def position(self, terms: Terms) -> Pair:
-        """Σ value A(θ) w."""
+        """Return the position Σ value A(θ) w of terms."""
         x, y = ZERO, ZERO
         for (frame, slide), w in terms.items():
             a_x, a_y = self.motions.arm(self.frames[frame], w, f"arm_{frame}")
@@ -192,7 +202,7 @@ class TreeGeometry(Geometry):
         return x, y
 
     def columns(self, terms: Terms) -> dict[str, Pair]:
-        """∂r/∂z by coordinate."""
+        """Return ∂r/∂z of terms by coordinate."""
         out: dict[str, Pair] = {}
         for (name, slide), w in terms.items():
             frame, value = self.frames[name], self.value(slide)
@@ -205,7 +215,7 @@ class TreeGeometry(Geometry):
         return out
 
     def bias(self, terms: Terms) -> Pair:
-        """r̈ where no coordinate accelerates: Σ (−θ̇² value + 2 θ̇ rate ẑ) A w."""
+        """Return r̈ of terms if no coordinate accelerates: Σ (−θ̇² value + 2 θ̇ rate ẑ) A w."""
         x, y = ZERO, ZERO
         for (name, slide), w in terms.items():
             frame = self.frames[name]
@@ -215,11 +225,14 @@ class TreeGeometry(Geometry):
         return x, y
 
     def along(self, slide: str) -> dict[str, sp.Expr]:
-        """∂value/∂z of a slide."""
+        """Return ∂value/∂z of a slide by coordinate."""
         return {k: c for k, c in self.slides[slide].items() if k != CONSTANT} if slide else {}
 
     def _at(self, body: str, s: Pair, wanted: str, names: tuple[str, str, str, str]) -> TreePoint:
-        """The point s of a body (from its centre of mass), with symbols of these names for (x, y, ẋ, ẏ)."""
+        """Return the point s of a body (from its centre of mass).
+
+        `names`: those of its symbols for (x, y, ẋ, ẏ).
+        """
         base, own = self._base[body]
         frame, local = self.frame_of[body], self.in_frame(body, s, wanted)
         w = self.motions.constant_vector(f"{wanted}_span", (local[0] - own[0], local[1] - own[1]))
@@ -239,16 +252,17 @@ class TreeGeometry(Geometry):
         return TreePoint(self, self.bodies.get(body), arm, terms, place, speed)
 
     def is_short(self, value: sp.Expr) -> bool:
-        """A symbol, its negative, or a number of `prepare`."""
+        """Return whether a value is a symbol, its negative, or a number, which needs no local."""
         return bool(value.is_Symbol or (-value).is_Symbol or value.is_Number)
 
     def _body_symbols(self, body: str) -> None:
-        """(x, y, θ) and its rates, as symbols that the coordinates move."""
+        """Make the symbols (x, y, θ) of a body and of its rates, as functions of the coordinates."""
         of, frame, motions = self._model.geometry.bodies[body], self.frame_of[body], self.motions
         at = self._at(body, (ZERO, ZERO), f"{body}_com", (f"{body}_x", f"{body}_y", f"{body}_vx", f"{body}_vy"))
         theta, omega = frame.theta + self._offset[body], frame.omega
 
         def symbol(wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr], rate: bool = False) -> sp.Symbol:
+            """Return a symbol as it is, or a new one for a longer value."""
             name = motions.named_rate if rate else motions.named
             return value if value.is_Symbol else name(wanted, value, columns)
 
@@ -275,20 +289,20 @@ class TreeGeometry(Geometry):
         self._coms[body] = replace(at, body=self.bodies[body])
 
     def com(self, body: str) -> TreePoint:
-        """The centre of mass."""
+        """Return the centre of mass of a body as a point."""
         return self._coms[body]
 
     def angle(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
-        """cos θ and sin θ of a body."""
+        """Return cos θ and sin θ of a body."""
         x, y = self.turn(body, (ONE, ZERO), f"axis_{body.name}")
         return x, y
 
     def turn(self, body: BodySymbols, s: Pair, wanted: str, point: str = "") -> Pair:
-        """A(θ) s."""
+        """Return A(θ) s of a vector of a body."""
         return self.motions.arm(self.frame_of[body.name], self.in_frame(body.name, s, wanted), wanted)
 
     def beside(self, ref: PointRef, offset: Pair, wanted: str) -> TreePoint:
-        """The frame of what lies beside a named point, by an offset in its body's frame."""
+        """Return the frame of a point at an offset from a named point, given in its body's frame."""
         s = self._beside(ref, offset, wanted)
         if ref.body == GROUND:
             return TreePoint(self, None, s, {(GROUND, ""): s}, s, (ZERO, ZERO))
@@ -296,7 +310,7 @@ class TreeGeometry(Geometry):
         return self._at(ref.body, s, wanted, names)
 
     def point(self, ref: PointRef) -> TreePoint:
-        """The frame of a named point, made once."""
+        """Return the frame of a named point, made once."""
         key = ref.body, ref.point
         if key not in self._points:
             if ref.body == GROUND:

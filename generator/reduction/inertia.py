@@ -1,4 +1,4 @@
-"""Mass matrix and velocity terms in tree coordinates, with every constant that `prepare` can compute in front.
+"""Mass matrix and velocity terms in tree coordinates, with all constants as derived parameters.
 
 With r_b = Σ_T value_T A(θ_T) w_bT (generator/reduction/geometry.py) all products of positions are
     P_TU = Σ_b m_b (A_T w_bT) · (A_U w_bU) = α cos(θ_U − θ_T) − β sin(θ_U − θ_T),   α = Σ m w_T · w_U,
@@ -18,9 +18,10 @@ from gudgeon.generator.reduction.geometry import Term, TreeGeometry
 
 
 class Inertia:
-    """Derives M, the velocity terms and the weights of one tree geometry; coordinates go by name."""
+    """Derives M, the velocity terms and the weights of one tree geometry; coordinates are identified by name."""
 
     def __init__(self, geometry: TreeGeometry, gravity: Pair) -> None:
+        """Collect the constants of all bodies and derive the mass matrix."""
         self.geometry, self.motions, self.gravity = geometry, geometry.motions, gravity
         self.symbols, self.slots = geometry.symbols, geometry.slots
         self._alpha: dict[tuple[Term, Term], tuple[sp.Expr, sp.Expr]] = {}
@@ -31,7 +32,7 @@ class Inertia:
         self.mass = self._mass()
 
     def _collect(self) -> None:
-        """α, β and Σ m w over the bodies; a term that does not move says nothing."""
+        """Sum α, β and Σ m w over the bodies, without terms that do not move."""
         for body in self.geometry.bodies.values():
             moving = [(T, w) for T, w in self.geometry.com(body.name).terms.items() if T != (GROUND, "")]
             for i, (T, w) in enumerate(moving):
@@ -45,7 +46,7 @@ class Inertia:
                     self._alpha[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
 
     def _angles_between(self, one: Frame, two: Frame) -> Pair:
-        """cos and sin of θ_two − θ_one."""
+        """Return cos and sin of θ_two − θ_one."""
         if one.name == two.name:
             return ONE, ZERO
         if not one.turns:
@@ -61,13 +62,16 @@ class Inertia:
         return self._between[one.name, two.name]
 
     def _rules(self, cos: sp.Symbol, sin: sp.Symbol, one: Frame, two: Frame) -> None:
-        """d cos = −sin dψ, d sin = cos dψ with ψ = θ_two − θ_one; the same for P and Q."""
+        """Set the derivatives of a cosine and sine of ψ = θ_two − θ_one: d cos = −sin dψ, d sin = cos dψ.
+
+        P and Q have the same rules.
+        """
         turns = {k: two.turns.get(k, ZERO) - one.turns.get(k, ZERO) for k in {**one.turns, **two.turns}}
         self.symbols.rules[cos] = self.motions.rules({k: -c * sin for k, c in turns.items()})
         self.symbols.rules[sin] = self.motions.rules({k: c * cos for k, c in turns.items()})
 
     def products(self, T: Term, U: Term) -> Pair:
-        """P_TU and Q_TU."""
+        """Return P_TU and Q_TU of two terms."""
         if (T, U) not in self._alpha:
             if (U, T) not in self._alpha:
                 return ZERO, ZERO
@@ -92,23 +96,24 @@ class Inertia:
         return self._products[T, U]
 
     def _named(self, wanted: str, value: sp.Expr) -> sp.Expr:
+        """Return a number as it is, else a new symbol for the value."""
         return value if value.is_Number else self.symbols.define(wanted, value)
 
     def _columns(self, T: Term) -> dict[str, Pair]:
-        """∂r_T/∂z = (rot ẑ + along) A w by coordinate."""
+        """Return ∂r_T/∂z = (rot ẑ + along) A w as pairs (rot, along) by coordinate."""
         frame, along, value = self.geometry.frames[T[0]], self.geometry.along(T[1]), self.geometry.value(T[1])
         names = dict.fromkeys((*frame.turns, *along))
         return {k: (frame.turns.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
 
     def _pairs(self) -> Iterable[tuple[Term, Term]]:
-        """Ordered pairs of terms that a body has together."""
+        """Yield ordered pairs of terms that some body has together."""
         for T, U in self._alpha:
             yield T, U
             if T != U:
                 yield U, T
 
     def _mass(self) -> dict[tuple[str, str], sp.Expr]:
-        """Both triangles of M, prescribed coordinates included."""
+        """Return both triangles of M by names of coordinates, prescribed ones included."""
         total: dict[tuple[str, str], sp.Expr] = {}
         for T, U in self._pairs():
             P, Q = self.products(T, U)
@@ -128,7 +133,7 @@ class Inertia:
         return out
 
     def hoist(self, name: str, value: sp.Expr) -> sp.Expr:
-        """A sum with the constant factor of each product computed in `prepare`."""
+        """Return a sum with the constant factor of each product as a derived parameter."""
         groups: dict[sp.Expr, sp.Expr] = {}
         for term in sp.Add.make_args(sp.expand(value)):
             variable = [s for s in term.free_symbols if not self.slots.is_constant(s)]
@@ -137,11 +142,11 @@ class Inertia:
         return sp.Add(*(rest * self._constant(name, c) for rest, c in groups.items()))
 
     def _constant(self, name: str, value: sp.Expr) -> sp.Expr:
-        """A number of `prepare`; a symbol or its negative is one already."""
+        """Return a constant as a derived parameter; a symbol or its negative is one already."""
         return value if (-value).is_Symbol else self.slots.derive_signed(name, value, "constant of M")
 
     def velocity_terms(self) -> dict[str, sp.Expr]:
-        """h_k = Σ_b m_b ∂r_b/∂z_k · (what r̈_b is at z̈ = 0)."""
+        """Return h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by coordinate."""
         h: dict[str, sp.Expr] = {}
         for T, U in self._pairs():
             P, Q = self.products(T, U)
@@ -153,7 +158,7 @@ class Inertia:
         return {k: self.hoist(f"spin_{k}", value) for k, value in h.items()}
 
     def weights(self) -> dict[str, sp.Expr]:
-        """Σ_b m_b g · ∂r_b/∂z_k."""
+        """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate."""
         g_x, g_y = self.gravity
         total: dict[str, sp.Expr] = {}
         for T, (m_x, m_y) in self._moment.items():

@@ -1,8 +1,8 @@
-"""The reduced formulation: the same motion in the coordinates of a tree, with loop closures for what it leaves open.
+"""The reduced formulation: the same motion in the coordinates of a tree, with loop closures for the other joints.
 
 Angles that drives prescribe are functions of t; the other angles and slides along the tree are the unknowns s.
 Joints, laws and force elements are derived a second time, by the same functions, on the geometry of the tree, so
-that they come out in s. The parameters are those of the absolute formulation: one `prepare` serves both.
+that they are expressed in s. The parameters are those of the absolute formulation: one `prepare` serves both.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_a_row
 
 @dataclass(frozen=True)
 class TreeSystem(System):
-    """A system in tree coordinates; `tree` says where they come from, `unknowns` name them."""
+    """A system in tree coordinates; `tree` defines them, `unknowns` are their names."""
 
     tree: Tree
     unknowns: tuple[str, ...]
@@ -38,25 +38,25 @@ class TreeSystem(System):
     in_tree = True
 
     def _turned_by(self, k: int) -> dict[str, sp.Expr]:
-        """The bodies that turn with an angle, and how fast; none with a slide."""
+        """Return the bodies that turn with an angle k, and their rates by it; none for a slide."""
         geometry, name = self.model.geometry, self.unknowns[k]
         assert isinstance(geometry, TreeGeometry)
         turns = {body: geometry.frame_of[body].turns.get(name, ZERO) for body in geometry.bodies}
         return {body: c for body, c in turns.items() if c != 0}
 
     def inertia_of_unit_mass(self, k: int) -> sp.Expr:
-        """The same of all bodies that turn with an angle; of a slide 1."""
+        """Return the inertia about an angle k of all bodies that turn with it, each of 1 kg; 1 of a slide."""
         turned = self._turned_by(k).items()
         return sp.Add(*(c**2 * s for body, c in turned for s in self.model.squared_arms(body))) if turned else ONE
 
     def turning_inertia(self, k: int) -> sp.Expr:
-        """The same of all bodies that turn with an angle; of a slide 0."""
+        """Return the inertia about an angle k of all bodies that turn with it; 0 of a slide."""
         name = self.unknowns[k]
         total = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in self._turned_by(k).items()))
         return self.model.slots.derive(f"{name.replace('.', '_')}_turning", total, "J and m s^2 of what turns with it")
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
-        """Generalized forces of loads; forces with the same lever are added first."""
+        """Return the generalized forces of loads; forces with the same lever arm are added first."""
         levers: dict[str, dict[tuple[sp.Expr, sp.Expr], list[sp.Expr]]] = {}
         moments: dict[str, sp.Expr] = {}
         for point, x, y, moment in loads:
@@ -79,14 +79,16 @@ class TreeSystem(System):
 
 
 class TreeConstraints(Constraints):
-    """Rows in tree coordinates: the same joints, seen on the tree's geometry."""
+    """Constraint equations in tree coordinates: the same joints on the tree's geometry."""
 
     geometry: TreeGeometry
 
     def _point(self, ref: PointRef) -> PointFrame:
+        """Return the frame of a named point as one sum of arms."""
         return self.geometry.point(ref).flat()
 
     def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
+        """Return the pairs (coordinate, rate) of the unknowns that move the bodies."""
         geometry = self.geometry
         names = {k for body in bodies for k in (*geometry.com(body.name).columns, *geometry.frame_of[body.name].turns)}
         return [
@@ -95,7 +97,7 @@ class TreeConstraints(Constraints):
 
 
 def reduce(model: Model) -> TreeSystem:
-    """The reduced system of a model, in which redundant rows are left out already."""
+    """Return the system of a model in tree coordinates; redundant equations have been left out already."""
     tree = choose_tree(model)
     slides: dict[str, Affine] = {}
     sliding: tuple[str, ...] = ()
@@ -112,7 +114,10 @@ def reduce(model: Model) -> TreeSystem:
 
 
 def _without_chains(model: Model, system: TreeSystem) -> TreeSystem:
-    """The system with what the drives determine as functions of t; a scene without freedom is not integrated."""
+    """Return the system with coordinates that drives determine as functions of t.
+
+    A scene without degrees of freedom is returned as it is, since nothing is integrated.
+    """
     if model.degrees_of_freedom <= 0 or not system.rows:
         return system
     held = {row.name for row in system.rows if stays_a_row(model, row)}
@@ -128,7 +133,7 @@ def _without_chains(model: Model, system: TreeSystem) -> TreeSystem:
 
 
 def _place(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
-    """Symbols, coordinates and bodies of a tree."""
+    """Return the geometry of a tree, with symbols, coordinates and bodies, and its constraints."""
     symbols = model.symbols.beside()
     slots = model.slots.beside(symbols)
     geometry = TreeGeometry(model, tree, symbols, slots)
@@ -144,7 +149,7 @@ def _place(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[Tree
 
 
 def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
-    """The rows that the tree leaves open, in the order of the model."""
+    """Return the constraint equations that the tree does not satisfy by itself, in the order of the model."""
     mechanism = model.scene.mechanism
     wanted = [row.name for row in model.rows if row.name not in tree.rows]
     owners = {row.owner for row in model.rows if row.name in wanted}
@@ -162,7 +167,10 @@ def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[R
 def _known_slide(
     model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: Sequence[Row]
 ) -> tuple[str, str, Affine] | None:
-    """A row that is linear in slides with constant coefficients, one of its slides, and what that one is."""
+    """Return an equation that is linear in slides with constant coefficients, one of its slides, and its value.
+
+    None if there is no such equation.
+    """
     names = {c.q: name for name, c in geometry.motions.coordinates.items()}
     drives = {c.q: name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
     drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
@@ -192,7 +200,7 @@ def _system(
     constraints: TreeConstraints,
     rows: tuple[Row, ...],
 ) -> TreeSystem:
-    """Everything else on the tree: clearances, force elements, M and what acts besides."""
+    """Return the system on the tree: joints with play, force elements, M and the applied forces."""
     reduced = _model(model, geometry, constraints, rows)
     coordinates = geometry.motions.coordinates
     unknowns = {name: c for name, c in coordinates.items() if c.acceleration is None}
@@ -202,6 +210,7 @@ def _system(
     h, weights = inertia.velocity_terms(), inertia.weights()
 
     def applied(name: str) -> sp.Expr:
+        """Return weight minus velocity terms and minus M times prescribed accelerations."""
         pushed = sum((inertia.mass.get((name, k), ZERO) * c.acceleration for k, c in given.items()), ZERO)
         return weights.get(name, ZERO) - h.get(name, ZERO) - pushed
 
@@ -233,7 +242,7 @@ def _system(
 
 
 def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: tuple[Row, ...]) -> Model:
-    """The model as its kernels see it: the same scene on the geometry of the tree."""
+    """Return the model for the tree's kernels: the same scene on the geometry of the tree."""
     mechanism, symbols, t = model.scene.mechanism, geometry.symbols, constraints.t
     clearances = tuple(
         clearance
@@ -265,7 +274,7 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
 
 
 def _motion(geometry: TreeGeometry, body: str, place: Mapping[str, int]) -> Motion:
-    """J and bias of a body's centre of mass and angle."""
+    """Return J and bias of a body's centre of mass and angle."""
     at, turns = geometry.com(body), geometry.frame_of[body].turns
     coordinates = geometry.motions.coordinates
     columns = [{k: c[i] for k, c in at.columns.items()} for i in range(2)] + [dict(turns)]

@@ -1,7 +1,7 @@
-"""Points where more than two bodies meet: which of them a joint names does not matter for the motion.
+"""Points where three or more bodies meet (hubs): the choice of joints between them is free.
 
-k points that coincide need k − 1 pairs of rows, but any tree of pairs will do. The tree of the bodies may use any
-of them, and a loop is closed between the two bodies whose difference has the fewest moving arms.
+k points that coincide need k − 1 pairs of equations, but any tree of pairs will do. The tree of the bodies may use
+any of them, and a loop is closed between the two bodies whose difference has the fewest moving arms.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ Point = tuple[str, str]  # body, point
 
 
 def ends(joint: Joint) -> tuple[Point, Point]:
-    """Both points of a joint."""
+    """Return both points (body, point) of a joint."""
     return (joint.first.body, joint.first.point), (joint.second.body, joint.second.point)
 
 
 @dataclass(frozen=True)
 class Hub:
-    """Points that coincide, the joints of the file that say so, and every pair of bodies as a joint."""
+    """Points that coincide, the joints of the file that connect them, and every pair of their bodies as a joint."""
 
     points: frozenset[Point]
     joints: tuple[Joint, ...]
@@ -31,16 +31,16 @@ class Hub:
 
     @property
     def rows(self) -> list[str]:
-        """Rows of the file's joints that make the points coincide."""
+        """Return the names of the equations of the file's joints that make the points coincide."""
         return [row for joint in self.joints for row in self.rows_of(joint)]
 
     @staticmethod
     def rows_of(joint: Joint) -> list[str]:
-        """Rows of a pair that make its points coincide."""
+        """Return the names of the equations of a pair that make its points coincide."""
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
     def closing(self, tree: Iterable[Joint], cost: Callable[[Joint], int]) -> list[Joint]:
-        """The cheapest pairs that join what the tree leaves apart (Kruskal's way)."""
+        """Return the cheapest pairs that connect the points which the tree leaves apart (Kruskal's algorithm)."""
         groups = {point: {point} for point in self.points}
         found = []
         names = {joint.name for joint in tree}
@@ -57,7 +57,10 @@ class Hub:
         return found
 
     def share(self, spanning: Sequence[Joint], joint: Joint) -> dict[str, int]:
-        """The multiplier of a pair in those of the file's joints: what the cut at this pair has to carry."""
+        """Return the multiplier of a pair as a sum of those of the file's joints, with signs.
+
+        They are the joints that cross the cut which removing the pair from `spanning` makes.
+        """
         side = {ends(joint)[0]}
         grown = True
         while grown:
@@ -75,7 +78,7 @@ class Hub:
 
 
 def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
-    """Points of three and more bodies, joined by just as many joints as they need."""
+    """Return the hubs: points of three or more bodies with as many joints as a tree needs."""
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:
         if joint_types()[joint.kind].holds_points:
@@ -93,7 +96,7 @@ def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
 
 
 def _pairs(group: Sequence[Joint], plain: Joint) -> list[Joint]:
-    """The file's joints, and one for every other pair of points on different bodies."""
+    """Return the file's joints, and a joint for every other pair of points on different bodies."""
     known = {frozenset(ends(joint)) for joint in group}
     refs = {end: ref for joint in group for end, ref in zip(ends(joint), (joint.first, joint.second), strict=True)}
     others = [

@@ -1,11 +1,11 @@
-"""Which coordinates describe a linkage: angles that are free, and a tree of joints that place the bodies.
+"""Tree coordinates of a linkage: angles that are free, and a spanning tree of joints that position the bodies.
 
-Rows that are linear in angles with constant coefficients (a weld, a slide, gears, a driven angle) express angles
-by others. What is left of the joints is a graph of bodies; along a spanning tree of it each body is placed by its
+Equations that are linear in angles with constant coefficients (a weld, a slide, gears, a driven angle) express angles
+by others. The other joints form a graph of bodies; along a spanning tree of it each body is positioned by its
 parent, and only the joints that are not in the tree stay as loop closures (R. Featherstone, Rigid Body Dynamics
 Algorithms, 2008, chapters 4 and 8). Angles are absolute: in the plane the position of a point is then a sum of
-arms, each of which turns with one angle. What a tree would cost is estimated as operations
-of its right-hand side, before anything is derived on it.
+arms, each of which turns with one angle. The cost of a tree is estimated as the operations of its right-hand side,
+before anything is derived on it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from gudgeon.generator.solvers.sparsity import choose_elimination
 
 @dataclass(frozen=True)
 class Link:
-    """A body with the one that places it: `joint` None is a body that moves freely (two slides of its own)."""
+    """A body with the parent that positions it; without a `joint` the body moves freely (two slides of its own)."""
 
     body: str
     parent: str
@@ -34,26 +34,26 @@ class Link:
 
     @property
     def slides(self) -> bool:
-        """Whether the body is carried along an axis."""
+        """Return whether the joint carries the body along an axis."""
         return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """Names of the slides that the link brings."""
+        """Return the names of the slides that the link adds."""
         if self.joint is None:
             return f"{self.body}.x", f"{self.body}.y"
         return (f"{self.joint.name}.slide",) if self.slides else ()
 
     @property
     def rows(self) -> tuple[str, ...]:
-        """Rows of Φ that hold by themselves."""
+        """Return the names of the constraint equations that the link satisfies by itself."""
         if self.joint is None:
             return ()
         return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
 
 
 def path(links: Iterable[Link], body: str) -> list[Link]:
-    """The links from the root to a body."""
+    """Return the links from the root to a body."""
     by_body = {link.body: link for link in links}
     found: list[Link] = []
     while body != GROUND:
@@ -69,7 +69,7 @@ PLAIN = 5  # an entry of M with x or y of a body that moves freely
 
 
 def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
-    """Who meets whom in M; x and y of a body that moves freely do not."""
+    """Return the coordinates that are coupled with each one in M; x and y of a free body are not coupled."""
     near: list[set[int]] = [set() for _ in place]
     for keys in moving:
         numbers = {place[name] for name in keys}
@@ -79,9 +79,10 @@ def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: 
 
 
 class Estimate:
-    """Operations of a tree's right-hand side, counted from which coordinates meet where."""
+    """Estimated operations of a tree's right-hand side, counted from which coordinates are coupled."""
 
     def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
+        """Prepare the estimate for a model; `used`: equations that the angles satisfy already."""
         self.model, self.hubs = model, hubs
         self._light: dict[tuple[str, str], bool] = {}  # by body and joint
         self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
@@ -92,12 +93,14 @@ class Estimate:
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
 
     def __call__(self, links: tuple[Link, ...]) -> int:
+        """Return the estimated operations of a tree, computed once."""
         key = frozenset((link.body, link.joint.name if link.joint else "") for link in links)
         if key not in self.costs:
             self.costs[key] = self._count(links)
         return self.costs[key]
 
     def _count(self, links: tuple[Link, ...]) -> int:
+        """Return the estimated operations of a tree."""
         held = {row for link in links for row in link.rows}
         paths: dict[str, list[Link]] = {}
         reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
@@ -122,31 +125,33 @@ class Estimate:
         return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
 
     def _light_ends(self, links: tuple[Link, ...]) -> list[Link]:
-        """Links whose body carries no other and has hardly any inertia about its joint, or its own centre."""
+        """Return the links whose body carries no other and has nearly no inertia about its joint or its centre."""
         carry = {link.parent for link in links}
         ends = [link for link in links if link.body not in carry and set(self.angles[link.body]) == {link.body}]
         return [link for link in ends if not link.slides and self._is_light(link)]
 
     def _is_light(self, link: Link) -> bool:
+        """Return whether a body has nearly no inertia about the joint that carries it."""
         key = link.body, link.joint.name if link.joint else ""
         if key not in self._light:
             self._light[key] = self.model.is_light(link.body, link.joint)
         return self._light[key]
 
     def closing(self, links: tuple[Link, ...]) -> list[Joint]:
-        """Pairs that the hubs need beside the tree's."""
+        """Return the pairs that the hubs need in addition to the tree's."""
         paths: dict[str, list[Link]] = {}
         for link in links:
             paths[link.body] = [*paths.get(link.parent, []), link]
 
         def cost(joint: Joint) -> int:
+            """Return the number of coordinates in the closure of a pair."""
             return len(self._moving(paths, [joint.first.body, joint.second.body]))
 
         inside = [link.joint for link in links if link.joint]
         return [joint for hub in self.hubs for joint in hub.closing(inside, cost)]
 
     def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
-        """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
+        """Return the coordinates in an equation between bodies; those of their common path do not count."""
         shared = 0
         if len(bodies) == 2:
             one, two = (paths.get(b, []) for b in bodies)
@@ -162,7 +167,7 @@ SEARCHED = 24  # more coordinates than that: the tree is not improved by exchang
 
 @dataclass(frozen=True)
 class Tree:
-    """Angles of the bodies in free ones ("L7") and drives ("crank1"); links, parents before children."""
+    """A spanning tree: angles of the bodies in free ones ("L7") and drives ("crank1"), and links, parents first."""
 
     angles: Mapping[str, Affine]
     free: tuple[str, ...]  # bodies whose angles are coordinates
@@ -174,7 +179,7 @@ class Tree:
     costs: tuple[int, ...]  # estimated operations of the trees that were looked at, the first breadth first
 
     def multiplier(self, row: str) -> dict[str, int]:
-        """A closure's multiplier in those of the file's rows."""
+        """Return the multiplier of a closure as a sum of those of the file's equations, with signs."""
         name, _, which = row.rpartition(".")
         for hub in self.hubs:
             for joint in self.closing:
@@ -187,12 +192,15 @@ class Tree:
 
 
 def stays_a_row(model: Model, row: Row) -> bool:
-    """A drive whose rate jumps while others are free to move: the jump is an impulse on its row."""
+    """Return whether a drive stays an equation: its rate jumps in a scene with degrees of freedom.
+
+    The jump is an impulse on its equation.
+    """
     return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
 
 
 def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
-    """The angles by free ones and drives, with the rows that this uses up, each with its body."""
+    """Return the angles in free ones and drives, and the equations that this uses, each with its body."""
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
     used: dict[str, str] = {}
     for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
@@ -209,7 +217,7 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
 
 
 def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
-    """The row in free angles, or None where it is not linear in angles with constant coefficients."""
+    """Return an equation in free angles and drives; None if it is not linear in angles with constant coefficients."""
     body_of = {body.theta: body.name for body in model.bodies}
     if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
         return None
@@ -230,7 +238,7 @@ def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | No
 
 
 def choose_tree(model: Model) -> Tree:
-    """The tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
+    """Return the tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
     angles, solved = solve_angles(model)
     used = frozenset(solved)
     free = tuple(b for b in angles if angles[b] == {b: 1})
@@ -248,13 +256,15 @@ def choose_tree(model: Model) -> Tree:
 
 
 def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
-    """Joints that can place a body: all their rows are kept, and a slide's bodies turn together."""
+    """Return the joints that can position a body: all their equations exist, and a slide's bodies turn together."""
     kept = {row.name for row in model.rows}
 
     def turning(body: str) -> dict[str, sp.Expr]:
+        """Return the coordinates with which a body turns, and their coefficients."""
         return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
 
     def carries(joint: Joint) -> bool:
+        """Return whether a joint can position a body."""
         rows = joint_types()[joint.kind].carries
         if not rows or not all(f"{joint.name}.{row}" in kept for row in rows):
             return False
@@ -264,7 +274,10 @@ def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
 
 
 def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
-    """Breadth first from the ground along the wanted joints; bodies that nothing reaches move freely."""
+    """Return a tree, grown breadth first from the ground along the joints in `wanted`.
+
+    Bodies that no joint reaches move freely; with a `depth`, longer chains are cut.
+    """
     near: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
     names = {joint.name for joint in wanted}
     for joint in edges:
@@ -292,7 +305,7 @@ def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: 
 
 
 def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: Estimate) -> tuple[Link, ...]:
-    """While a joint that closes a loop is better in the tree than one of the loop, they change places."""
+    """Return the tree after exchanging joints of loops with those of the tree as long as that reduces the estimate."""
     best = estimate(links)
     improved = True
     while improved:
@@ -310,6 +323,6 @@ def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], est
 
 
 def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
-    """The tree's joints in the loop that `joint` closes."""
+    """Return the tree's joints in the loop that `joint` closes."""
     one, two = path(links, joint.first.body), path(links, joint.second.body)
     return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]

@@ -1,9 +1,9 @@
-"""How the force of a joint with play changes: the steps of contact.py and the laws, differentiated forward.
+"""Derivatives of the force of a joint with play: the steps of contact_steps.py and the laws, differentiated forward.
 
-Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j), of laws with inner states also those of
-their rates and by the states; templates/c/play/tangent.c.jinja turns them into ground axes. Of a contour n and t are
-along e and across it, and so are the rates; its depth and slope are inputs too, by which contour_tangent.c.jinja knows
-what the angle does.
+They are the derivatives of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); for laws with inner states also
+those of the states' rates and by the states. templates/c/play/tangent.c.jinja turns them into ground axes. With a
+contour, n and t are along e and across it, and so are the rates. Its depth and slope are inputs too, from which
+contour_tangent.c.jinja forms the derivatives by the angle.
 """
 
 from __future__ import annotations
@@ -43,20 +43,22 @@ _FORCE = PlaceSymbol(CONTACT["force"])  # of surfaces that do not give
 
 
 def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
-    """What slopes are taken by."""
+    """Return the variables by which the force of a joint is differentiated."""
     return OF_CONTOUR if clearance.contour else INPUTS
 
 
 def _arguments(clearance: Clearance) -> tuple[Argument, ...]:
+    """Return the arguments of the C function of the derivatives."""
     given = (Argument(symbol.name) for symbol in inputs(clearance))
     out = result("out", "ContourSlopes" if clearance.contour else "PinSlopes")
     return (*given, CONTACT, PARAMETERS, *BRANCHES, out)
 
 
 class _Slopes:
-    """One function: steps with their tangents by the inputs."""
+    """Builder of one C function: steps and laws with their tangents by the inputs."""
 
     def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
+        """Begin the function of one `part` of the force: "film" or "dry"."""
         self.model, self.clearance, self.part = model, clearance, part
         by = "de_n, across" if clearance.contour else "deltadot, de_t"
         also = ", depth and slope of the contour" * bool(clearance.contour)
@@ -74,17 +76,21 @@ class _Slopes:
         self.tangents = Tangents(model.symbols, self.build, self.inputs, clearance.name, share_powers=True)
 
     def section(self, title: str) -> None:
+        """Begin a section of statements with a title."""
         self.build.section(title)
 
     def step(self, step: Step) -> None:
-        """symbol = value of contact.py, and its tangent."""
+        """Append the equation symbol = value of contact_steps.py, and its tangent."""
         value = in_place(self.model, step.value)
         held = self.tangents.shared(self.tangents.held(value))
         self.build.line(Statement(step.symbol.name, held))
         self.tangents.know(step.symbol, self.tangents.gradient(value, step.symbol))
 
     def law(self, equations: LawEquations, given: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
-        """The law's results by name; its variables are the symbols `given`, whose tangents are known."""
+        """Append a law; return its results by name, with known tangents.
+
+        `given`: the symbols that are the variables of the law, whose tangents are known.
+        """
         inner = self.tangents.inside(dict(zip(equations.variables, given, strict=True)))
         results = {}
         for name, equation in equations.steps.items():
@@ -97,7 +103,10 @@ class _Slopes:
         return results
 
     def finish(self, values: Sequence[sp.Expr]) -> Kernel:
-        """Writes (F along n, F along t, M_i, M_j) and their slopes, then rates of inner states; 0 where it has none."""
+        """Return the function after writing its results and their derivatives by the inputs.
+
+        The results are (F along n, F along t, M_i, M_j), then the rates of inner states; missing ones are 0.
+        """
         self.section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
             self.build.out(Place("out")["value"][row], value)
@@ -108,7 +117,7 @@ class _Slopes:
 
 
 def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
-    """Of the film alone."""
+    """Return the C function of the film's force and its derivatives."""
     slopes = _Slopes(model, clearance, "film")
     slopes.section("eccentricity ratio and effective squeeze velocity")
     for step in contact.before_film(clearance, film):
@@ -125,7 +134,10 @@ def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kerne
 
 
 def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
-    """Of the dry contact alone, at δ < 0 too, where a step may look that ends at the separation: no force there."""
+    """Return the C function of the dry contact's force and its derivatives.
+
+    It is defined at δ < 0 too, with zero force, since samples before a separation lie there.
+    """
     slopes = _Slopes(model, clearance, "dry")
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
@@ -164,18 +176,21 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
 
 
 def unlatched(step: Step) -> Step:
-    """The ratio of velocities is C's own (latched or not): only its clipping is an equation."""
+    """Return the step without the choice between stored and present approach speed, which C makes.
+
+    Of the ratio of velocities only its clipping is left as an equation.
+    """
     stored = contact.deltadot / contact.stored
     return Step(step.symbol, step.value.subs(stored, UNCLIPPED)) if step.symbol == contact.ratio else step
 
 
 def in_place(model: Model, value: sp.Expr) -> sp.Expr:
-    """A step's value with parameters read from their struct, the reciprocals that it needs of them as well."""
+    """Return a step's value with parameters, and the reciprocals of parameters, read from their struct."""
     return model.symbols.in_place(hoisted(model.slots, value))
 
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:
-    """The share of the dry contact in the transition of a closed contact, and its derivative by e."""
+    """Return the C function of the fraction of the dry contact in a transition, and of its derivative by e."""
     build = KernelBuilder(
         model.symbols,
         f"share_slope_{clearance.label}_",

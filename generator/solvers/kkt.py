@@ -1,10 +1,9 @@
-"""The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r] as straight-line statements.
+"""The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r], factorized and solved by straight-line statements.
 
-Its symbolic L D Lᵀ (generator/solvers/sparsity.py) becomes one named temporary an entry; entries that
-are a number or a single symbol are written in place. The pivots of coordinates are masses, or what
-elimination leaves of them; the pivot of a row is compared with what it would be if the row were
-independent of the others. In absolute coordinates most rows give a coordinate by others and go with it
-(dependent_coordinates.py).
+Each entry of its symbolic L D Lᵀ (generator/solvers/sparsity.py) becomes a named temporary; numbers and single
+symbols are written in place. The pivots of coordinates are masses, or what elimination leaves of them. The pivot of a
+constraint equation is compared with its value if the equation were independent of the others. In absolute coordinates
+most equations give one coordinate by others and are eliminated together with it (dependent_coordinates.py).
 """
 
 from __future__ import annotations
@@ -37,12 +36,14 @@ FACTORS = "L D L^T of the KKT matrix"  # title of a section
 
 
 class KKT:
-    """Emits factorization and solution of a scene's KKT system; nodes are coordinates, then rows."""
+    """Prints factorization and solution of the KKT system; nodes are coordinates, then constraint equations."""
 
     def __init__(self, system: System, rows: Sequence[Row] | None = None, daring: bool = False) -> None:
-        """`daring`: the pairs of rows of a joint may be eliminated early; where links stand in one line such a
+        """Choose the elimination order of a system with its equations, or with other `rows`.
 
-        pivot vanishes although the system is regular: what `failed` does in `factorize` must then solve it.
+        `daring`: both equations of a joint may be eliminated early. Such a pivot vanishes where links are in line
+        although
+        the system is regular; the code at which `factorize` jumps must then solve it.
         """
         self.system, self.n = system, len(system.q)
         self.rows = system.rows if rows is None else tuple(rows)
@@ -71,7 +72,7 @@ class KKT:
             self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
 
     def _blocks(self) -> list[list[int]]:
-        """Pivots that follow each other, both changed by elimination and coupled, two by two; coordinates with rows."""
+        """Return the pivots as blocks of one or two nodes: coordinates with their equations, and coupled neighbours."""
         order, structure = self.elimination.order, self.elimination.structure
         changed = {i for column in structure.values() for i in column}
         blocks: list[list[int]] = []
@@ -88,7 +89,10 @@ class KKT:
         return blocks
 
     def _turning(self) -> dict[int, sp.Expr]:
-        """Angles that are pivots by themselves, with what turns with them if that is more than their entry of M."""
+        """Return the angles that are pivots by themselves, with the inertia that turns with them.
+
+        An angle is left out if that inertia is its entry of M anyway.
+        """
         single = [k for block in self.blocks for k in block if block[-1] < self.n]
         found = {k: self.system.turning_inertia(k) for k in single}
         return {k: size for k, size in found.items() if size != 0 and size != self.system.mass[k, k]}
@@ -96,9 +100,10 @@ class KKT:
     def factorize(
         self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
     ) -> Factor:
-        """Statements for L and 1/D; a pivot below its `share` returns its number, from 1, or `jumps` to a rescue.
+        """Append the statements of L and D⁻¹; a pivot below `share` of its size ends or leaves the function.
 
-        `size`: the same of a joint's two rows together.
+        With `jumps` it jumps to the code for vanishing pivots, else the function returns the pivot's number, from 1.
+        `size`: the same threshold for both equations of a joint together.
         """
         build.section(FACTORS)
         L: Entries = {}
@@ -132,7 +137,10 @@ class KKT:
         failing: tuple[bool, int],
         shares: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """D⁻¹ of a block; `made` are L and W, `failing` is whether that jumps and how many rows came before."""
+        """Return D⁻¹ of a block by node; `made` are L and W so far.
+
+        `failing`: whether a vanishing pivot jumps, and the number of equations before the block.
+        """
         (L, W), (jumps, count) = made, failing
         if block[0] in self.first.partner:
             return self._dependent(build, block, earlier, L, W)
@@ -151,7 +159,7 @@ class KKT:
         L: Mapping[tuple[int, int], sp.Expr],
         W: Mapping[tuple[int, int], sp.Expr],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """D⁻¹ of a coordinate with its row: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c."""
+        """Return D⁻¹ of a coordinate with its equation: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c."""
         k, row = block
         entry = self.entry[row, k]
         over = entry if is_unit(entry) else self.system.model.slots.derive(f"inverse_{self.names[row]}", 1 / entry)
@@ -168,7 +176,7 @@ class KKT:
         failing: tuple[bool, int],
         shares: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
+        """Return the inverse of a 2 × 2 block by its determinant; for equations, D is negative."""
         L, W = made
         first, second = block
         rows = first >= self.n
@@ -177,6 +185,7 @@ class KKT:
         }
 
         def left(i: int, k: int, of: Callable[[int], bool]) -> sp.Expr:
+            """Return what elimination leaves of entry (i, k), with the earlier columns j for which `of` holds."""
             done = sum((L[i, j] * W[k, j] for j in earlier[i] if (k, j) in L and of(j)), ZERO)
             return done if rows else mass[i, k] - done
 
@@ -204,10 +213,10 @@ class KKT:
         return {first: {first: one, second: both}, second: {first: both, second: two}}
 
     def _size(self, build: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
-        """What a row's pivot could be: in absolute coordinates not less than what the masses that it meets make of it.
+        """Return the size with which the pivot of an equation is compared.
 
-        Where links stand in one line a row that closes a loop may vanish as a whole, once coordinates that other rows
-        give are gone from it.
+        In absolute coordinates it is at least what the masses in the equation make of it. Where links are in line, an
+        equation that closes a loop may vanish as a whole once dependent coordinates are eliminated from it.
         """
         if self.system.in_tree or k in self.first.rows or k >= self.first_friction:
             return scale
@@ -226,10 +235,11 @@ class KKT:
         found: tuple[sp.Expr, sp.Expr],
         failing: tuple[bool, int, Threshold],
     ) -> None:
-        """The pivots of a joint's x and y, `found` and their determinant, against the sum of their scales.
+        """Append tests of the pivots of a joint's x and y against the sum of their sizes.
 
-        In a tree's angles one of these rows vanishes as a whole where links stand in one line, and is as large as
-        itself there.
+        `found`: the first pivot and the determinant. In tree coordinates one of these equations vanishes as a whole
+        where
+        links are in line, and is not small compared with itself there.
         """
         one, two = (self.rows[k - self.n] for k in block)
         if not self.system.in_tree or one.owner != two.owner or one.unit != two.unit:
@@ -248,7 +258,7 @@ class KKT:
         W: Mapping[tuple[int, int], sp.Expr],
         jumps: bool,
     ) -> sp.Expr:
-        """1/D of a coordinate: of a mass alone it is a number of `prepare`. One that is too light `jumps`."""
+        """Return 1/D of a coordinate; if it is a mass alone, it is a derived parameter."""
         mass = self.system.mass[k, k]
         if jumps and k in self.turning:
             value = mass - sum((L[k, j] * W[k, j] for j in earlier), ZERO)
@@ -264,12 +274,16 @@ class KKT:
         return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
     def _look_for_light(self, build: KernelBuilder, k: int, pivot: sp.Expr, *before: sp.Expr) -> None:
-        """An angle of which elimination leaves hardly any inertia jumps; `pivot` is its own times those `before`."""
+        """Append a jump for an angle of which elimination leaves nearly no inertia.
+
+        `pivot` is its own pivot times those in `before`.
+        """
         if k in self.turning:
             number = len(self.rows) + len(self.frictions) + 1 + list(self.turning).index(k)
             build.line(Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning[k], *before)), number, True))
 
     def _mass_name(self, mass: sp.Expr, k: int) -> str:
+        """Return the name of the mass of node k in derived parameters."""
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
 
     def _row_pivot(
@@ -282,7 +296,7 @@ class KKT:
         failed: tuple[bool, int],
         least: Threshold,
     ) -> sp.Expr:
-        """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison with the scale too."""
+        """Return 1/D of an equation: D = −scale + what earlier equations explain; NaN fails the test too."""
         name = self.names[k]
         own = sum((L[k, j] * W[k, j] for j in earlier if j < self.n), sp.Integer(0))
         scale = build.local(f"scale_{name}", own)
@@ -303,7 +317,10 @@ class KKT:
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Solution by node for a right-hand side by node (absent: zero)."""
+        """Return the solution by node for a right-hand side `b` by node (absent: zero).
+
+        It appends the forward and backward substitution; `prefix` begins the names of its locals.
+        """
         build.section("forward substitution")
         columns: dict[int, list[int]] = {k: [] for k in self.elimination.order}
         for i, k in factor.L:

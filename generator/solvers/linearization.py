@@ -1,16 +1,12 @@
-"""The equations of motion linearized at a state: what Newton's method and the Jacobian need of them.
+"""Linearization of the equations of motion at a state, for Newton's method and Jacobians.
 
 With accelerations a and multipliers λ that satisfy, at (t, q, v),
-
     R1 = M a + Φ_qᵀ λ − g = 0,    R2 = Φ_q a − γ + 2α Φ̇ + β² Φ = 0
-
-and are held, this collects the structural non-zeros of R1_q, R1_v, R1_t, R2_t and of what is left of
-
+and are held constant, this collects the structural non-zeros of R1_q, R1_v, R1_t, R2_t and of V and Q in
     R2_v = 2α Φ_q + V,    R2_q = β² Φ_q + Q
-
-where Φ_q itself is taken out. Friction that may stick is a row as well, v = J q̇ − speed = 0 with β = 0; its
+where Φ_q itself is taken out. Friction that may stick is an equation as well, v = J q̇ − speed = 0 with β = 0; its
 multiplier is zero while it slips. Powers P are those of the works that are integrated with the motion. An inner
-state z of a law is R3 = ż − Z = 0; forces, powers and Z have slopes by it (R1_z, P_z, R3_z).
+state z of a law is R3 = ż − Z = 0; forces, powers and Z have derivatives by it (R1_z, P_z, R3_z).
 """
 
 from __future__ import annotations
@@ -40,7 +36,7 @@ Pair = tuple[int, int]  # node (coordinates, then rows, frictions, inner states)
 
 @dataclass
 class Parts:
-    """Non-zeros by (node, coordinate); powers by (power, coordinate) or (power, node of a or λ)."""
+    """Non-zeros of the linearization by (node, coordinate), of powers by (power, coordinate or node)."""
 
     mass: dict[Pair, sp.Expr] = field(default_factory=dict)
     phi_q: dict[Pair, sp.Expr] = field(default_factory=dict)
@@ -56,9 +52,10 @@ class Parts:
 
 
 class Linearization:
-    """Emits what is common (contacts, tangents) into a kernel and gives the parts in its symbols."""
+    """Prints common statements (contacts, tangents) into a function and returns the parts in its symbols."""
 
     def __init__(self, system: System, build: KernelBuilder) -> None:
+        """Make symbols for the accelerations, multipliers and inner states, which are held constant."""
         self.system, self.model, self.build = system, system.model, build
         self.symbols: Symbols = system.model.symbols
         self.n, self.m = len(system.q), len(system.rows)
@@ -82,7 +79,7 @@ class Linearization:
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
     def derive(self) -> Parts:
-        """All parts."""
+        """Return all parts of the linearization."""
         loads = [load for element in self.model.elements.values() for load in element.on_points()]
         self.powers[0] = sp.Add(*(-x * row.nu for x, row in zip(self.multiplier, self.system.rows, strict=True)))
         self.powers[1] = sp.Add(*(element.loads.power for element in self.model.elements.values()))
@@ -102,10 +99,11 @@ class Linearization:
         return self.parts
 
     def _held(self, wanted: str, home: Place) -> sp.Symbol:
+        """Return a new symbol that is read at a place and held constant."""
         return self.symbols.new(wanted.replace(".", "_"), home)
 
     def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
-        """The joint's force as symbols, with their tangents from its own function."""
+        """Return the loads of a joint with play as symbols, whose tangents its own function computes."""
         name, build, out = clearance.label, self.build, RHS["clearance"][index]
         build.section(f"clearance {clearance.kind} {clearance.name}")
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
@@ -139,7 +137,7 @@ class Linearization:
         return clearance.on_points(values[:2], moments)
 
     def _rows(self) -> None:
-        """Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraints."""
+        """Add Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraint equations."""
         if self.system.rows:
             self.build.section("constraints")
         two_alpha, beta_squared = self._gains()
@@ -158,16 +156,17 @@ class Linearization:
                 self.parts.by_t[node] = value
 
     def _gains(self) -> tuple[sp.Expr, sp.Expr]:
-        """2α and β² as numbers of `prepare`."""
+        """Return 2α and β² as derived parameters."""
         alpha, beta = self.model.baumgarte
         derive = self.model.slots.derive
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
     def _phi_q(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
+        """Add the entries of an equation's Jacobian."""
         self.parts.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
 
     def _split(self, node: int, value: sp.Expr, sign: int, v_only: bool = False) -> None:
-        """Derivatives of one residual into the parts."""
+        """Add `sign` times the derivatives of one residual to the parts; with `v_only` only those by v."""
         tangent = self.tangents.gradient(value)
         for part, place in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
             if place is self.v or not v_only:
@@ -177,10 +176,11 @@ class Linearization:
 
     @staticmethod
     def _of(tangent: Tangent, place: Mapping[sp.Symbol, int]) -> dict[int, sp.Expr]:
+        """Return the entries of a tangent by the numbers of the symbols in `place`."""
         return {place[s]: value for s, value in tangent.items() if s in place}
 
     def _frictions(self, residual: list[sp.Expr]) -> None:
-        """Rows of stick, forces of slip, and their power; a mode is held."""
+        """Add the equations of stick, the forces of slip and their power; the mode is held constant."""
         if self.system.frictions:
             self.build.section("friction: slip, or stick as a row")
         two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
@@ -203,7 +203,7 @@ class Linearization:
             self._friction_power(node, friction, force - sign * kinetic, stick)
 
     def _friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
-        """Force times the velocity on which it acts; in stick the force is −λ."""
+        """Add the power of a friction force at the velocity on which it acts; at stick it is −λ."""
         moving = friction.slip.v + friction.slip.speed
         self.powers[1] += force * moving
         self.parts.power_row[1, node] = -stick * moving
@@ -214,7 +214,7 @@ class Linearization:
                 self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * along
 
     def _coordinates(self, residual: list[sp.Expr]) -> None:
-        """M, R1_q, R1_v and R1_t."""
+        """Add M, R1_q, R1_v and R1_t of the equations of motion."""
         self.build.section("coordinates")
         for (i, j), value in self.system.mass.items():
             for k, other in sorted({(i, j), (j, i)}):
@@ -227,6 +227,7 @@ class Linearization:
             self._split(k, value, 1)
 
     def _power_parts(self) -> None:
+        """Add the derivatives of the powers."""
         if not any(self.powers):
             return
         self.build.section("powers")

@@ -2,25 +2,17 @@
 
 J is the Jacobian of y' = f(t, y) with y = (q, v, works, inner states z) and η = h γ of the method. Eliminating
 u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
-
     [M + η R1_v + η² R1_q   Φ_qᵀ] [u_v ]   [ η (M r_v − η R1_q r_q − s R1_t)                         ]
     [Φ_q + η/κ (V + η Q)    0   ] [η μ ] = [ η/κ (Φ_q (r_v − η β² r_q) − η Q r_q − s R2_t)           ]
-
     u_w = η (r_w + P_q u_q + P_v u_v + P_z u_z + P_λ μ + s P_t),   μ the multipliers' own change.
-
-Where laws have inner states, u_z is unknown as well: the first rows have η R1_z u_z beside what is above, and
-
+Where laws have inner states, u_z is unknown as well: the first equations have the additional term η R1_z u_z, and
     (1 + η R3_z) u_z + η (R3_v + η R3_q) u_v = η (r_z − η R3_q r_q − s R3_t).
-
 At η = 0 the matrix is the KKT matrix, with 1 in the rows of z. It is factorized as L U without pivoting in an order
-chosen on its symmetric pattern, inner states first, a row only after the coordinates in it. A coordinate that a row
-gives by others (dependent_coordinates.py) is the unknown of that row, and its multiplier that of the coordinate's
-equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
-Springer (1996), IV.8 and VII.
-
-L U of Newton's matrix as statements, pivot by pivot.
-
-An unknown is found by its own equation or, where a row gives a coordinate, one of the two by the other's.
+chosen on its symmetric pattern, inner states first, a constraint equation only after the coordinates in it. A
+coordinate that an equation gives by others (dependent_coordinates.py) is the unknown of that equation, and its
+multiplier that of the coordinate's equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving
+Ordinary Differential Equations II, Springer (1996), IV.8 and VII.
+L U is printed as statements, pivot by pivot.
 """
 
 from __future__ import annotations
@@ -50,9 +42,10 @@ ZERO = sp.Integer(0)
 
 
 class Newton:
-    """The kernels of one system."""
+    """The C functions of Newton's method for one system: linearize, factor, substitute and solve."""
 
     def __init__(self, system: System) -> None:
+        """Derive the functions in this order, since each reads what the one before stores."""
         self.system, self.model = system, system.model
         self.n, self.m = len(system.q), len(system.rows)
         self.first_state = self.n + self.m + len(system.frictions)
@@ -72,10 +65,14 @@ class Newton:
         self.solve = self._solve()
 
     def _builder(self, name: str, doc: Sequence[str]) -> KernelBuilder:
+        """Begin a function with a name and the lines of its comment."""
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _linearize(self) -> Kernel:
-        """All parts at a state, into `lin->value`; afterwards `self.parts` is in symbols that read them there."""
+        """Return the function that writes all parts of the linearization to `lin->value`.
+
+        Afterwards `self.parts` is in symbols that read them there.
+        """
         build = self._builder(
             "linearize",
             [
@@ -102,7 +99,7 @@ class Newton:
         return with_branches(build.build(arguments, owner="", prune=True))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
-        """The parts with each value in the pool, once up to its sign."""
+        """Return the parts with each value stored once in the pool, up to its sign."""
 
         def keep(value: sp.Expr, name: str) -> sp.Expr:
             return self.values.keep(build, tangents.shared(value), name)
@@ -129,7 +126,7 @@ class Newton:
         )
 
     def _tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
-        """Where each part is in `lin->value`: (row, column, index, sign); columns are those of y."""
+        """Return where each part is in `lin->value`: (row, column, index, sign); columns are those of y."""
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
         def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
@@ -145,7 +142,7 @@ class Newton:
         }
 
     def _entries(self, build: KernelBuilder) -> dict[Pair, sp.Expr]:
-        """The matrix, by (row, column); both triangles."""
+        """Return the entries of Newton's matrix by (row, column), both triangles."""
         parts = self.parts
         self._scales(build, {self._scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
         first = self.first_state
@@ -163,17 +160,18 @@ class Newton:
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
 
     def _entry(self, build: KernelBuilder, place: Pair, value: sp.Expr) -> sp.Expr:
+        """Return an entry as it is if it is simple, else as a named local."""
         name = f"n_{self.names[place[0]]}__{self.names[place[1]]}"
         return value if is_simple(value) else build.local(name, value)
 
     def _scale(self, node: int) -> sp.Symbol:
-        """What a row's change is multiplied by."""
+        """Return the factor η or η/κ by which the change of an equation is multiplied."""
         if node < self.n or node >= self.first_state:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
     def _scales(self, build: KernelBuilder, wanted: Collection[sp.Symbol]) -> None:
-        """η/κ of constraints and of sticks, as far as they are wanted."""
+        """Append η/κ of constraints and of sticks, if they are in `wanted`."""
         alpha, beta = self.model.baumgarte
         derive = self.model.slots.derive
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
@@ -184,7 +182,10 @@ class Newton:
             build.line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
     def _factor(self) -> Kernel:
-        """L U of the matrix, L with unit diagonal; what is neither number nor known is stored in `lin->lu`."""
+        """Return the function of L U of the matrix, L with unit diagonal.
+
+        Entries that are neither numbers nor known are stored in `lin->lu`.
+        """
         states = range(self.first_state, self.nodes)
         more = ", inner states" if states else ""
         build = self._builder(
@@ -215,17 +216,18 @@ class Newton:
         return self._build(build, (Argument("eta"), self._own_lin()), status=True)
 
     def _own_lin(self) -> Argument:
+        """Return the argument `lin` as one that the function writes."""
         return replace(self.lin, access=Access.WRITTEN)
 
     def _build(self, build: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
-        """A kernel that reads the run's numbers through `lin`."""
+        """Return the function; it reads the parameters of the run through `lin`."""
         kernel = build.build(arguments, status, prune=True)
         numbers = Section("numbers of the run", (RunNumbers(),))
         reads = any(PARAMETERS.name in s.reads for section in kernel.sections for s in section.statements)
         return replace(kernel, sections=(numbers, *kernel.sections)) if reads else kernel
 
     def _substitute(self) -> Kernel:
-        """x becomes the solution of N x = b, which it holds at first; nodes are coordinates, rows, frictions."""
+        """Return the function that replaces x = b by the solution of N x = b; nodes are coordinates, then equations."""
         build = self._builder("newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."])
         build.section("forward")
         order = self.elimination.order
@@ -245,7 +247,7 @@ class Newton:
         return self._build(build, (self.lin, result("x")))
 
     def _solve(self) -> Kernel:
-        """From r (2n + works + inner states) to u."""
+        """Return the function that computes u from r (2n + works + inner states)."""
         n, parts = self.n, self.parts
         states = range(self.first_state, self.nodes)
         build = self._builder(
@@ -288,11 +290,11 @@ class Newton:
         return self._build(build, arguments)
 
     def _behind(self, state: int) -> int:
-        """Where a node that is an inner state is in y."""
+        """Return the index in y of a node that is an inner state."""
         return 2 * self.n + N_WORK + state - self.first_state
 
     def _work(self, w: int) -> sp.Expr:
-        """u_w; x holds u_v, that is η (δa + r_v), and η μ behind it."""
+        """Return u_w of work w; x holds u_v, that is η (δa + r_v), followed by η μ."""
         parts, n = self.parts, self.n
         terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
         for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
@@ -305,7 +307,7 @@ class Newton:
 
 
 def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
-    """Its matrix at complex η, factorized and solved where s is 0."""
+    """Return the functions of Newton's matrix at complex η: factorization and solution with s = 0."""
     arrays = ("eta", "r", "u", "x", newton.lin["lu"])
     return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))
 
@@ -314,9 +316,10 @@ ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_r
 
 
 class Factors:
-    """L, U and inverse pivots as they come, column by column."""
+    """L, U and inverse pivots of Newton's matrix, printed column by column."""
 
     def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
+        """Begin without pivots; `entries` are those of the matrix."""
         self.newton, self.build, self.entries = newton, build, entries
         self.lower: dict[Pair, sp.Expr] = {}  # (later equation, earlier unknown)
         self.upper: dict[Pair, sp.Expr] = {}  # (earlier unknown, later unknown)
@@ -324,7 +327,7 @@ class Factors:
         self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
     def eliminate(self, k: int, later: Sequence[int]) -> None:
-        """Pivot k, its column of L and its row of U."""
+        """Append pivot k, its column of L and its row of U; `later`: the nodes in them."""
         self.inverse[k] = self._pivot(k)
         names, equation = self.newton.names, self.newton.equation.get(k, k)
         for i in later:
@@ -337,12 +340,12 @@ class Factors:
             self._before[k if i == equation else i].append(k)
 
     def _products(self, i: int, k: int, of: Sequence[int] | None = None) -> sp.Expr:
-        """What the pivots before, or some of them, take from the entry of equation i in the unknown k."""
+        """Return Σ L U of earlier pivots (all, or those in `of`) for the entry of equation i in the unknown k."""
         before = self._before[i] if of is None else of
         return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in before if (j, k) in self.upper))
 
     def _pivot(self, k: int) -> sp.Expr:
-        """1/pivot; what is left of a row is compared with what it would be if it were independent of the others."""
+        """Return 1/pivot; the rest of an equation is compared with its value if it were independent of the others."""
         newton, build, name = self.newton, self.build, self.newton.names[k]
         own = self.entries.get((newton.equation.get(k, k), k), ZERO)
         if k in newton.equation:
@@ -369,5 +372,6 @@ class Factors:
         return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
 
     def _kept(self, name: str, value: sp.Expr) -> sp.Expr:
+        """Return a factor as it is if it is simple, else as a local that other functions may read."""
         own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
         return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))

@@ -1,4 +1,4 @@
-"""Pivots of a KKT system: what is small, how a pivot is tested, what is worth a name."""
+"""Pivots of a KKT system: thresholds, tests of a pivot, and which values get names."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ LEAST_SIZE = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
 
 @dataclass(frozen=True)
 class Factor:
-    """L by (row node, column node), D⁻¹ by nodes: numbers, symbols, or negatives of symbols.
+    """Factorization of the KKT matrix: L by (row node, column node), D⁻¹ by nodes.
 
-    D has blocks of one and of two nodes: two that follow each other and couple need one division, not one
-    after the other.
+    D has blocks of one and of two nodes: two coupled nodes that follow each other need one division instead of two
+    consecutive ones.
     """
 
     L: Mapping[tuple[int, int], sp.Expr]
@@ -49,7 +49,7 @@ class Factor:
 
 
 def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
-    """1 in stick and 0 else, and the sign of a slip (0: none)."""
+    """Return two symbols of a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none)."""
     place = DISCRETE["mode"][index]
     mode = build.local(f"mode_{name}", place, "0 stick, 1 or -1 the sign of the slip, 2 held")
     stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
@@ -57,23 +57,29 @@ def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbo
 
 
 def pivot_guard(failing: Sequence[int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
-    """Pivot `which` of a block, behind so many rows, fails unless the value is above the bound."""
+    """Return the test that pivot `which` of a block is above the bound.
+
+    `failing`: whether failure jumps, and the number of equations before the block.
+    """
     jumps, count = failing
     return Guard(Test(value, ">", bound), count + which, bool(jumps))
 
 
 def is_simple(value: sp.Expr) -> bool:
-    """A number, a symbol or its negative: cheaper written in place than named."""
+    """Return whether a value is a number, a symbol or its negative, which needs no local."""
     return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)
 
 
 def named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
-    """The value, as a local of that name unless it is simple."""
+    """Return the value, as a new local of that name unless it is simple."""
     return value if is_simple(value) else build.local(name, value)
 
 
 def row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
-    """Two rows of a joint in the same coordinates, of which there are more than two; rows are nodes from n on."""
+    """Return the pairs of equations of a joint in the same coordinates, of which there are more than two.
+
+    Equations are nodes from n on; each is returned with its partner.
+    """
     pairs: dict[int, int] = {}
     for r, (row, other) in enumerate(pairwise(rows), n):
         if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:

@@ -1,10 +1,10 @@
-"""Sparse L D Lᵀ of the KKT matrix, symbolically: which entries exist, and the sums that give them.
+"""Sparse L D Lᵀ of the KKT matrix, symbolically: elimination order and structure; block triangular form.
 
-The matrix is [M Φ_qᵀ; Φ_q 0] with a diagonal M. A row of Φ is eliminated only after all the
-coordinates in it: its pivot is then −Φ_q M⁻¹ Φ_qᵀ of what is left, never a structural zero, and
-negative as long as the rows are independent. The order is chosen here, once, by counting products.
-
-Rows matched with columns, and the block triangular form that follows (A. Pothen, C.-J. Fan, 1990).
+The matrix is [M Φ_qᵀ; Φ_q 0]. A constraint equation is eliminated only after all the coordinates in it: its pivot is
+then −Φ_q M⁻¹ Φ_qᵀ of what is left, never a structural zero, and negative as long as the equations are independent.
+The order is chosen once, by counting products.
+For square systems, equations are matched with unknowns, from which the block triangular form follows (A. Pothen,
+C.-J. Fan, 1990).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FIRST = (-1,)  # a key before all others
 
 @dataclass(frozen=True)
 class Elimination:
-    """`order[k]` is the k-th pivot; `structure[k]` the later nodes in column k of L, in their order."""
+    """Order and structure of an L D Lᵀ: `order[k]` is the k-th pivot, `structure[k]` the later nodes in its column."""
 
     order: tuple[int, ...]
     structure: dict[int, tuple[int, ...]]
@@ -34,7 +34,10 @@ class Elimination:
 
     @property
     def cost(self) -> int:
-        """In products; each division waits for the one before, in a long chain other work fills the time."""
+        """Return the cost in products, with at most LONG divisions that wait for each other.
+
+        In longer chains other work fills the time.
+        """
         return self.products + DIVISION * min(self.depth, LONG)
 
 
@@ -46,12 +49,14 @@ def choose_elimination(
     first: Sequence[int] = (),
     partner: Mapping[int, int] = NO_PAIRS,
 ) -> Elimination:
-    """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows.
+    """Return the cheapest of a few greedy elimination orders.
 
-    Nodes from `last` on come after all the others. Rows in `pairs` (each with its partner, in the same
-    coordinates) may go as soon as two of their coordinates are gone: their 2 × 2 pivot then vanishes where two
-    links are in one line, so that the caller must look at it. Those in `first` go before all others, in their order;
-    one that has a `partner`, a row with a constant entry in it, goes together with that row.
+    Nodes below `coordinates` are coordinates, the others equations; nodes from `last` on come after all others.
+    Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
+    coordinates
+    are: their 2 × 2 pivot then vanishes where two links are in line, so that the caller must test it. Nodes in `first`
+    come before all others, in their order; one with a `partner`, an equation with a constant entry in it, is eliminated
+    together with that equation.
     """
     if first:
         orders = (_in_order(first, pattern, coordinates, last, pairs, partner, eager) for eager in (False, True))
@@ -59,17 +64,21 @@ def choose_elimination(
     end = len(pattern) if last is None else last
 
     def degree(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of least degree."""
         return (node >= end, len(graph[node]), node)
 
     def fill(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of least fill-in."""
         near = sorted(graph[node])
         missing = sum(b not in graph[a] for i, a in enumerate(near) for b in near[i + 1 :])
         return (node >= end, missing, len(near), node)
 
     def bodies_first(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of least fill-in with all coordinates before equations."""
         return (node >= end, node >= coordinates, *fill(graph, node, wait))
 
     def untouched(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of least fill-in with nodes that no elimination has changed first."""
         return (node >= end, graph[node] != pattern[node], *fill(graph, node, wait))
 
     def shallow(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
@@ -95,10 +104,11 @@ def _in_order(
     partner: Mapping[int, int],
     eager: bool,
 ) -> Elimination:
-    """The nodes in `first` with their partners, then the others, whose graph is what those leave.
+    """Return the elimination of the nodes in `first` with their partners, then of the others by the best order.
 
-    `eager`: a coordinate that is in none of the partners any more follows at once: along a chain of bodies from its
-    end, each is then coupled with the one that carries it only.
+    `eager`: a coordinate that is in none of the partners any more follows at once. Along a chain of bodies from its
+    end,
+    each is then coupled only with the one that carries it.
     """
     graph = [set(near) for near in pattern]
     columns = dict[int, set[int]]()
@@ -127,7 +137,10 @@ def _in_order(
 
 
 def _take(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
-    """Eliminates a node, with its partner: the partner's neighbours then meet those of both. Returns the products."""
+    """Eliminate a node with its partner from the graph and return the number of products.
+
+    The partner's neighbours are coupled with those of both.
+    """
     gone = {node} if partner is None else {node, partner}
     own = graph[node] - gone
     through = own if partner is None else graph[partner] - gone
@@ -146,6 +159,7 @@ def _eliminate(
     key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
     pairs: Mapping[int, int],
 ) -> Elimination:
+    """Return the greedy elimination that takes the node with the least `key` next."""
     graph = [set(near) for near in pattern]
     waiting = [sum(near < coordinates for near in pattern[n]) if n >= coordinates else 0 for n in range(len(pattern))]
     for n in pairs:
@@ -189,7 +203,10 @@ def _eliminate(
 
 
 def _depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
-    """Pivots that elimination does not change are known beforehand; two that follow each other are one."""
+    """Return the length of the longest chain of divisions that wait for each other.
+
+    Pivots that elimination does not change are computed beforehand; two that form a block count as one.
+    """
     changed = set[int]().union(*structure.values())
     waits = dict.fromkeys(order, 0)
     paired = -1
@@ -205,17 +222,18 @@ def _depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coord
 
 @dataclass(frozen=True)
 class Block:
-    """As many rows as coordinates, by number."""
+    """A square block of a block triangular form: numbers of its equations and of as many unknowns."""
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
 
 
 def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
-    """Rows by columns of their own, for as many rows as there is one for (augmenting paths)."""
+    """Return a maximum matching of equations with unknowns, as the equation by unknown (augmenting paths)."""
     owner: dict[int, int] = {}
 
     def find(row: int, tried: set[int]) -> bool:
+        """Return whether the equation gets an unknown, after moving other equations if necessary."""
         for column in sorted(pattern[row]):
             if column not in tried:
                 tried.add(column)
@@ -230,7 +248,10 @@ def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
 
 
 def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
-    """Blocks in solving order of a square pattern, columns by row; None where no row is left for some column."""
+    """Return the blocks of a square pattern in solving order; None if some unknown has no equation.
+
+    `pattern`: the unknowns of each equation.
+    """
     if len(pattern) != n:
         return None
     owner = match_rows(pattern)

@@ -1,10 +1,10 @@
-"""Φ_q x = r where there are as many rows as coordinates: solved part by part, without M.
+"""Solution of Φ_q x = r with as many equations as coordinates, block by block, without M.
 
-A linkage without freedom falls into groups of bodies that can be placed one after the other (the Assur groups of
-kinematics, mostly dyads: two rows in two angles). In Φ_q they are the diagonal blocks of its block triangular form:
-match every row with a coordinate of its own, then take the strongly connected parts of who needs whom, in order
-(A. Pothen, C.-J. Fan, ACM Trans. Math. Softw. 16:303, 1990). One row is a division, two are Cramer's rule, larger
-blocks are factorized densely with pivoting at run time (engine/scene/block.c).
+A linkage without degrees of freedom consists of groups of bodies that can be placed one after the other (the Assur
+groups of kinematics, mostly dyads: two equations in two angles). In Φ_q they are the diagonal blocks of its block
+triangular form: match every equation with a coordinate of its own, then take the strongly connected components of
+their dependences, in order (A. Pothen, C.-J. Fan, ACM Trans. Math. Softw. 16:303, 1990). One equation is a division,
+two are Cramer's rule, larger blocks are factorized densely with pivoting at run time (engine/scene/block.c).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ SHARE = Threshold("SINGULAR_SQUARE", sqrt(SINGULAR))
 
 @dataclass(frozen=True)
 class Solver:
-    """What is known of a block at a state: the inverse of its pivot or determinant, or the name of its factors."""
+    """Solver of one block at a state: the inverse of its pivot or determinant, or the name of its factors."""
 
     block: Block
     inverse: sp.Expr = ZERO
@@ -41,10 +41,10 @@ class Solver:
 
 
 class SquareRows:
-    """Emits the solution of Φ_q x = r for a system's rows in its coordinates, if it `fits`."""
+    """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `fits`."""
 
     def __init__(self, system: System, slides: Sequence[bool]) -> None:
-        """`slides`: which coordinates are lengths, not angles."""
+        """Find the blocks of the system; `slides`: whether each coordinate is a length, not an angle."""
         rows, q = system.rows, system.q
         place = {symbol: k for k, symbol in enumerate(q)}
         self._symbols, self._q, self._slides = system.model.symbols, tuple(q), slides
@@ -55,16 +55,19 @@ class SquareRows:
 
     @property
     def fits(self) -> bool:
-        """False where rows and coordinates are not equally many, or the rows' pattern leaves some coordinate open."""
+        """Return whether there are as many equations as coordinates and the pattern determines all of them."""
         return self.blocks is not None
 
     @property
     def largest(self) -> int:
-        """Rows of the largest block; more than two need engine/scene/block.c."""
+        """Return the number of equations of the largest block; more than two need engine/scene/block.c."""
         return max((len(block.rows) for block in self.blocks or ()), default=0)
 
     def factorize(self, build: KernelBuilder) -> list[Solver]:
-        """Statements that make a block singular return the number, from 1, of a row of it."""
+        """Append the factorization of all blocks and return their solvers.
+
+        The printed function returns the number, from 1, of an equation of the block that is singular.
+        """
         build.section("groups of rows that are solved one after the other")
         solvers = []
         for block in self.blocks or ():
@@ -73,6 +76,7 @@ class SquareRows:
         return solvers
 
     def _single(self, build: KernelBuilder, block: Block) -> Solver:
+        """Return the solver of a block of one equation, with a test of its pivot."""
         (row,), (column,) = block.rows, block.columns
         pivot = self.entries[row][column]
         if pivot.is_Number:
@@ -82,6 +86,7 @@ class SquareRows:
         return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / named))
 
     def _pair(self, build: KernelBuilder, block: Block) -> Solver:
+        """Return the solver of a block of two equations by Cramer's rule, with a test of its determinant."""
         name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
         (a, b), (c, d) = self._square(block)
         determinant = build.local(f"determinant_{name}", a * d - b * c)
@@ -91,9 +96,9 @@ class SquareRows:
         return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
 
     def _size(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
-        """What an entry could be if arms lay in the worst direction, within a factor of two.
+        """Return the largest value of an entry for any direction of its arms, within a factor of two.
 
-        For an angle |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units do not mix.
+        For an angle it is |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units are not mixed.
         """
         entries = self.entries[row]
         if self._slides[column]:
@@ -106,6 +111,7 @@ class SquareRows:
         return build.local(f"size_{self.names[row]}__{self.unknowns[column]}", size.replace(sp.Abs, Size))
 
     def _dense(self, build: KernelBuilder, block: Block) -> Solver:
+        """Return the solver of a larger block, which the engine factorizes at run time."""
         n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
         build.line(Declare(Number.REAL, values, (n * n,)))
@@ -117,12 +123,16 @@ class SquareRows:
         return Solver(block, name=name)
 
     def _square(self, block: Block) -> list[list[sp.Expr]]:
+        """Return the entries of a block as rows."""
         return [[self.entries[r].get(c, ZERO) for c in block.columns] for r in block.rows]
 
     def solve(
         self, build: KernelBuilder, solvers: Sequence[Solver], rhs: Sequence[sp.Expr], prefix: str
     ) -> list[sp.Expr]:
-        """x by coordinate for one right-hand side."""
+        """Append the solution x for one right-hand side and return it by coordinate.
+
+        `prefix` begins the names of its locals.
+        """
         x: dict[int, sp.Expr] = {}
         for solver in solvers:
             block = solver.block
@@ -139,6 +149,7 @@ class SquareRows:
     def _solve(
         self, build: KernelBuilder, solver: Solver, left: Sequence[sp.Expr], prefix: str
     ) -> Sequence[sp.Expr | Place]:
+        """Return the solution of one block for its right-hand side `left`."""
         if len(left) == 1:
             return [left[0] * solver.inverse]
         if len(left) == 2:
