@@ -11,7 +11,7 @@ from gudgeon.errors import BadNameError, Location
 from gudgeon.generator.field import OF_MOTION, OF_RESULTS
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.mechanism import GROUND
-from gudgeon.generator.reader.collector import BROKEN, Named, Reader
+from gudgeon.generator.reader.collector import BROKEN, NamedExpression, Reader
 from gudgeon.generator.reader.places import CORNERS_OF_SIDES, IMPLIED_POINTS, Places
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
 from gudgeon.generator.yaml import Map, Text
@@ -38,7 +38,7 @@ def read_names(reader: Reader, root: Map) -> tuple[Places, ResultNames]:
     """
     reader.parameters.update(dict.fromkeys(map(str, root.part("parameters"))))
     expressions = (name for name in root.part("expressions").names() if name != "t")
-    reader.expressions.update((str(name), Named(BROKEN, BROKEN, None, name.where)) for name in expressions)
+    reader.expressions.update((str(name), NamedExpression(BROKEN, BROKEN, None, name.where)) for name in expressions)
     _check_labels(reader, root)
     _check_in_expressions(reader, root)
     _check_points(reader, root)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from gudgeon.errors import LimitError, Location
 from gudgeon.generator.field import OF_MOTION, OF_TIME
 from gudgeon.generator.mechanism import Quantity
-from gudgeon.generator.reader.collector import Named, Reader
+from gudgeon.generator.reader.collector import NamedExpression, Reader
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml import Map, Text
@@ -39,7 +39,7 @@ def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
         with reader.collect():
             reader.expressions[name] = _named(reader, name, texts[name], trees[name], sizes)
     for name, one in reader.expressions.items():
-        reader.made_of[f"expressions.{name}"] = reader.expressions_in(one.written)
+        reader.made_of[f"expressions.{name}"] = reader.expressions_in_tree(one.written)
     return {
         name: reader.keep(
             Quantity(f"expressions.{name}", one.value, one.dimension or DIMENSIONLESS, one.where, written=one.written)
@@ -48,14 +48,14 @@ def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
     }
 
 
-def _named(reader: Reader, name: str, text: Text, tree: Expr, sizes: dict[str, tuple[int, int]]) -> Named:
+def _named(reader: Reader, name: str, text: Text, tree: Expr, sizes: dict[str, tuple[int, int]]) -> NamedExpression:
     """An expression, when those in it are known. Raises an InputError at what it may not hold."""
     tree = settle_reading(text, tree, None, reader.dimension_of_number, reader.curves)
     sizes[name] = _size(name, tree, text.where, sizes)
     value = replaced(tree, {other: one.value for other, one in reader.expressions.items()})
     moves = any("." in inner.path for inner in names(value))
-    known = reader.check_names(tree, text.where, OF_MOTION if moves else OF_TIME)
-    return Named(tree, value, check_dimension(tree, None, known.get, text.where), text.where)
+    known = reader.dimensions_of_names(tree, text.where, OF_MOTION if moves else OF_TIME)
+    return NamedExpression(tree, value, check_dimension(tree, None, known.get, text.where), text.where)
 
 
 def _size(name: str, tree: Expr, where: Location, of: Mapping[str, tuple[int, int]]) -> tuple[int, int]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from gudgeon.errors import CycleError, InputError, Location, together
 from gudgeon.generator.mechanism import Quantity
-from gudgeon.generator.reader.collector import Reader, broken
+from gudgeon.generator.reader.collector import Reader, unreadable_number
 from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.dimension_check import check_dimension
@@ -22,7 +22,7 @@ MOST_TOLD = 8  # names of a cycle
 def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     """The section `parameters:` in the order of the file; reader.parameters knows their dimensions afterwards."""
     texts = {str(name): text for name, text in section.pairs()}
-    trees: dict[str, Expr] = {name: broken(text) for name, text in texts.items()}
+    trees: dict[str, Expr] = {name: unreadable_number(text) for name, text in texts.items()}
     for name, text in texts.items():
         if name in reader.refused:
             continue
@@ -31,7 +31,7 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
             def read(value: str, name: str = name, text: Text = text) -> Expr:
                 written = Text.make(value, text.where, text.plain, text.one_line)
                 tree = reader.parse(written, f"parameters.{name}", constant=True)
-                reader.check_names(tree, text.where)
+                reader.dimensions_of_names(tree, text.where)
                 _dimension(name, tree, lambda _: None, text.where)
                 return tree
 

@@ -16,7 +16,7 @@ from gudgeon.generator.format.sections import OUTPUT, SECTIONS
 from gudgeon.generator.mechanism import Mechanism, Quantity, Scene, make_scene
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
-from gudgeon.generator.reader.collector import EnoughErrors, Reader
+from gudgeon.generator.reader.collector import Reader, TooManyErrors
 from gudgeon.generator.reader.contacts import read_contacts, read_measures
 from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.declared_names import read_names
@@ -46,7 +46,7 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     root = apply_overrides(parse_yaml(data, file, reader.errors), overrides or {})
     try:
         mechanism = _read(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
-    except EnoughErrors:
+    except TooManyErrors:
         mechanism = None
     reader.raise_errors()
     assert mechanism is not None
