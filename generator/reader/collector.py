@@ -137,7 +137,7 @@ class Reader:
         if errors:
             raise together(errors)
 
-    def _follows(self, error: InputError) -> bool:
+    def _is_consequence(self, error: InputError) -> bool:
         """Return whether an error reports an unknown name that belongs to an entry left out by `check_shape`."""
         name = re.match(r"unknown [^']*'([A-Za-z0-9_]+)", error.message)
         return isinstance(error, UnknownNameError) and bool(self.left_out.intersection((ANY_NAME, name and name[1])))
@@ -201,7 +201,7 @@ class Reader:
             )
         return parse(text, text.where, _NumberNames(self, address, constant), self.curves)
 
-    def check_names(self, expr: Expr, where: Location, varies: str = "") -> dict[str, Dimension | None]:
+    def dimensions_of_names(self, expr: Expr, where: Location, varies: str = "") -> dict[str, Dimension | None]:
         """Return the dimension of every name in `expr`.
 
         Raises an ExpressionError or UnknownNameError at a name that is not allowed there, InputErrors for several.
@@ -247,7 +247,7 @@ class Reader:
                 " events and outputs only"
             )
             raise ExpressionError(f"{name!r} is an expression, and this number is constant", place, hint)
-        for read in self.dependencies_of(name):
+        for read in self._dependencies_of(name):
             if read in self.parameters or read == "t" and time:
                 continue
             if read == "t" or result is None:
@@ -255,12 +255,12 @@ class Reader:
                 raise ExpressionError(f"{name!r} reads {read}, which cannot stand here", place, hint)
             result(Name(read), place)
 
-    def _read_by(self, name: str) -> Iterator[str]:
+    def _dependencies_of(self, name: str) -> Iterator[str]:
         """Yield the names that a named expression depends on, with other named expressions expanded."""
         for one in self.expressions_in_tree(Name(name)):
             yield from (read.path for read in names(self.expressions[one].written) if read.path not in self.expressions)
 
-    def expressions_in(self, expr: Expr) -> tuple[str, ...]:
+    def expressions_in_tree(self, expr: Expr) -> tuple[str, ...]:
         """Return the named expressions that `expr` contains, directly or through other named expressions."""
         found, waiting = dict[str, None](), [expr]
         while waiting:
@@ -269,7 +269,7 @@ class Reader:
             waiting += [self.expressions[name].written for name in new]
         return tuple(found)
 
-    def _note_use(self, expr: Expr, expected: Dimension | None) -> None:
+    def _record_dimension(self, expr: Expr, expected: Dimension | None) -> None:
         """Record `expected` as a dimension of a parameter without a unit, if the value is that parameter alone."""
         while isinstance(expr, Unary):
             expr = expr.operand
