@@ -20,8 +20,8 @@ from gudgeon.errors import (
 from gudgeon.generator.field import CONSTANT_IN_TIME, OF_CAM_ANGLE, OF_PENETRATION
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism import Condition, Quantity, Vector
-from gudgeon.generator.reader.result_names import CamAngle, Penetration, ResultDimension
-from gudgeon.generator.reader.unit_or_name import settle_reading
+from gudgeon.generator.reader.result_names import CamAngleNames, PenetrationNames, ResultDimension
+from gudgeon.generator.reader.unit_or_name import choose_reading
 from gudgeon.generator.yaml import NO_MERGE, Map, Text
 from gudgeon.language.curves import Curve
 from gudgeon.language.names import RESERVED, unknown_name
@@ -91,8 +91,8 @@ class Reader:
         self.refused: set[str] = set()  # names of parameters, curves and expressions that are not allowed
         self.texts: list[Text] = []  # all parsed expressions
         self.scopes: dict[str, ResultDimension] = {  # dimension of a name that is not a parameter, by `Field.varies`
-            OF_PENETRATION: Penetration(self.parameters),
-            OF_CAM_ANGLE: CamAngle(self.parameters),
+            OF_PENETRATION: PenetrationNames(self.parameters),
+            OF_CAM_ANGLE: CamAngleNames(self.parameters),
         }
 
     def check_shape(self, root: Map) -> Map:
@@ -165,7 +165,7 @@ class Reader:
             parsed = self.parse(written, address, constant=not varies)
             known = self.dimensions_of_names(parsed, text.where, varies)
             if known:
-                parsed = settle_reading(written, parsed, expected, known.get, self.curves)
+                parsed = choose_reading(written, parsed, expected, known.get, self.curves)
             return parsed, check_dimension(parsed, expected, known.get, text.where)
 
         with self.collect(), unit_remedies(text, text.where, read, expected, _NumberNames(self, "", False)):
