@@ -214,7 +214,7 @@ SHAPE = record(
 )
 
 _SIDE = (Bound(">", 0.0, "a side is positive"),)
-BRANCHES = record(
+SIDES = record(
     "sides",
     "three points P, Q and R of a body by their distances: P is the origin, Q on the x axis",
     number("PQ", "distance of P and Q", LENGTH, required=True, bounds=_SIDE),
@@ -250,7 +250,7 @@ BODY = record(
         otherwise="mid-length of a bar, else the origin",
     ),
     mapping("points", "points by name, in the body's frame: of a bar from its tail, x to its head", POINT),
-    BRANCHES,
+    SIDES,
     SHAPE,
 )
 
@@ -370,7 +370,7 @@ SCENE = record(
     SIMULATE,
 )
 
-APART = record(
+PLAY_START = record(
     "apart",
     "where a joint begins in its play, in scenes that give it some: a journal in ground axes, a slider in its guide",
     vector("e", "eccentricity: from the bearing's centre to the journal's", LENGTH, otherwise="none"),
@@ -391,7 +391,7 @@ START = record(
     ),
     mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
-    mapping("play", "joints with play that begin out of the middle, or move there", APART),
+    mapping("play", "joints with play that begin out of the middle, or move there", PLAY_START),
 )
 
 EXPRESSION = number("value", "what the name stands for", None, varies=OF_MOTION)

@@ -1,4 +1,4 @@
-"""Every number is finite and within its bounds: with the file's parameters, and with every scene's."""
+"""Checks that every number is finite and within its bounds, with the file's parameters and with those of each scene."""
 
 from __future__ import annotations
 
@@ -26,66 +26,71 @@ MASSLESS = (
 
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
-    """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
+    """Collect a BadValueError at the location of each number that is not finite or violates a condition."""
     wrong = _check_with(reader, parameters, None)
     for scene in scenes.values():
         if scene.parameters:
             _check_with(reader, parameters, scene, wrong)
-    lasts = dict.fromkeys(call.arguments[2] for quantity in reader.quantities.values() for call in _steps(quantity))
+    lasts = dict.fromkeys(
+        call.arguments[2] for quantity in reader.quantities.values() for call in _ramp_calls(quantity)
+    )
     for name in {lasting.path for lasting in lasts if isinstance(lasting, Name)}.intersection(parameters):
-        reader.require(parameters[name], ">", 0.0, "a ramp or smooth_step takes that long")  # of numbers given later
+        reader.require(
+            parameters[name], ">", 0.0, "a ramp or smooth_step takes that long"
+        )  # also for run-time overrides
 
 
 def _check_with(
     reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, before: Container[str] = ()
 ) -> Container[str]:
-    """Check all numbers with the file's parameters, or with a scene's, and return the addresses of wrong ones.
+    """Check all numbers with the file's parameters or a scene's, and return the addresses of the wrong ones.
 
-    Nothing is told of numbers that were wrong before, or that follow one that could not be read.
+    Numbers in `before`, and numbers that follow from an unreadable one, are not reported again.
     """
     own = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
     try:
         known = parameter_values({**parameters, **own})
     except InputError:
-        return ()  # a cycle, told already
-    unread = _unread(reader, {**parameters, **own}, known) if reader.errors else ()
-    values = _values(reader, known)
-    told: dict[str, list[tuple[str, str]]] = {}
+        return ()  # a cycle, reported already
+    unread = _find_unreadable(reader, {**parameters, **own}, known) if reader.errors else ()
+    values = _evaluate_all(reader, known)
+    errors: dict[str, list[tuple[str, str]]] = {}
 
-    def complain(address: str, message: str, hint: str) -> None:
+    def record(address: str, message: str, hint: str) -> None:
+        """Record an error for the number at `address`."""
         if address not in before:
-            told.setdefault(address, []).append((message, hint))
+            errors.setdefault(address, []).append((message, hint))
 
     for address, value in values.items():
         if not math.isfinite(value) and address not in unread:
-            complain(address, f"is {value}{context}", FINITE)
+            record(address, f"is {value}{context}", FINITE)
         elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
-            complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
+            record(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
         if address in unread or quantity.of or isinstance(quantity.value, Number):
             continue
         if ".parameters." not in address or address in values:
-            message, hint = _wrong_part(quantity, known, not math.isfinite(values.get(address, 0.0)))
+            message, hint = _find_invalid_part(quantity, known, not math.isfinite(values.get(address, 0.0)))
             if message:
-                complain(address, f"{message}{context}", hint)
+                record(address, f"{message}{context}", hint)
     for condition in reader.conditions:
-        broken = _broken(condition, values)
-        if broken:
+        violation = _violation(condition, values)
+        if violation:
             unit = si_unit(reader.quantities[condition.address].dimension)
-            found, hint = broken
+            found, hint = violation
             message = f"is {found} {unit}".rstrip() + f"{context}: {condition.message}"
             is_massless = condition.address.endswith(".mass") and values[condition.address] == 0.0
-            complain(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
+            record(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
     for vector in reader.vectors_not_zero:
         if all(values.get(component.address) == 0.0 for component in vector):
-            complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
-    _tell(reader, told, own)
-    return told.keys()
+            record(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
+    _report(reader, errors, own)
+    return errors.keys()
 
 
-def _unread(reader: Reader, parameters: Mapping[str, Quantity], order: Iterable[str]) -> set[str]:
-    """Return names of parameters and addresses of numbers that could not be read, or that follow such a number."""
+def _find_unreadable(reader: Reader, parameters: Mapping[str, Quantity], order: Iterable[str]) -> set[str]:
+    """Return parameters and addresses of numbers that could not be read, or that depend on such a number."""
     unread: set[str] = set()
     for path, quantity in (*((name, parameters[name]) for name in order), *reader.quantities.items()):
         is_broken = isinstance(quantity.value, Number) and math.isnan(quantity.value.value)
@@ -94,24 +99,24 @@ def _unread(reader: Reader, parameters: Mapping[str, Quantity], order: Iterable[
     return unread
 
 
-def _tell(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: Mapping[str, Quantity]) -> None:
-    """Errors of (what, hint) by address; nothing of a number that is wrong because another is."""
-    for address, told in wrong.items():
+def _report(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: Mapping[str, Quantity]) -> None:
+    """Collect the errors (message, hint) by address, except those of numbers that are wrong because another one is."""
+    for address, messages in wrong.items():
         quantity = reader.quantities[address]
-        if not _follows(reader, quantity, wrong):
-            place, users = _place(quantity, own), _users(reader, address)
-            reader.errors += [BadValueError(f"{address} {message}{users}", place, hint) for message, hint in told]
+        if not _follows_from_error(reader, quantity, wrong):
+            place, users = _location_of_cause(quantity, own), _describe_users(reader, address)
+            reader.errors += [BadValueError(f"{address} {message}{users}", place, hint) for message, hint in messages]
 
 
-def _follows(reader: Reader, quantity: Quantity, wrong: Container[str]) -> bool:
-    """Whether a number is wrong because another is, or an expression by name that is a part of it."""
-    return any(part.address in wrong or _follows(reader, part, wrong) for part in quantity.of) or any(
+def _follows_from_error(reader: Reader, quantity: Quantity, wrong: Container[str]) -> bool:
+    """Return whether a number is wrong because another number, or a named expression that it contains, is wrong."""
+    return any(part.address in wrong or _follows_from_error(reader, part, wrong) for part in quantity.of) or any(
         f"{EXPRESSIONS}{name}" in wrong for name in reader.made_of.get(quantity.address, ())
     )
 
 
-def _users(reader: Reader, address: str) -> str:
-    """Who uses an expression by name, in words; "" of another number."""
+def _describe_users(reader: Reader, address: str) -> str:
+    """Return a phrase that names the users of a named expression; "" for the address of another number."""
     name = address.removeprefix(EXPRESSIONS)
     users = [user for user, names in reader.made_of.items() if name in names and not user.startswith(EXPRESSIONS)]
     if name == address or not users:
@@ -119,56 +124,62 @@ def _users(reader: Reader, address: str) -> str:
     return f", and {users[0]} and {len(users) - 1} more use it" if len(users) > 1 else f", and {users[0]} uses it"
 
 
-def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
-    """(message, hint) about a part of an expression that cannot be meant; "" if none, or the whole is wrong."""
+def _find_invalid_part(quantity: Quantity, known: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
+    """Return (message, hint) about a part of an expression that cannot be intended; ("", "") if there is none.
+
+    Examples are an underflow or a negative duration. Nothing is returned if the whole value is already wrong.
+    """
     wrong = None if is_wrong else undefined_part(quantity.value, known)
     if wrong is not None:
         return f"has a part that is {wrong}", FINITE
-    if (small := _lost_factor(quantity.value, known)) is not None:
+    if (small := _find_underflow(quantity.value, known)) is not None:
         hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
         return f"has a part that is {small:g}, too small for its digits", hint
-    for call in _steps(quantity):
+    for call in _ramp_calls(quantity):
         duration = call.arguments[2]
         if all(name.path in known for name in names(duration)):
             lasts = float(evaluate(duration, known.__getitem__))
             if lasts < 0.0:
-                told = f"has a {call.function} that lasts {lasts:.6g}: it would end before it begins"
-                return told, f"expected {call.function}(t, start, duration), its duration above zero"
+                message = f"has a {call.function} that lasts {lasts:.6g}: it would end before it begins"
+                return message, f"expected {call.function}(t, start, duration), its duration above zero"
     return "", ""
 
 
-def _steps(quantity: Quantity) -> list[Call]:
-    """The ramps and smooth_steps of an expression."""
+def _ramp_calls(quantity: Quantity) -> list[Call]:
+    """Return the calls of ramp and smooth_step in an expression."""
     return [call for function in ("ramp", "smooth_step") for call in calls(quantity.value, function)]
 
 
-def _lost_factor(expr: Expr, known: Mapping[str, float]) -> float | None:
-    """The value of a product of numbers, or a power in a product, that binary64 has without digits or not at all."""
+def _find_underflow(expr: Expr, known: Mapping[str, float]) -> float | None:
+    """Return the first factor of an expression that underflows in binary64, None if there is none.
+
+    Products of numbers, and powers in products, are tested.
+    """
     match expr:
         case Unary(operand=operand):
-            return _lost_factor(operand, known)
+            return _find_underflow(operand, known)
         case Call(arguments=inner):
             pass
         case Binary(operator=operator, left=left, right=right):
             inner = (left, right)
             for part in (expr, left, right) if operator in ("*", "/") else ():
-                if (value := _lost(part, known)) is not None:
+                if (value := _underflowing_value(part, known)) is not None:
                     return value
         case _:
             return None
-    return next((value for part in inner if (value := _lost_factor(part, known)) is not None), None)
+    return next((value for part in inner if (value := _find_underflow(part, known)) is not None), None)
 
 
-def _lost(part: Expr, known: Mapping[str, float]) -> float | None:
-    """The value of a product, quotient or power of numbers other than 0 if it is below what has all its digits."""
+def _underflowing_value(part: Expr, known: Mapping[str, float]) -> float | None:
+    """Return the value of a product, quotient or power of nonzero numbers if it underflows, else None."""
     if not isinstance(part, Binary) or part.operator in ("+", "-") or any(n.path not in known for n in names(part)):
         return None
     value, left, right = (float(evaluate(x, known.__getitem__)) for x in (part, part.left, part.right))
     return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 
-def _values(reader: Reader, known: dict[str, float]) -> dict[str, float]:
-    """Every number that parameters alone determine (SI), by address; `known` gets those that others follow."""
+def _evaluate_all(reader: Reader, known: dict[str, float]) -> dict[str, float]:
+    """Return all numbers (SI) that parameters alone determine, by address; `known` gets those that others follow."""
     for part in (part for quantity in reader.quantities.values() for part in quantity.of):
         known[part.address] = float(evaluate(part.value, known.__getitem__))  # in their order: parts come first
     return {
@@ -179,13 +190,13 @@ def _values(reader: Reader, known: dict[str, float]) -> dict[str, float]:
     }
 
 
-def _place(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
-    """Where a wrong number comes from: from the scene, if it uses one of the scene's own parameters."""
+def _location_of_cause(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
+    """Return where a wrong value comes from: the scene's parameter if the number uses one, else the number itself."""
     return next((own[name.path].where for name in names(quantity.value) if name.path in own), quantity.where)
 
 
-def _broken(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
-    """The value and what was expected, if a condition does not hold; a number that is NaN was told already."""
+def _violation(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
+    """Return the value and the expected bound as texts if a condition is violated, else None; also None for NaN."""
     value = values.get(condition.address, math.nan)
     bound = condition.bound
     if isinstance(bound, str):

@@ -1,6 +1,6 @@
-"""Bearings, guides and contacts, and `extends:`.
+"""Reads the sections `bearings`, `guides` and `contacts`, and resolves `extends:`.
 
-What a law's own keys hold is said by its file in generator/kinds/laws.
+The keys of a force law are declared in the law's file in generator/kinds/laws.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from gudgeon.generator.kinds.laws.law import OWN, called, laws
 from gudgeon.generator.kinds.laws.registered import key_of
 from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, at_onset
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
+from gudgeon.generator.reader.fields import FieldContext, check_keys, field_names, read_fields
 from gudgeon.generator.reader.materials import ELASTIC, Materials
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.names import known_hint, unknown_name
@@ -24,97 +24,107 @@ from gudgeon.language.parser import at
 from gudgeon.language.tree import Number, names
 
 
-def parents_first(reader: Reader, what: str, section: Map, known: Iterable[str] = ()) -> Iterator[tuple[Text, Map]]:
-    """The entries of a section, each behind the one that it extends.
+def order_by_inheritance(
+    reader: Reader, what: str, section: Map, known: Iterable[str] = ()
+) -> Iterator[tuple[Text, Map]]:
+    """Yield the entries of a section so that each comes after the entry that it extends.
 
-    What extends an unknown name or itself is told and left out; `known` are parents outside the section.
+    `what` names the kind of entry in messages; `known` are parents outside the section. Entries that extend an unknown
+    name, or themselves through others, are reported and left out.
     """
     by_name = {str(name): (name, entry) for name, entry in section.pairs()}
-    ready = dict.fromkeys(name for name in known if name not in by_name)  # in order, for a message shows them
+    ordered = dict.fromkeys(name for name in known if name not in by_name)  # a dict keeps the order for messages
     refused: set[str] = set()
     for start in by_name:
-        chain: list[str] = []
+        path: list[str] = []
         current: str | None = start
-        while current is not None and current not in ready and current not in refused:
+        while current is not None and current not in ordered and current not in refused:
             entry = by_name[current][1]
-            if current in chain:
-                cycle = [*chain[chain.index(current) :], current]
+            if current in path:
+                cycle = [*path[path.index(current) :], current]
                 where = entry["extends"].where if "extends" in entry else by_name[current][0].where
                 message = f"{what}s that extend each other: {' → '.join(cycle)}"
                 reader.errors.append(CycleError(message, where, "expected one of them to extend none"))
-                refused.update(chain)
+                refused.update(path)
                 break
-            chain.append(current)
+            path.append(current)
             parent = entry.get("extends")
-            if parent is not None and parent not in by_name and parent not in ready:
-                reader.errors.append(unknown_name(what, parent, dict.fromkeys([*ready, *by_name]), parent.where))
-                refused.update(chain)
+            if parent is not None and parent not in by_name and parent not in ordered:
+                reader.errors.append(unknown_name(what, parent, dict.fromkeys([*ordered, *by_name]), parent.where))
+                refused.update(path)
                 break
             current = str(parent) if parent is not None else None
         if current in refused:
-            refused.update(chain)
-        for name in reversed(chain):
+            refused.update(path)
+        for name in reversed(path):
             if name not in refused:
-                ready[name] = None
+                ordered[name] = None
                 yield by_name[name]
 
 
-NO_FORCE = 1e-9  # N, what rounding may leave of a force that is 0
+ZERO_FORCE_TOL = 1e-9  # N: largest rounding error of a force that is 0
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 
 
-def read_measures(reader: Reader, root: Map, materials: Materials) -> dict[str, Mapping[str, Bearing | Guide]]:
-    """Bearings and guides by name, by the key under which a scene's `play` names one."""
+def read_bearings_and_guides(
+    reader: Reader, root: Map, materials: Materials
+) -> dict[str, Mapping[str, Bearing | Guide]]:
+    """Read bearings and guides and return them by name, under the keys "bearing" and "guide" of a scene's `play`."""
     return {
         "bearing": {
             name: Bearing(name, own["radius"], own["clearance"], own["length"], *pair)
-            for name, own, pair in _measured(
+            for name, own, pair in _read_with_materials(
                 reader, root.part("bearings"), BEARING, ("bearing_material", "journal_material"), materials
             )
         },
         "guide": {
             name: Guide(name, own["gap"], own["half_length"], own["half_height"], own.get("corner_radius"), *pair)
-            for name, own, pair in _measured(
+            for name, own, pair in _read_with_materials(
                 reader, root.part("guides"), GUIDE, ("guide_material", "slider_material"), materials
             )
         },
     }
 
 
-def _measured(
+def _read_with_materials(
     reader: Reader, section: Map, of: Field, roles: tuple[str, str], materials: Materials
 ) -> Iterator[tuple[str, Mapping[str, Quantity], list[Material]]]:
-    """All of a section whose materials are known, with their numbers."""
+    """Yield name, numbers and both materials of each entry of a section whose materials are known.
+
+    `roles` are the keys of the two materials: bearing and journal, or guide and slider.
+    """
     for name, node in section.pairs():
         owner = f"{of.name}s.{name}"
-        own = read_fields(reader, node, of.fields, Around(owner)).quantities
-        pair = _materials(reader, node, owner, roles, materials)
+        own = read_fields(reader, node, of.fields, FieldContext(owner)).quantities
+        pair = _read_material_pair(reader, node, owner, roles, materials)
         if len(pair) == 2:
             yield str(name), own, pair
 
 
-def _materials(reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials) -> list[Material]:
-    """Those of both parts, as far as they are known."""
+def _read_material_pair(
+    reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials
+) -> list[Material]:
+    """Return the materials at the keys `roles` of an entry, without those that are unknown; these are reported."""
     pair = []
     for role in roles:
         with reader.collect():
-            pair.append(Material(str(node[role]), materials.take(f"{owner}.{role}", node[role], ELASTIC)))
+            pair.append(Material(str(node[role]), materials.values_of_material(f"{owner}.{role}", node[role], ELASTIC)))
     return pair
 
 
 def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:
-    """All contacts, `extends` followed: each has its own addresses for what it inherits."""
+    """Read all contacts with `extends` resolved; inherited numbers get addresses of the contact that inherits them."""
     merged: dict[str, Map] = {}
     found: dict[str, Contact] = {}
-    for name, node in parents_first(reader, "contact", root.part("contacts")):
-        merged[str(name)] = contact = _merge(merged[node["extends"]], node) if "extends" in node else node
+    for name, node in order_by_inheritance(reader, "contact", root.part("contacts")):
+        merged[str(name)] = contact = _merge_contacts(merged[node["extends"]], node) if "extends" in node else node
         with reader.collect():
-            found[str(name)] = _contact(reader, name, contact)
+            found[str(name)] = _read_contact(reader, name, contact)
     return {str(name): found[name] for name in root.part("contacts") if name in found}
 
 
-def _merge(parent: Map, child: Map) -> Map:
-    """The child's keys over the parent's; a role that names another law starts afresh."""
+def _merge_contacts(parent: Map, child: Map) -> Map:
+    """Return the parent's keys overridden by the child's; a law of another name replaces the parent's law entirely."""
     changes = dict(child)
     for role in _ROLES:
         above, own = parent.get(role), child.get(role)
@@ -123,13 +133,17 @@ def _merge(parent: Map, child: Map) -> Map:
     return Map.make({**parent, **changes}, child.where)
 
 
-def _contact(reader: Reader, name: Text, node: Map) -> Contact:
+def _read_contact(reader: Reader, name: Text, node: Map) -> Contact:
+    """Read one contact, whose `extends` was resolved before.
+
+    Raises an InputError if its parts contradict each other.
+    """
     address = f"contacts.{name}"
     uses: dict[str, LawUse | None] = dict.fromkeys(_ROLES)
     for role in _ROLES:
         if role in node:
             with reader.collect():
-                uses[role] = _law_use(reader, f"{address}.{role}", role, node[role])
+                uses[role] = _read_law(reader, f"{address}.{role}", role, node[role])
     _check_parts(name, node)
     if uses["normal"] and uses["friction"] and uses["normal"].options.get("pulls") is True:
         hint = "expected one: friction of a force that pulls would drive the slip"
@@ -137,14 +151,14 @@ def _contact(reader: Reader, name: Text, node: Map) -> Contact:
     if uses["mixed"] and uses["film"] and uses["film"].options.get("as_printed") is True:
         hint = "expected one: a film as printed drives what it should damp, and goes with the paper's transition alone"
         raise BadValueError(f"contact {name} has a film as printed, and mixed lubrication", node["mixed"].where, hint)
-    own = read_fields(reader, node, CONTACT.fields, Around(address))
+    own = read_fields(reader, node, CONTACT.fields, FieldContext(address))
     clip = own.options.get("clip_ratio", False) is True
     transition, floor = own.quantities.get("transition"), own.quantities.get("velocity_floor")
     return Contact(str(name), uses["normal"], uses["friction"], uses["film"], transition, clip, floor, uses["mixed"])
 
 
 def _check_parts(name: Text, node: Map) -> None:
-    """Raise unless the contact's parts make sense together."""
+    """Raise an InputError if the contact lacks a law, or combines keys that contradict each other."""
     if "normal" not in node and "film" not in node:
         raise MissingKeyError(f"contact {name} has no law", name.where, "expected normal: or film:, or both")
     if "normal" not in node:
@@ -152,7 +166,7 @@ def _check_parts(name: Text, node: Map) -> None:
             if part in node:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
-    if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _rigid():
+    if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _rigid_laws():
         _check_rigid(name, law, node)
     if "transition" in node and "mixed" in node:
         hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
@@ -163,50 +177,57 @@ def _check_parts(name: Text, node: Map) -> None:
             " or 'mixed': a law of mixed lubrication"
         )
         raise MissingKeyError(f"contact {name} has no transition", name.where, hint)
-    for part, called_so in (("transition", "a transition"), ("mixed", "mixed lubrication")):
+    for part, phrase in (("transition", "a transition"), ("mixed", "mixed lubrication")):
         if part in node and "film" not in node:
-            message = f"contact {name} has {called_so} but no film"
+            message = f"contact {name} has {phrase} but no film"
             raise MissingKeyError(message, node[part].where, "expected the key 'film'")
 
 
 def _check_rigid(name: Text, law: Text, node: Map) -> None:
-    """Raise unless what stands beside surfaces that do not give knows blows: friction that is F_n times a number."""
+    """Raise BadValueError if a contact of rigid surfaces has keys or a friction law that impacts cannot use.
+
+    Friction in an impact must be F_n times a coefficient of the slip, without inner states.
+    """
     for part in ("film", "mixed", "velocity_floor", "clip_ratio"):
         if part in node:
             hint = "expected nothing but friction beside it: its surfaces do not give"
             raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
     friction = node["friction"].get("law") if "friction" in node else None
-    rubs = called("friction").get(friction) if isinstance(friction, Text) else None
-    if isinstance(friction, Text) and rubs is not None and (rubs.states or rubs.name in OWN):
+    friction_law = called("friction").get(friction) if isinstance(friction, Text) else None
+    if isinstance(friction, Text) and friction_law is not None and (friction_law.states or friction_law.name in OWN):
         fit = sorted(other.name for other in called("friction").values() if not other.states and other.name not in OWN)
-        why = "a blow has no time in which bristles bend" if rubs.states else "blows need F_n times what the slip says"
+        why = (
+            "a blow has no time in which bristles bend"
+            if friction_law.states
+            else "blows need F_n times what the slip says"
+        )
         hint = f"expected one of {', '.join(fit)}: {why}"
-        raise BadValueError(f"contact {name} has {law} and friction by {rubs.name}", friction.where, hint)
+        raise BadValueError(f"contact {name} has {law} and friction by {friction_law.name}", friction.where, hint)
 
 
-def _check_force(reader: Reader, force: Quantity) -> None:
-    """It follows the penetration, and is 0 without any: here, and with the numbers of every run."""
+def _check_penetration_force(reader: Reader, force: Quantity) -> None:
+    """Raise an InputError unless a force law's expression depends on delta; require that it is 0 at delta = 0."""
     used = {name.path: at(force.where, name.offset) for name in names(force.value)}
     if "delta" in reader.parameters and "delta" in used:
         hint = "give the parameter another name"
         raise BadNameError("'delta' is the penetration here, and a parameter of this file", used["delta"], hint)
     if isinstance(force.value, Number) and math.isnan(force.value.value):
-        return  # told already
+        return  # reported already
     if "delta" not in used:
         hint = "expected an expression such as 1e8 N/m * delta"
         raise ExpressionError(f"{force.address} does not follow delta, the penetration", force.where, hint)
     onset = reader.keep(at_onset(force))
-    for relation, bound in ((">=", -NO_FORCE), ("<=", NO_FORCE)):
+    for relation, bound in ((">=", -ZERO_FORCE_TOL), ("<=", ZERO_FORCE_TOL)):
         reader.require(onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset")
 
 
-def _rigid() -> set[str]:
-    """Laws of surfaces that do not give."""
+def _rigid_laws() -> set[str]:
+    """Return the names of the normal laws of rigid surfaces."""
     return {name for name, law in called("normal").items() if law.rigid}
 
 
-def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
-    """A law with its numbers and options, the law's own defaults filled in."""
+def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
+    """Read a force law of the given role with its numbers and options; defaults of the law are filled in."""
     if not isinstance(node.get("law"), Text):
         raise missing_key("law", node.where, address)
     text = node["law"]
@@ -221,12 +242,12 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     if law.name in OWN:
         reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
-    around = Around(address, str(text), text.where, mistyped)
+    around = FieldContext(address, str(text), text.where, mistyped)
     own = read_fields(reader, node, with_dimensions(fields, node), around)
     for field in fields:
         if field.varies == OF_PENETRATION and field.name in own.quantities:
             with reader.collect():
-                _check_force(reader, own.quantities[field.name])
+                _check_penetration_force(reader, own.quantities[field.name])
     for choice, number in law.instead.items():
         if number in own.quantities:
             if choice in node:
@@ -237,31 +258,34 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
 
 
 def check_guide(joint: str, guide: Guide, contact: Contact, use: Map) -> None:
-    """Raise unless the contact is one of corners that press on flat walls, without a film and a contour."""
+    """Raise an InputError unless the contact fits a slider in a guide: no film, no contour, a law of corners on walls.
+
+    `use` is the entry of the scene's `play` for the joint.
+    """
     where = use["contact"].where
     if "contour" in use:
-        told = f"the contour of {joint} is one of a guide: contours are those of bearings"
-        raise BadValueError(told, use.key("contour").where, "expected no contour")
+        message = f"the contour of {joint} is one of a guide: contours are those of bearings"
+        raise BadValueError(message, use.key("contour").where, "expected no contour")
     if contact.film is not None:
-        told = f"contact {contact.name} of {joint} has a film, whose laws are those of a journal in its bearing"
-        raise BadValueError(told, where, "expected a contact without a film: guides have dry contact alone")
+        message = f"contact {contact.name} of {joint} has a film, whose laws are those of a journal in its bearing"
+        raise BadValueError(message, where, "expected a contact without a film: guides have dry contact alone")
     normal = contact.normal
     if normal is None:
         return
     if laws()[normal.law].in_hole:
         fit = sorted(name for name, law in called("normal").items() if not law.in_hole)
-        told = f"contact {contact.name} of {joint} has {normal.law}, a law of a pin in a hole"
-        raise BadValueError(told, where, f"expected one of a corner on a wall: {', '.join(fit)}")
+        message = f"contact {contact.name} of {joint} has {normal.law}, a law of a pin in a hole"
+        raise BadValueError(message, where, f"expected one of a corner on a wall: {', '.join(fit)}")
     if "geometry" in normal.options and guide.corner_radius is None:
-        told = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
+        message = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
         able = any(own.name == "stiffness" for own in laws()[normal.law].fields)
-        also = "stiffness" if able else f"a law that needs none ({', '.join(sorted(_of_sharp_corners()))})"
+        also = "stiffness" if able else f"a law that needs none ({', '.join(sorted(_laws_of_sharp_corners()))})"
         hint = f"expected corner_radius in guides.{guide.name}, or {also} in contacts.{contact.name}.normal"
-        raise MissingKeyError(told, use["guide"].where, hint)
+        raise MissingKeyError(message, use["guide"].where, hint)
 
 
-def _of_sharp_corners() -> Iterator[str]:
-    """Laws of corners on walls that take no stiffness from radii, or one of the file instead."""
+def _laws_of_sharp_corners() -> Iterator[str]:
+    """Yield the normal laws for guides that need no corner radius: they use no radii, or a given stiffness instead."""
     for name, law in laws().items():
         if law.role == "normal" and not law.in_hole and law.name == name:
             if "geometry" in law.instead:

@@ -1,6 +1,6 @@
-"""The pass over names: what a file declares can be a name, and nothing else has that name.
+"""Checks the names that a file declares: each must be allowed and used once.
 
-After it all names are known, so that the sections that refer to them can be read in any order.
+The pass runs first, so that sections can refer to each other and be read in any order.
 """
 
 from __future__ import annotations
@@ -11,49 +11,50 @@ from gudgeon.errors import BadNameError, Location
 from gudgeon.generator.field import OF_MOTION, OF_RESULTS
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.mechanism import GROUND
-from gudgeon.generator.reader.collector import BROKEN, Named, Reader
-from gudgeon.generator.reader.places import CORNERS_OF_SIDES, IMPLIED_POINTS, Places
+from gudgeon.generator.reader.collector import BROKEN, NamedExpression, Reader
+from gudgeon.generator.reader.point_names import CORNERS_OF_SIDES, IMPLIED_POINTS, PointNames
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.names import check_label, check_name
 
-# results are indexed by these names
-_INDEXED = {"bodies": "body", "joints": "joint", "drives": "drive", "forces": "force", "outputs": "output"}
-# these names stand in expressions without a dot; in a pair of equal ones that of the later section is refused
-_IN_EXPRESSIONS = {"parameters": "parameter", "outputs": "output", "curves": "curve", "expressions": "expression"}
-# nothing but the file itself calls its entries by these
-_LABELS = {
+# sections whose names index the results
+_RESULT_SECTIONS = {"bodies": "body", "joints": "joint", "drives": "drive", "forces": "force", "outputs": "output"}
+# sections whose names are used in expressions without a dot; of two equal names the later section's is refused
+_EXPRESSION_SECTIONS = {"parameters": "parameter", "outputs": "output", "curves": "curve", "expressions": "expression"}
+# sections whose names are labels that only the file uses
+_LABEL_SECTIONS = {
     section.name: section.entry.name
     for section in FILE.fields
-    if section.entry is not None and section.name not in {*_INDEXED, *_IN_EXPRESSIONS, GROUND}
+    if section.entry is not None and section.name not in {*_RESULT_SECTIONS, *_EXPRESSION_SECTIONS, GROUND}
 }
-# `L1.x` is a coordinate of the body: a point of that name could not be told from it
+# reserved names of points: `L1.x` is a coordinate of the body
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 
 
-def read_names(reader: Reader, root: Map) -> tuple[Places, ResultNames]:
-    """Return the names of points and of results; reader.parameters, .expressions and .scopes hold the others.
+def read_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNames]:
+    """Return the names of points and of results; other names go to reader.parameters, .expressions and .scopes.
 
-    A BadNameError is collected for each name that cannot be.
+    A BadNameError is collected for each name that is not allowed.
     """
     reader.parameters.update(dict.fromkeys(map(str, root.part("parameters"))))
     expressions = (name for name in root.part("expressions").names() if name != "t")
-    reader.expressions.update((str(name), Named(BROKEN, BROKEN, None, name.where)) for name in expressions)
+    reader.expressions.update((str(name), NamedExpression(BROKEN, BROKEN, None, name.where)) for name in expressions)
     _check_labels(reader, root)
     _check_in_expressions(reader, root)
     _check_points(reader, root)
-    places, twice = Places(root), frozenset(_check_indexed(reader, root))
+    point_names, twice = PointNames(root), frozenset(_check_indexed(reader, root))
     numbers = dict.fromkeys(reader.parameters, "a parameter") | dict.fromkeys(reader.expressions, "an expression")
-    results = ResultNames(places, root, numbers, twice)
-    reader.scopes |= {OF_MOTION: MotionNames(places, root, numbers), OF_RESULTS: results}
-    return places, results
+    results = ResultNames(point_names, root, numbers, twice)
+    reader.scopes |= {OF_MOTION: MotionNames(point_names, root, numbers), OF_RESULTS: results}
+    return point_names, results
 
 
 def _check_labels(reader: Reader, root: Map) -> None:
-    for section, what in _LABELS.items():
+    """Collect an error for each label (scene, event, contact and others) that is not allowed."""
+    for section, kind in _LABEL_SECTIONS.items():
         for name in root.part(section).names():
             with reader.collect():
-                check_label(name, what, name.where)
+                check_label(name, kind, name.where)
     for scene in root.part("scenes").values():
         for name in scene.part("events").names():
             with reader.collect():
@@ -61,36 +62,39 @@ def _check_labels(reader: Reader, root: Map) -> None:
 
 
 def _check_in_expressions(reader: Reader, root: Map) -> None:
-    used: dict[str, str] = {}
-    for section, what in _IN_EXPRESSIONS.items():
+    """Collect an error for each name of a parameter, curve or expression that is not allowed or used twice."""
+    seen: dict[str, str] = {}
+    for section, kind in _EXPRESSION_SECTIONS.items():
         names = root.part(section).names()
-        for name in names if section != "outputs" else ():  # those of outputs are results, too
+        for name in names if section != "outputs" else ():  # names of outputs are checked with the results
             with reader.collect():
                 reader.refused.add(str(name))
-                check_name(name, what, name.where)
+                check_name(name, kind, name.where)
                 reader.refused.remove(str(name))
-                if name in used:
-                    message = f"{name!r} names this {what} and {used[name]}"
+                if name in seen:
+                    message = f"{name!r} names this {kind} and {seen[name]}"
                     raise BadNameError(message, name.where, "expected a name of its own: both stand in expressions")
-        used = dict.fromkeys(names, f"a{'n' * (what == 'output')} {what}") | used
+        seen = dict.fromkeys(names, f"a{'n' * (kind == 'output')} {kind}") | seen
 
 
 def _check_indexed(reader: Reader, root: Map) -> Iterator[str]:
-    used: dict[str, tuple[str, Location]] = {}
-    for section, what in _INDEXED.items():
+    """Check the names that index results, and yield those that two entries have."""
+    seen: dict[str, tuple[str, Location]] = {}
+    for section, kind in _RESULT_SECTIONS.items():
         for name in root.part(section).names():
             with reader.collect():
-                check_name(name, what, name.where)
-                if name in used:
+                check_name(name, kind, name.where)
+                if name in seen:
                     yield str(name)
-                    other, place = used[name]
+                    other, place = seen[name]
                     hint = "expected a name of its own: bodies, joints, drives, forces and outputs share one namespace"
-                    message = f"{name!r} names two things: this {what}, and the {other} at {place}"
+                    message = f"{name!r} names two things: this {kind}, and the {other} at {place}"
                     raise BadNameError(message, name.where, hint)
-                used[name] = what, name.where
+                seen[name] = kind, name.where
 
 
 def _check_points(reader: Reader, root: Map) -> None:
+    """Collect an error for each point whose name is reserved or not allowed."""
     for body, node in root["bodies"].pairs():
         reasons = dict.fromkeys(CORNERS_OF_SIDES, "it is one of sides") if "sides" in node else {}
         reasons |= {name: f"{body}.{name} is a coordinate" for name in _COORDINATES}
@@ -104,6 +108,7 @@ def _check_points(reader: Reader, root: Map) -> None:
 
 
 def _check_point(point: Text, reason: str, hint: str = "") -> None:
+    """Raise BadNameError for a point's name that is not allowed; `reason` says why it is reserved."""
     check_name(point, "point", point.where)
     if reason:
         raise BadNameError(f"{str(point)!r} cannot name a point: {reason}", point.where, hint)

@@ -1,4 +1,4 @@
-"""Drives: an angle, a coordinate or a distance along an expression of t."""
+"""Reads drives: a prescribed angle, coordinate or distance as an expression of t."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from gudgeon.generator.format.sections import COORDINATES
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.mechanism import GROUND, Drive, PointRef
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body
-from gudgeon.generator.reader.places import Places, coordinate_of
+from gudgeon.generator.reader.fields import FieldContext, read_fields, read_kind, read_targets, refuse_same_body
+from gudgeon.generator.reader.point_names import PointNames, coordinate_of
 from gudgeon.generator.yaml import Map, Text, kind_of
 from gudgeon.language.tree import functions
 from gudgeon.language.units import Dimension
@@ -19,23 +19,23 @@ from gudgeon.language.units import Dimension
 
 @dataclass(frozen=True)
 class _Target:
-    """What a drive prescribes; the same `key` is the same thing."""
+    """Represent what a drive prescribes; two drives with equal `key` prescribe the same quantity."""
 
     body: str
     reference: str | None
     coordinate: str
     points: tuple[PointRef, ...]
-    dimension: Dimension | None  # of its value, where the kind alone does not say it
+    dimension: Dimension | None  # of the value, if the kind of drive does not determine it
     key: tuple[str, frozenset[str]]
 
 
-def read_drives(reader: Reader, root: Map, places: Places) -> dict[str, Drive]:
-    """All drives that can be read; no two may prescribe the same thing."""
+def read_drives(reader: Reader, root: Map, point_names: PointNames) -> dict[str, Drive]:
+    """Read all drives by name; two drives that prescribe the same quantity are an error."""
     drives: dict[str, Drive] = {}
     driven: dict[tuple[str, frozenset[str]], Drive] = {}
     for name, node in root.part("drives").pairs():
         with reader.collect():
-            found = _drive(reader, name, node, places)
+            found = _read_drive(reader, name, node, point_names)
             if found is None:
                 continue
             drive, key = found
@@ -47,16 +47,18 @@ def read_drives(reader: Reader, root: Map, places: Places) -> dict[str, Drive]:
     return drives
 
 
-def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive, tuple[str, frozenset[str]]] | None:
-    """A drive and what it prescribes; None if either cannot be read."""
+def _read_drive(
+    reader: Reader, name: Text, node: Map, point_names: PointNames
+) -> tuple[Drive, tuple[str, frozenset[str]]] | None:
+    """Read one drive and return it with the key of what it prescribes; None if either cannot be read."""
     owner = f"drives.{name}"
     kind, mistyped = read_kind(reader, node, DRIVES, owner)
     target = None
     with reader.collect():
-        target = _TARGETS[kind](reader, node, kind, places)
+        target = _TARGET_READERS[kind](reader, node, kind, point_names)
     of = target.dimension if target else None
     fields = [replace(f, dimension=of) if f.any_dimension else f for f in DRIVES[kind].fields]
-    value = read_fields(reader, node, fields, Around(owner, mistyped=mistyped)).quantities.get("value")
+    value = read_fields(reader, node, fields, FieldContext(owner, mistyped=mistyped)).quantities.get("value")
     if target is None or value is None:
         return None
     if "sign" in functions(value.value):
@@ -71,9 +73,9 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive
     return drive, target.key
 
 
-def _angle(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
-    """`L1`, or `[L1, L2]` for the angle of L1 relative to L2."""
-    refs = places_of(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, places)
+def _read_angle_target(reader: Reader, node: Map, kind: Text, point_names: PointNames) -> _Target:
+    """Read the target of an angle drive: `L1`, or `[L1, L2]` for the angle of L1 relative to L2."""
+    refs = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
     body, reference = refs[0].body, refs[-1].body if len(refs) == 2 else GROUND
     hint = "expected a body, or a body and its reference"
     if body == GROUND:
@@ -84,32 +86,33 @@ def _angle(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     return _Target(body, None if reference == GROUND else reference, "theta", (), None, key)
 
 
-def _coordinate(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
-    """`S9.y`: of the centre of mass, in ground axes."""
+def _read_coordinate_target(reader: Reader, node: Map, kind: Text, point_names: PointNames) -> _Target:
+    """Read the target of a coordinate drive: `S9.y`, of the centre of mass in ground axes."""
     text = node[kind]
     if not isinstance(text, Text) or "." not in text:
         hint = "expected a coordinate: BODY.x, BODY.y or BODY.theta"
-        raise BadValueError(f"{kind} is {kind_of(text)}", _place(text, kind), hint)
-    dimension = coordinate_of(text, COORDINATES, places, text.where)
+        raise BadValueError(f"{kind} is {kind_of(text)}", _location_of(text, kind), hint)
+    dimension = coordinate_of(text, COORDINATES, point_names, text.where)
     body, _, coordinate = text.partition(".")
     return _Target(body, None, coordinate, (), dimension, (coordinate, frozenset((body, GROUND))))
 
 
-def _distance(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
-    """`[L1.head, S9.origin]`: of two points of different bodies."""
-    refs = places_of(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, places)
+def _read_distance_target(reader: Reader, node: Map, kind: Text, point_names: PointNames) -> _Target:
+    """Read the target of a distance drive: two points of different bodies, `[L1.head, S9.origin]`."""
+    refs = read_targets(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, point_names)
     refuse_same_body("a driven distance", refs)
     body = next(ref.body for ref in refs if ref.body != GROUND)
     key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in refs))
     return _Target(body, None, "", refs, None, key)
 
 
-def _place(node: object, kind: Text) -> Location:
+def _location_of(node: object, kind: Text) -> Location:
+    """Return the location of a node, or of its key if the node is not a text."""
     return node.where if isinstance(node, Text) else kind.where
 
 
-_TARGETS: Mapping[str, Callable[[Reader, Map, Text, Places], _Target]] = {
-    "angle": _angle,
-    "coordinate": _coordinate,
-    "distance": _distance,
+_TARGET_READERS: Mapping[str, Callable[[Reader, Map, Text, PointNames], _Target]] = {
+    "angle": _read_angle_target,
+    "coordinate": _read_coordinate_target,
+    "distance": _read_distance_target,
 }

@@ -1,4 +1,4 @@
-"""Joints and force elements. What a joint's own keys hold is said by its file in generator/kinds/joints."""
+"""Reads joints and force elements; the keys of a joint type are declared in its file in generator/kinds/joints."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import ForceElement, Joint, Quantity
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body
-from gudgeon.generator.reader.places import Places
+from gudgeon.generator.reader.fields import FieldContext, read_fields, read_kind, read_targets, refuse_same_body
+from gudgeon.generator.reader.point_names import PointNames
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.functions import PIECEWISE
 from gudgeon.language.parser import at
 from gudgeon.language.tree import Number, functions, names
 
 
-def read_joints(reader: Reader, root: Map, places: Places) -> dict[str, Joint]:
-    """All joints that can be read; the others' errors are collected."""
+def read_joints(reader: Reader, root: Map, point_names: PointNames) -> dict[str, Joint]:
+    """Read all joints by name; errors are collected, and joints with errors are left out."""
     joints = {}
     for name, node in root.part("joints").pairs():
         with reader.collect():
-            joints[str(name)] = _joint(reader, name, node, places, _in_scenes(name, node, root))
+            joints[str(name)] = _read_joint(reader, name, node, point_names, _play_hints(name, node, root))
     return joints
 
 
-def _in_scenes(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
-    """What to write for a joint's play, which stands in scenes, by the keys that one may try."""
+def _play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
+    """Return hints for keys such as `clearance` in a joint: the play that belongs into a scene."""
     slides = any(kind.play == "guide" and key in node for key, kind in joint_types().items())
     measured = "guide" if slides else "bearing"
     measures, contact = (next(iter(root.part(f"{what}s")), _PLAY[what]) for what in (measured, "contact"))
@@ -39,12 +39,15 @@ def _in_scenes(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
 _PLAY = {"bearing": "pin", "guide": "way", "contact": "metal"}
 
 
-def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Mapping[str, str]) -> Joint:
+def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, elsewhere: Mapping[str, str]) -> Joint:
+    """Read one joint. Raises an InputError if its bodies or its profile are not allowed."""
     owner = f"joints.{name}"
     kind, mistyped = read_kind(reader, node, joint_types(), owner, elsewhere)
     joint_type = joint_types()[kind]
-    values = read_fields(reader, node, joint_type.fields, Around(owner, mistyped=mistyped, places=places))
-    first, second = places_of(reader, node, kind, joint_type.joins, (2,), places)
+    values = read_fields(
+        reader, node, joint_type.fields, FieldContext(owner, mistyped=mistyped, point_names=point_names)
+    )
+    first, second = read_targets(reader, node, kind, joint_type.joins, (2,), point_names)
     refuse_same_body(kind, (first, second))
     for field in joint_type.fields:
         if field.varies == OF_CAM_ANGLE and field.name in values.quantities:
@@ -59,9 +62,9 @@ def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Map
 
 
 def _check_profile(reader: Reader, profile: Quantity) -> None:
-    """Raise unless a cam's profile is a function of phi without jumps of its slope."""
+    """Raise an InputError unless a cam's profile is a function of phi with a continuous slope."""
     if isinstance(profile.value, Number) and profile.value.value != profile.value.value:
-        return  # NaN: an error was collected already
+        return  # NaN: reported already
     used = {name.path: at(profile.where, name.offset) for name in names(profile.value)}
     if OF_CAM_ANGLE in reader.parameters and OF_CAM_ANGLE in used:
         hint = "give the parameter another name"
@@ -78,20 +81,21 @@ def _check_profile(reader: Reader, profile: Quantity) -> None:
         raise BadValueError(f"{profile.address} has a slope that may jump, by {jumps[0]}", profile.where, hint)
 
 
-def read_forces(reader: Reader, root: Map, places: Places) -> dict[str, ForceElement]:
-    """All force elements that can be read."""
+def read_forces(reader: Reader, root: Map, point_names: PointNames) -> dict[str, ForceElement]:
+    """Read all force elements by name; errors are collected, and elements with errors are left out."""
     forces = {}
     for name, node in root.part("forces").pairs():
         with reader.collect():
-            forces[str(name)] = _force(reader, name, node, places)
+            forces[str(name)] = _read_force(reader, name, node, point_names)
     return forces
 
 
-def _force(reader: Reader, name: Text, node: Map, places: Places) -> ForceElement:
+def _read_force(reader: Reader, name: Text, node: Map, point_names: PointNames) -> ForceElement:
+    """Read one force element."""
     owner = f"forces.{name}"
     kind, mistyped = read_kind(reader, node, element_types(), owner)
     element = element_types()[kind]
-    values = read_fields(reader, node, element.fields, Around(owner, mistyped=mistyped, places=places))
-    targets = places_of(reader, node, kind, element.targets, element.counts, places)
+    values = read_fields(reader, node, element.fields, FieldContext(owner, mistyped=mistyped, point_names=point_names))
+    targets = read_targets(reader, node, kind, element.targets, element.counts, point_names)
     refuse_same_body(kind, targets)
     return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.words(), name.where)

@@ -1,4 +1,4 @@
-"""Names of what a result has, with their dimensions: all of them for outputs, motion alone for forces."""
+"""Contains the names that expressions may use, with their dimensions: results, motion, penetration, cam angle."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
 from gudgeon.generator.mechanism import GROUND
-from gudgeon.generator.reader.places import Places
+from gudgeon.generator.reader.point_names import PointNames
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.names import unknown_name
 from gudgeon.language.tree import Name
@@ -26,7 +26,7 @@ from gudgeon.language.units import (
     Dimension,
 )
 
-ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
+ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any dimension
 
 _POINT: Mapping[str, Dimension] = {
     "x": LENGTH,
@@ -51,36 +51,36 @@ _PLAY: Mapping[str, Dimension] = {
     "state": DIMENSIONLESS,
     "deltadot_minus": VELOCITY,
 }
-_ALWAYS = ("Fx", "Fy", "F")  # of a joint, with play or without
+_ALWAYS = ("Fx", "Fy", "F")  # results of a joint with play or without
 _OF_CORNER: Mapping[str, Dimension] = {**{name: FORCE for name in _ALWAYS}, **_PLAY}
 _RESULTS_OF_PLAY = f"expected one of: {', '.join((*_ALWAYS, *_PLAY))}"
 _TOTALS: Mapping[str, Mapping[str, Dimension]] = {
     "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
     "work": {"drives": TORQUE, "forces": TORQUE, "clearances": TORQUE},
 }
-LATER = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: which there are the equations say
+LATER = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: the equations determine which exist
 _ACCELERATIONS = ("ax", "ay", "alpha")
 
 
 class ResultNames:
-    """Dimensions of a mechanism's results. Names with play count too: a scene without it tells at run time.
+    """Return the dimension of each result of a mechanism, with and without play.
 
-    `numbers` say of names without a dot what they are: a parameter, an expression.
-    `unread` are joints, drives and forces whose own errors were told: their results are taken as they come.
+    `numbers` maps names without a dot to what they are ("a parameter"). `unread` are joints, drives and forces whose
+    own errors were reported: their results are accepted without a check.
     """
 
-    def __init__(self, places: Places, root: Map, numbers: Mapping[str, str], unread: Iterable[str]) -> None:
+    def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str], unread: Iterable[str]) -> None:
         joints, drives, forces = (
             {str(name): kind for name, node in root.part(section).pairs() for kind in kinds if kind in node}
             for section, kinds in (("joints", joint_types()), ("drives", DRIVES), ("forces", element_types()))
         )
         self.unread, self._joints = set(unread), frozenset(joints)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
-        self.owners |= dict.fromkeys(map(str, places.bodies), _BODY)
-        self.owners |= {name: _of_drive(kind, root["drives"][name]) for name, kind in drives.items()}
-        self.owners |= dict.fromkeys(places.names(), _POINT)
+        self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY)
+        self.owners |= {name: _drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
+        self.owners |= dict.fromkeys(point_names.names(), _POINT)
         self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
-        for name in places.ground:
+        for name in point_names.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
         guides = [name for name, kind in joints.items() if joint_types()[kind].play == "guide"]
         self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY}) | dict.fromkeys(guides, _JOINT)
@@ -88,7 +88,7 @@ class ResultNames:
         self.numbers = numbers
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """The dimension of a name; None for one that fits any. Raises UnknownNameError at the part that is wrong."""
+        """Return the dimension of a name; None if it fits any. Raises UnknownNameError at the wrong part."""
         owner, dot, last = name.path.rpartition(".")
         if owner in self.unread:
             return None
@@ -103,7 +103,7 @@ class ResultNames:
         return self.owners[owner][last]
 
     def check_series(self, name: Text, outputs: Iterable[str]) -> None:
-        """UnknownNameError for a name without a dot, which no series has but outputs: it tells the nearest series."""
+        """Raise UnknownNameError, with the nearest series, for a name without a dot that is not an output."""
         if "." in name:
             return
         if name in self.numbers:
@@ -114,7 +114,10 @@ class ResultNames:
         raise unknown_name("series", name, owned or [*outputs, *self.paths()], name.where)
 
     def check_play(self, name: Text, scene: str, play: Container[str]) -> None:
-        """BadValueError for what a joint has in other scenes alone: with play, or without."""
+        """Raise BadValueError for a result that a joint has only with play, or only without, in other scenes.
+
+        `play` contains the joints that have play in this scene.
+        """
         owner, _, last = name.rpartition(".")
         joint, _, corner = owner.partition(".")
         if joint in self.unread:
@@ -131,17 +134,17 @@ class ResultNames:
             raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
     def paths(self) -> Iterator[str]:
-        """Every name."""
+        """Yield the full name of every result."""
         read = ((owner, parts) for owner, parts in self.owners.items() if owner not in self.unread)
         return (f"{owner}.{part}" for owner, parts in read for part in parts)
 
 
 class MotionNames(ResultNames):
-    """What a force may depend on: coordinates and velocities; accelerations and forces follow from it."""
+    """Return the dimension of each name on which a force may depend: coordinates and velocities."""
 
-    def __init__(self, places: Places, root: Map, numbers: Mapping[str, str]) -> None:
+    def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str]) -> None:
         moving = {"bodies": root["bodies"], "ground": root.part("ground")}
-        super().__init__(places, Map.make(moving, root.where), numbers, ())
+        super().__init__(point_names, Map.make(moving, root.where), numbers, ())
         for total in _TOTALS:
             del self.owners[total]
         self.owners = {
@@ -151,7 +154,10 @@ class MotionNames(ResultNames):
         self._later = frozenset((*_TOTALS, *root.part("drives"), *root.part("joints"), *root.part("forces")))
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """The dimension of a name. Raises ExpressionError for what is known only once the forces are."""
+        """Return the dimension of a name.
+
+        Raises ExpressionError for accelerations and results that follow from forces.
+        """
         owner, _, last = name.path.rpartition(".")
         if owner in self._later or owner in self.owners and last in _ACCELERATIONS and last not in self.owners[owner]:
             what = "an acceleration" if last in _ACCELERATIONS else "a result"
@@ -163,14 +169,17 @@ class MotionNames(ResultNames):
         return super().__call__(name, where)
 
 
-class Penetration:
-    """What the force of a contact may depend on."""
+class PenetrationNames:
+    """Return the dimension of each name on which the force of a contact may depend: delta."""
 
     def __init__(self, parameters: Iterable[str]) -> None:
         self._parameters = parameters
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """The dimension of delta. Raises ExpressionError for what else a contact has, UnknownNameError."""
+        """Return the dimension of delta.
+
+        Raises ExpressionError for other results of a contact, UnknownNameError otherwise.
+        """
         if name.path == "delta":
             return LENGTH
         if "." in name.path or name.path in _PLAY:
@@ -179,14 +188,14 @@ class Penetration:
         raise unknown_name("name", name.path, ("delta", *self._parameters), where)
 
 
-class CamAngle:
-    """What the profile of a cam may depend on."""
+class CamAngleNames:
+    """Return the dimension of each name on which the profile of a cam may depend: phi."""
 
     def __init__(self, parameters: Iterable[str]) -> None:
         self._parameters = parameters
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
-        """Return the dimension of phi. Raises ExpressionError for names of motion, UnknownNameError."""
+        """Return the dimension of phi. Raises ExpressionError for names of motion, UnknownNameError otherwise."""
         if name.path == OF_CAM_ANGLE:
             return DIMENSIONLESS
         if "." in name.path:
@@ -195,7 +204,7 @@ class CamAngle:
         raise unknown_name("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
 
 
-def _of_drive(kind: str, node: Map) -> Mapping[str, Dimension]:
-    """A drive of an angle needs a torque, a drive of a length a force."""
+def _drive_results(kind: str, node: Map) -> Mapping[str, Dimension]:
+    """Return the results of a drive: a torque if it prescribes an angle, a force if a length."""
     turns = kind == "angle" or kind == "coordinate" and str(node[kind]).endswith(".theta")
     return {"torque": TORQUE} if turns else {"force": FORCE}

@@ -24,12 +24,12 @@ from gudgeon.language.units import UNITS, Dimension, symbol_dimension
 DimensionOf = Callable[[str], Dimension | None]  # None: defined without a unit
 
 
-def settle_reading(
+def choose_reading(
     text: Text, by_name: Expr, expected: Dimension | None, dimension_of: DimensionOf, curves: Mapping[str, Curve]
 ) -> Expr:
     """Return the tree of `text`: `by_name`, in which names precede units, or the one in which they are all units.
 
-    `expected` is the dimension that the value must have, None if any. Raises ExpressionError where both are possible.
+    `expected` is the dimension of the value, None if any. Raises ExpressionError if both readings are possible.
     """
     shadowed = sorted(set(names_over_units(by_name)))
     if not shadowed:
@@ -49,10 +49,11 @@ def settle_reading(
         return by_unit
     if not is_quantity and all(of is not None for of, _ in dimensions):
         return by_name
-    raise _ambiguous(text, shadowed)
+    raise _ambiguity_error(text, shadowed)
 
 
 def _fits(tree: Expr, expected: Dimension | None, dimension_of: DimensionOf, text: Text) -> bool:
+    """Return whether a tree has the expected dimension."""
     try:
         check_dimension(tree, expected, dimension_of, text.where)
     except UnitError:
@@ -60,7 +61,8 @@ def _fits(tree: Expr, expected: Dimension | None, dimension_of: DimensionOf, tex
     return True
 
 
-def _ambiguous(text: Text, shadowed: list[str]) -> ExpressionError:
+def _ambiguity_error(text: Text, shadowed: list[str]) -> ExpressionError:
+    """Return the error for a value with two readings, with both unambiguous spellings as a hint."""
     compact = re.sub(r" *([*/]) *", r"\1", text)
     factor = re.compile(rf"(?<=[*/])({'|'.join(shadowed)})(?![\w.^(])")
     are = f"{' and '.join(shadowed)} {'are names and units' if shadowed[1:] else 'is a name of this file and a unit'}"

@@ -9,7 +9,7 @@ from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, Location, MissingKeyError
 from gudgeon.generator.format.sections import FORMAT as MECHANISM
 from gudgeon.generator.format.shapes import missing_key, unknown_key
-from gudgeon.generator.reader.collector import EnoughErrors, Reader
+from gudgeon.generator.reader.collector import Reader, TooManyErrors
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
 from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import (
@@ -158,7 +158,7 @@ def read_studies(
         found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
         claims, titles = read_claims(reader, root), read_titles(reader, root, found)
         about = read_about(reader, root)
-    except EnoughErrors:
+    except TooManyErrors:
         found = {}
     reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
     reader.raise_errors()

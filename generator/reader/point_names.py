@@ -1,4 +1,4 @@
-"""Resolves what a file says of places: `body`, `body.point` and `body.coordinate`."""
+"""Resolves names of bodies, points and coordinates in a file: `body`, `body.point` and `body.coordinate`."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ CORNERS_OF_SIDES = ("P", "Q", "R")
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
-class Places:
-    """Resolves `body` and `body.point` by the names in the tree of a file."""
+class PointNames:
+    """Resolve `body` and `body.point` by the names that a file's tree declares."""
 
     def __init__(self, root: Map) -> None:
         self.bodies, self.ground = root["bodies"], root.part("ground")
 
     def points(self, body: str) -> list[str]:
-        """The points of a body, the user's first; KeyError for no body."""
+        """Return the names of a body's points, declared ones first. Raises KeyError if there is no such body."""
         if body == GROUND:
             return [str(point) for point in self.ground]
         node = self.bodies[body]
@@ -35,13 +35,16 @@ class Places:
         return [*(point for point in named if point not in implied), *reversed(implied)]
 
     def check_body(self, name: str, where: Location) -> str:
-        """The name of a body or `ground`. Raises UnknownNameError."""
+        """Return the name if it is a body or `ground`. Raises UnknownNameError."""
         if name not in self.bodies and name != GROUND:
             raise unknown_name("body", name, (*self.bodies, GROUND), where)
         return str(name)
 
     def point(self, text: object, where: Location) -> PointRef:
-        """`L1.head` as a reference. Raises BadValueError or UnknownNameError at the part that is wrong."""
+        """Return the reference for a text such as `L1.head`.
+
+        Raises BadValueError or UnknownNameError at the wrong part.
+        """
         if not isinstance(text, Text) or text.count(".") != 1:
             hint = "expected body.point, such as L1.head or ground.O1"
             with suppress(InputError, KeyError):
@@ -57,22 +60,25 @@ class Places:
         return PointRef(body, point, text.where)
 
     def body(self, text: object, where: Location) -> PointRef:
-        """A body as a reference to its centre of mass, the ground as one to no point in particular."""
+        """Return a body as a reference to its centre of mass; for the ground, the name of the point is empty."""
         if not isinstance(text, Text):
             raise BadValueError(f"{kind_of(text)} is no body", where, known_hint("", (*self.bodies, GROUND)))
         name = self.check_body(text, where)
         return PointRef(str(name), "" if name == GROUND else "com", where)
 
     def names(self) -> Iterator[str]:
-        """Every point: "L1.head"."""
+        """Yield every point of the file, such as "L1.head"."""
         for body in (*self.bodies, GROUND):
             yield from (f"{body}.{point}" for point in self.points(body))
 
 
 def coordinate_of(
-    key: str, known: Mapping[str, Dimension], places: Places, where: Location, hints: Mapping[str, str] = _NONE
+    key: str, known: Mapping[str, Dimension], places: PointNames, where: Location, hints: Mapping[str, str] = _NONE
 ) -> Dimension:
-    """The dimension of "L7.theta". Raises UnknownNameError at the part that is wrong; `hints` are for parts."""
+    """Return the dimension of a coordinate such as "L7.theta". Raises UnknownNameError at the wrong part.
+
+    `known` maps allowed coordinates to dimensions; `hints` maps coordinates of other sections to a hint.
+    """
     body, _, coordinate = key.partition(".")
     if body not in places.bodies:
         raise unknown_name("body", body, places.bodies, where)
