@@ -1,6 +1,4 @@
-"""Explain why a run ended: errors for the statuses of the C time loops (engine/scene/status.h) and for failed
-audits.
-"""
+"""Explain why a run ended: errors for the statuses of C's time loops (engine/boundary.h) and for failed audits."""
 
 from __future__ import annotations
 
