@@ -1,25 +1,24 @@
-"""Methods that choose their step, with located events and projection (engine/methods/adaptive.c).
+"""Choose method, tolerances and scales of the adaptive integrators (engine/methods/adaptive.c).
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
 - `dopri5`: explicit, order 5, dense output of order 4 (J. R. Dormand, P. J. Prince, 1980; engine/both/runge_kutta.h).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
-- `taylor`: the motion's own series, of an order by the tolerance, for smooth motion (engine/methods/taylor.c).
+- `taylor`: Taylor series of the motion, of an order that follows from the tolerance, for smooth motion.
 - `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4
   (engine/both/radau.h).
-- `auto`: the explicit one and a stiff one, by what the steps measure: explicit until h ρ(J) reaches its bound of
-  stability for some steps, stiff until h ρ(J) is so small that the explicit method would need no more steps. The stiff
-  one is `rodas5p`, in a scene with films `radau5`, at tolerances below FINE `radau9`: a film's force bends so much with
-  the journal's place that a method which is linear in each step has to take many.
+- `auto`: an explicit and a stiff method. It is explicit until h ρ(J) reaches the stability bound in some steps, and
+  stiff until h ρ(J) is so small that the explicit method needs no more steps. The stiff method is `rodas5p`. In a scene
+  with films it is `radau5`, below the tolerance FINE `radau9`, because a film's force is strongly non-linear.
 
-The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S, velocities
-to rtol times the largest speed of their kind so far. S is the mechanism's size; L is S in a scene without play
-and the smallest radial clearance in a scene with play, since what happens in the play decides the motion.
-A film's force follows the journal's speed in its bearing, L/S of the links' speeds: where there is a film, rtol of
-velocities is FELT_BY_FILMS · L/S at most, or their errors throw the journal about and steps are lost on that.
-The force itself is looked at, too: Newton's iterations of `radau5` and `radau9` end once no film's force changes by
-more than FORCE_FOUND · rtol of it, and between the ends of steps motion is the collocation polynomial, whose
-accelerations do not magnify errors of velocities.
+The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S. Velocities are
+controlled to rtol times the largest speed of their kind so far. S is the mechanism's size. L is the smallest radial
+clearance, or S without play, since motion within the play determines the forces.
+
+A film's force follows the journal's speed in its bearing, which is L/S of the links' speeds. With a film, rtol of
+velocities is therefore at most FELT_BY_FILMS · L/S. Newton's iterations of `radau5` and `radau9` end when no film's
+force changes by more than FORCE_FOUND · rtol of it. Between the ends of steps, motion is the collocation polynomial,
+whose accelerations do not amplify errors of velocities.
 """
 
 from __future__ import annotations
@@ -37,13 +36,13 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import number
 from gudgeon.model.sizes import mechanism_sizes
 
-RTOL = 1e-8  # of a plain run
-FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velocities may be
-SMALLEST = 1e-14  # rounding would be controlled below it
+RTOL = 1e-8  # default tolerance of a run
+FELT_BY_FILMS = 0.015  # largest error of velocities relative to the speeds within a film
+SMALLEST = 1e-14  # smallest rtol: below it, rounding errors would be controlled
 
 
 def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
-    """The tolerance of a step. Raises BadValueError for one that is none, or that nobody would look at."""
+    """Return the tolerance rtol of a step. Raise BadValueError if it is out of range, or the step is fixed."""
     if rtol is None:
         return RTOL
     if method == "rk4" or (fixed and method != "kinematic"):
@@ -65,26 +64,24 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
 
 
 def stiff_of(source: KernelSource, rtol: float) -> str:
-    """The stiff method of `auto`."""
+    """Return the name of the stiff method that `auto` uses for a scene at a tolerance."""
     return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
 
 
 def begins_with(source: KernelSource, rtol: float = RTOL) -> str:
-    """The first method of `auto`: a film is stiff from rest on (physics.md, section 4)."""
+    """Return the name of the first method of `auto`; with a film it is the stiff one (physics.md, section 4)."""
     if KINEMATIC in source.methods:
         return KINEMATIC
     return stiff_of(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT
 
 
 def _has_film(source: KernelSource) -> bool:
+    """Return whether a joint with play has a lubricant film."""
     return any(joint.film for joint in source.clearances)
 
 
 def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
-    """For gudgeon_adaptive_setup: C's numbers of the method that begins, and of the stiff one that it may change to;
-
-    0: it may not change.
-    """
+    """Return C's numbers of the first method and of the stiff one that it may change to; 0: it may not change."""
     if method != ADAPTIVE:
         return int(compiled.lib.gudgeon_method(method.encode())), 0
     names = begins_with(compiled.source, rtol), stiff_of(compiled.source, rtol)
@@ -93,7 +90,7 @@ def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, i
 
 
 def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
-    """L and S of the module's text (m), (...)."""
+    """Return L and S (m) of this module's head, of shape (...), for parameter values p (..., n_p)."""
     size = mechanism_sizes(compiled.source, p)
     play = p[..., [joint.clearance for joint in compiled.source.clearances]]
     least = np.where(play > 0.0, play, np.inf).min(axis=-1, initial=np.inf)
@@ -101,16 +98,17 @@ def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
 
 
 def integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
-    """Which coordinates of what is integrated are angles, (n_x,)."""
+    """Return a mask (n_x,) of the integrated coordinates that are angles."""
     if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
         return np.array(["." not in name for name in source.tree], dtype=bool)
     return angles(source)
 
 
 def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
-    """Tolerances of a step, (..., 2 n_x): of coordinates, of velocities a unit of speed; L and L/S, (..., 2).
+    """Return the tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2).
 
-    `p` (..., n_slots + n_derived) has the parameters of one run, or of several.
+    The first n_x are those of coordinates, the others those of velocities per unit of speed. `p` (..., n_slots +
+    n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
     length, size = lengths(compiled, p)

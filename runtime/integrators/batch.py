@@ -1,9 +1,9 @@
-"""The driver of the time loop (engine/batch/many.c), of one run and of many: the arrays that runs fill.
+"""Drive the time loop in C (engine/batch/many.c) for one run or many, and own the arrays that the runs fill.
 
-A call of C takes runs from start to end and holds no lock of Python; Python hands out runs, and fetches the lists of
-contacts and events. Many runs go on in threads (threads.py), one in the thread that asked for it (`integrate`).
-A method without a loop over runs in C is a function in Python, which takes a Problem and returns a Trajectory
-(`Runs.drive`); its runs fill the same arrays.
+A call of C integrates runs from start to end without Python's global lock. Python distributes the runs and fetches the
+lists of contacts and events. Many runs use threads (threads.py); a single one stays in the calling thread
+(`integrate`). A method without a loop in C is a Python function from a Problem to a Trajectory (`Runs.drive`), whose
+runs fill the same arrays.
 """
 
 from __future__ import annotations
@@ -50,15 +50,15 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 Drive: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
-CHUNK = 4_000  # steps of one call of C, which asks Python on its way (asking.py)
-TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
+CHUNK = 4_000  # steps of one call of C, which polls Python for cancellation meanwhile (asking.py)
+TOGETHER = 4096  # largest number of samples of finished runs that wait to be stored together
 
 
 class Runs(StoredRuns):
-    """Runs from start to end.
+    """Integrate runs from start to end.
 
-    Each run has a place of its own for its samples or, where these are `shared`, one of the thread which it goes on in:
-    what `over` does not take of runs that are over, some at once in that thread, is lost.
+    Each run has its own rows of samples or, if they are `shared`, those of its thread. Shared samples are lost unless
+    `over` stores them when runs end.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class Runs(StoredRuns):
     ) -> None:
         self.threads, self.rtol, self.shared, self.drive = threads, rtol, shared, drive
         self.stop, self.audit = stop, audit
-        self.over: Callable[[Sequence[int]], None] | None = None  # takes what is wanted of runs that are over
+        self.over: Callable[[Sequence[int]], None] | None = None  # stores the results of finished runs
         n, N = len(p), times.most
         beside = side_by_side and not drive and lanes.wanted(compiled, method, n)
         if beside:
@@ -89,15 +89,16 @@ class Runs(StoredRuns):
         if self.flow and shared:
             self.abreast = min(self.abreast, max(lanes.ALWAYS, TOGETHER // N))
         spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
-        self.places = self.abreast + spare  # of a thread
+        self.places = self.abreast + spare  # rows of samples per thread
         super().__init__(compiled, method, p, motion, times, step, threads * self.places if shared else n, bool(drive))
-        self.struct: Any = None if drive else self._struct()
-        self.unfollowed: dict[int, dict[str, float]] = {}  # guesses, of runs that C could not close near them
-        self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
-        self.resumed = set[int]()  # runs that go on from a state
+        self.struct: Any = None if drive else self._make_struct()
+        # guesses of the start that the assembly could not follow, by run
+        self.unfollowed: dict[int, dict[str, float]] = {}
+        self.looks: Sequence[Look | None] = ()  # observers of all steps, one per run; empty without any
+        self.resumed = set[int]()  # runs that resume from a state
 
-    def _struct(self) -> Any:
-        """The arrays as C has them, with those that C alone fills."""
+    def _make_struct(self) -> Any:
+        """Return the struct of C with pointers to the arrays, and add those arrays that only C fills."""
         compiled, n, x = self.compiled, self.n, self.arrays
         scale, least = adaptive.tolerances(compiled, x["p"], self.rtol)
         x |= {
@@ -127,23 +128,23 @@ class Runs(StoredRuns):
         return struct
 
     def __getstate__(self) -> dict[str, Any]:
-        """What is over: arrays and lists, without what C worked on."""
+        """Return the state for pickling: arrays and lists of finished runs, without C's structures."""
         none = dict.fromkeys(("struct", "flow", "over", "drive", "fetched"))
         return self.__dict__ | none | {"looks": ()}
 
     def let_go(self) -> None:
-        """Samples that `over` has taken what it wanted of."""
+        """Release the samples, after `over` has stored what is needed of them."""
         self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
         self.arrays.pop("a", None)
         self.struct, self.over = None, None
 
     @property
     def stopping(self) -> bool:
-        """Whether all runs are to end where they are; C reads the same number."""
+        """Return whether all runs shall end where they are; C reads the same flag."""
         return bool(self.arrays["ending"][0])
 
     def begin(self, starts: Sequence[State | Problem]) -> None:
-        """Runs that go on from states, one each, at the first of the times."""
+        """Set the states from which the runs begin, one each, at the first of their times."""
         x, nc = self.arrays, len(self.compiled.source.clearances)
         for i, start in enumerate(starts):
             x["start"][i] = np.concatenate([start.q, start.v])
@@ -154,12 +155,12 @@ class Runs(StoredRuns):
         x["started"][: len(starts)] = 1
 
     def leave_out(self, failures: dict[int, Any]) -> None:
-        """These runs are over before they begin."""
+        """Mark runs as failed before they begin."""
         self.failures.update(failures)
         self.arrays["phase"][list(failures)] = OVER
 
     def run(self, progress: Progress | None) -> None:
-        """All of them. Ctrl-C ends them where they are."""
+        """Integrate all runs. Ctrl-C ends them where they are."""
         with CtrlC() as ctrl_c:
             try:
                 if self.drive or left_out(self.compiled):
@@ -171,17 +172,17 @@ class Runs(StoredRuns):
             except KeyboardInterrupt:
                 self.interrupted = True
             self._join_contacts()
-            self._judge()
+            self._record_failures()
 
-    def _judge(self) -> None:
-        """Lists the runs that did not come to their ends, and marks what was not reached."""
+    def _record_failures(self) -> None:
+        """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN."""
         x = self.arrays
         self._not_closed()
         for i in np.flatnonzero(x["phase"] != OVER).tolist():
             self.failures[i] = SolverError(INTERRUPTED, float(x["t_last"][i]))
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
-                self.failures[i] = self._failure(i)
+                self.failures[i] = self._failure_of(i)
         if self.shared:
             return
         none = x["done"] == 0
@@ -190,13 +191,13 @@ class Runs(StoredRuns):
             x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
     def _not_closed(self) -> list[int]:
-        """Runs whose start C could not close: they are yet to begin."""
+        """Return the runs whose start C could not assemble, and mark them as new."""
         left: list[int] = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
         self.arrays["phase"][left], self.arrays["status"][left] = NEW, 0
         return left
 
     def _assemble_all(self, runs: Sequence[int], ctrl_c: CtrlC) -> list[int]:
-        """The starts of these runs, by the search in Python. Return the runs that may begin."""
+        """Assemble the starts of these runs in Python. Return the runs that may begin."""
         x = self.arrays
         for i in runs:
             ctrl_c.take()
@@ -213,7 +214,7 @@ class Runs(StoredRuns):
         return [i for i in runs if x["phase"][i] == NEW]
 
     def problem(self, i: int) -> Problem:
-        """Run i, which was closed or goes on from a state, as a run alone."""
+        """Return run i, whose start is known, as the Problem of a single run."""
         x, n, joints = self.arrays, self.compiled.n, len(self.compiled.source.clearances)
         return Problem(
             self.compiled,
@@ -233,12 +234,12 @@ class Runs(StoredRuns):
         )
 
     def take(self) -> None:
-        """Raise KeyboardInterrupt where all runs are to end."""
+        """Raise KeyboardInterrupt if all runs shall end."""
         if self.stopping:
             raise KeyboardInterrupt
 
     def follow(self, i: int) -> None:
-        """Run i from start to end by a method that Python drives."""
+        """Integrate run i from start to end by a method that Python drives."""
         assert self.drive
         try:
             look = self.looks[i] if self.looks else None
@@ -251,12 +252,12 @@ class Runs(StoredRuns):
         self.are_over([i])
 
     def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
-        """Run i alone from where it is, if it is not over."""
+        """Integrate run i alone from where it is to its end."""
         self.alone(i, i + 1, memory, tape)
         self.are_over([i])
 
     def are_over(self, runs: Sequence[int]) -> None:
-        """What is wanted of those of these that came to their ends, and whose places others may take."""
+        """Store the results of those runs that have ended, so that others may use their rows of samples."""
         x = self.arrays
         over = [i for i in runs if self.over and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
         if self.over and over:
@@ -270,7 +271,10 @@ class Runs(StoredRuns):
         tape: Tape | None,
         poll: Callable[[], object] = lambda: None,
     ) -> None:
-        """Runs one after the other, from where they are to their ends; `poll` is called after each call of C."""
+        """Integrate runs first to end − 1 one after the other; `poll` is called after each call of C.
+
+        `memory`: storage of C's integrator. `tape`: step record for observers.
+        """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         compiled.lib.newest()
         run = compiled.pointer(memory, "void *")
@@ -285,18 +289,19 @@ class Runs(StoredRuns):
             poll()
 
     def here(self, problem: Problem) -> Trajectory:
-        """Integrate the only run in this thread, which asks `problem` on its way whether to go on.
+        """Integrate the only run in this thread, which polls `problem` for cancellation.
 
-        Raises KeyboardInterrupt where nothing was reached.
+        Raises KeyboardInterrupt if nothing was reached.
         """
         if self.drive:
             self.store(0, self.drive(problem))
         else:
-            self._in_c(problem)
+            self._integrate_in_c(problem)
         self._join_contacts()
         return self.trajectory(0)
 
-    def _in_c(self, problem: Problem) -> None:
+    def _integrate_in_c(self, problem: Problem) -> None:
+        """Integrate the only run by the time loop in C. After Ctrl-C, what was reached is kept."""
         compiled, x = self.compiled, self.arrays
         memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
         run, tape = compiled.pointer(memory, "void *", True), Tape(compiled) if self.looks else None
@@ -317,7 +322,7 @@ class Runs(StoredRuns):
             self.interrupted, x["ending"][0] = True, 1
             self.alone(0, 1, memory, tape)
         if not self.interrupted and x["status"][0] not in (0, ENDED):
-            self.failures[0] = self._failure(0)
+            self.failures[0] = self._failure_of(0)
         if not x["done"][0]:  # at least the start
             rows = x["y"][0], x["latched"][0], x["state"][0]
             to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
@@ -325,7 +330,7 @@ class Runs(StoredRuns):
             x["done"][0] = 1
 
     def _poll(self, problem: Problem, run: Any) -> None:
-        """Between steps or, called by C, within one: takes Ctrl-C and a better library, moves the progress bar."""
+        """Check for Ctrl-C and for an optimized library, and report progress; called between and within steps."""
         x, b, t = self.arrays, self.struct, problem.t
         self.compiled.lib.newest()
         problem.take()
@@ -335,8 +340,8 @@ class Runs(StoredRuns):
             share = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
             problem.progress(float(min(max(share, 0.0), 1.0)), "integrating")
 
-    def _failure(self, i: int) -> GudgeonError:
-        """Return the error for what ended run i."""
+    def _failure_of(self, i: int) -> GudgeonError:
+        """Return the error that ended run i."""
         if self.arrays["status"][i] == AUDITED:
             return audit_failure(self.findings(i))
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"

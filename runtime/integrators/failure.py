@@ -1,4 +1,4 @@
-"""What a status of the C time loops (engine/boundary.h) and findings of C's audit (engine/run/audit.c) say."""
+"""Explain why a run ended: errors for the statuses of C's time loops (engine/boundary.h) and for failed audits."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
 from gudgeon.model.written import of_time, rate_reason, reason, steep_force, trees, unbounded_drive, undefined_here
 
+# messages by status
 TOLD = {
     FRICTION_INCONSISTENT: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring "
     "the surfaces nearer, or grow beyond all bounds (Painlevé)\n"
@@ -56,8 +57,9 @@ JUMPS = (
 )
 SLOWER = "a slower drive can be followed: look at its unit"
 OVERFLOWING = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
-FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad/s or m/s that nothing can follow
-NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
+# smallest change (rad or m) of a drive in one step that counts as motion; rate in rad/s or m/s that is too fast
+FELT, TOO_FAST = 1e-3, 1e9
+NEARLY_CLOSED = 0.99  # e/c of a film beyond which its law causes the failure
 REMEDY = (
     "the result cannot be trusted: compare with another method, a smaller rtol or formulation full; audit=False runs"
     " without this check"
@@ -65,17 +67,17 @@ REMEDY = (
 
 
 def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
-    """Return the error for a run to t_end (s), from what C has stored of it (Batch in engine/scene/calls.h)."""
+    """Return the error of a run to t_end (s), from what C has stored of it (Batch in engine/scene/calls.h)."""
     status, t, step, p = int(run["status"]), float(run["t_last"]), float(run["step"]), run["p_motion"]
     e_max, last = run["peaks"][: len(compiled.source.clearances), PEAK_e_max], run["last"]
     if status == STALLED:
-        return _stalled(compiled, run, t_end, e_max)
+        return _stalled_error(compiled, run, t_end, e_max)
     if math.isfinite(step):  # which looks as far beyond the last state
-        return _failure(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
-    return _failure(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
+        return _error_of_status(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
+    return _error_of_status(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
 
 
-def _failure(
+def _error_of_status(
     compiled: CompiledModel,
     method: str,
     status: int,
@@ -86,9 +88,10 @@ def _failure(
     p: Array,
     ahead: float,
 ) -> SolverError:
-    """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters.
+    """Return the error for a status at time t (s): `last` state, largest eccentricities (n_clearances,),
+    parameters.
 
-    `ahead` (s): how far a step of fixed length looked beyond that state.
+    `ahead` (s): how far a step of fixed length evaluated after that state.
     """
     if status != STOPPED and (too_large := overflowing(compiled, p, t)):
         return too_large
@@ -96,14 +99,14 @@ def _failure(
     if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
     if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
-        return _unbounded(drive, t)
+        return _unbounded_drive_error(drive, t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         why = reason(compiled.source, p, t, q, v, ahead)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
             return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
         if drive := unbounded_drive(compiled, p, t):
-            return _unbounded(drive, t)
+            return _unbounded_drive_error(drive, t)
         if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{why}\n  {NO_SLOPE}", t)
         fast = drives_at(compiled, p, t, TOO_FAST)
@@ -113,31 +116,31 @@ def _failure(
     if status in TOLD:
         return SolverError(TOLD[status].format(method=method, t=t), t)
     if status == CHATTERING:
-        return _chattering(compiled, t)
+        return _chattering_error(compiled, t)
     if status == TOO_SMALL:
-        known = _closed_film(compiled, e_max, p, t) or _dead_centre(compiled, last, p, t)
+        known = _squeezed_film_error(compiled, e_max, p, t) or _dead_centre_error(compiled, last, p, t)
         return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast}\n  {advice}", t)
     if status == LOST:
         lies = {True: "a free corner lies in its wall", False: "a free journal lies outside its bearing"}
         which = sorted({lies[joint.at_wall] for joint in compiled.source.clearances}, reverse=True)
         return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(which)}", t)
     if status == OUTSIDE:
-        return _too_deep(compiled, e_max, p, t)
+        return _penetration_error(compiled, e_max, p, t)
     if status == STOPPED:
         return SolverError(INTERRUPTED, t)
     if status == STALLED:
         return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_at(compiled, p, t)}\n  {advice}", t)
-    return _singular(compiled, status, t, advice, last, p, fast)
+    return _singular_error(compiled, status, t, advice, last, p, fast)
 
 
-def _unbounded(drive: str, t: float) -> SolverError:
-    """The error for a drive whose second rate is unbounded at t (s)."""
+def _unbounded_drive_error(drive: str, t: float) -> SolverError:
+    """Return the error for a drive whose second rate is unbounded at t (s)."""
     told = f"the second rate of drive {drive} grows beyond all bounds there"
     return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
 
 
-def _chattering(compiled: CompiledModel, t: float) -> SolverError:
-    """The error for changes without end at one time."""
+def _chattering_error(compiled: CompiledModel, t: float) -> SolverError:
+    """Return the error for endless changes of contacts or switching points at one time."""
     if compiled.source.rigid:
         return SolverError(
             f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
@@ -153,10 +156,10 @@ def _chattering(compiled: CompiledModel, t: float) -> SolverError:
     return SolverError("\n".join([told, *advice]), t)
 
 
-def _singular(
+def _singular_error(
     compiled: CompiledModel, status: int, t: float, advice: str, last: Array, p: Array, fast: str
 ) -> SolverError:
-    """The error for a pivot that vanished, or that only seems to have."""
+    """Return the error for a vanishing pivot of the constraint equations, or for a motion that diverged before."""
     row = compiled.source.motion_pivots[status - 1]
     if row in compiled.source.chain_rows:
         return SingularError(
@@ -174,7 +177,7 @@ def _singular(
         if finite and np.abs(last).max() < 1e12:
             return error
         # at a dead centre speeds grow until a pivot drowns in them, while everything stays where it is
-        dead = _dead_centre(compiled, last, p, t) if finite and _is_in_place(compiled, last, p) else None
+        dead = _dead_centre_error(compiled, last, p, t) if finite and _is_in_place(compiled, last, p) else None
         if dead:
             return dead
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
@@ -184,22 +187,22 @@ def _singular(
 
 @dataclass(frozen=True)
 class Pace:
-    """Of a run that no longer advances: the time, what is left, and what its last steps gained (s)."""
+    """Describe the progress of a run that no longer advances: time, remaining time, and gain of its last steps (s)."""
 
     t: float
     left: float
     gained: float
     steps: int
-    crawls: bool  # far slower than it was; else its end is too far away
+    crawls: bool  # whether steps became far shorter than before; else its end is too far away
 
     @property
     def needed(self) -> float:
-        """Steps to the end, at this pace."""
+        """Return the number of steps to the end at this pace."""
         return self.left / max(self.gained, 1e-300) * self.steps
 
 
 def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
-    """The value and rate of each drive that is so fast: "; drive motor is at 12.3 rad, its rate 4 rad/s"."""
+    """Return a text with the value and rate of each drive at least `fast`: "; drive motor is at 12.3 rad, ..."."""
     source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
     written = {info.address.split(".")[1]: tree for info, tree in trees(source, ("drives",))}
     with np.errstate(all="ignore"):
@@ -213,9 +216,9 @@ def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) ->
 
 
 def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
-    """The error for drives that are so fast that no double holds what follows from them; None: there are none.
+    """Return the error for drives so fast that accelerations overflow; None if there are none.
 
-    Those that are no number, or become so fast, have words of their own.
+    Drives that are not numbers, or that grow to such speeds, have their own messages.
     """
     rates = [compiled.closed_nu(s, np.zeros(compiled.n), p) for s in (t, 0.5 * t)]
     if not (np.abs(rates) >= OVERFLOWING).all(axis=0).any():
@@ -227,7 +230,7 @@ def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError |
 
 
 def outgrown(pace: Pace, drives: str) -> SolverError:
-    """A run whose `drives` (drives_at) lead on ever faster."""
+    """Return the error for a run whose `drives` (see drives_at) move ever faster."""
     return SolverError(
         f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
         f" and less and less, {pace.left:.3g} s are left{drives}\n"
@@ -237,7 +240,7 @@ def outgrown(pace: Pace, drives: str) -> SolverError:
 
 
 def too_far(pace: Pace) -> SolverError:
-    """A run to an end that no computer reaches."""
+    """Return the error for a run whose end no computer reaches at this pace."""
     return SolverError(
         f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the {pace.left:.3g} s"
         f" that are left take {pace.needed:.1e} more\n"
@@ -247,16 +250,16 @@ def too_far(pace: Pace) -> SolverError:
 
 
 def with_corners(source: KernelSource) -> str:
-    """The forces of the file that are written with what has corners, with their lines; "" for none."""
+    """Return the addresses and lines of the file's forces with switching points; "" if there are none."""
     found = [info for info, tree in trees(source, ("forces",)) if not CORNERED.isdisjoint(functions(tree))]
     return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in found)
 
 
-def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
-    """Return the error for a run to t_end (s) that no longer advances, from what C has stored of it.
+def _stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
+    """Return the error of a run to t_end (s) that no longer advances, from what C has stored of it.
 
-    `run` has t_last, p_motion, gained (s) and paced of the last steps, and `ended`: how many of them ended at contacts,
-    corners of forces, frictions and events. `e_max` (n_clearances,): largest eccentricities.
+    `run` has t_last, p_motion, and gained (s), paced of the last steps. `ended` counts how many of them ended at
+    contacts, switching points of forces, frictions and events. `e_max` (n_clearances,): largest eccentricities.
     """
     t, (steps, crawls), ended, p = float(run["t_last"]), run["paced"].tolist(), run["ended"], run["p_motion"]
     pace = Pace(t, t_end - t, float(run["gained"]), steps, bool(crawls))
@@ -292,7 +295,7 @@ def _stalled(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_ma
 
 
 def squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
-    """The film that is all but closed, in words; "" where there is none."""
+    """Return a text on a film that is squeezed out (e/c near 1); "" if there is none."""
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
         if joint.film and ratio > NEARLY_CLOSED:
@@ -300,8 +303,8 @@ def squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
     return ""
 
 
-def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
-    """A journal a tenth of its bearing's radius or more inside the metal, or where its law of contact ends."""
+def _penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
+    """Return the error for a journal more than a tenth of the bearing's radius deep, or outside its contact law."""
     _, deepest, own, name, at_wall = max(
         (depth / min(own, 0.1 * float(p[joint.constants["R_i"]])), depth, own, joint.name, joint.at_wall)
         for joint, e in zip(compiled.source.clearances, e_max, strict=True)
@@ -322,13 +325,13 @@ def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> Solv
 
 
 def _is_in_place(compiled: CompiledModel, last: Array, p: Array) -> bool:
-    """Whether no body has flown off."""
+    """Return whether no body has moved beyond 10⁴ times the mechanism's size."""
     places = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
     return bool(np.abs(np.ravel(last)[places]).max(initial=0.0) < 1e4 * max(mechanism_size(compiled, p), 1e-3))
 
 
-def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> SolverError | None:
-    """A drive that pushes links through the line in which they lie: their speeds grow beyond all bounds."""
+def _dead_centre_error(compiled: CompiledModel, last: Array, p: Array, t: float) -> SolverError | None:
+    """Return the error for a linkage in a dead centre, where constraint equations depend on each other; else None."""
     rows = nearly_dependent_rows(compiled, p, t, np.ravel(last)[: compiled.n])
     if not rows:
         return None
@@ -344,8 +347,8 @@ def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> So
     )
 
 
-def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
-    """What usually leaves a method no step: a film that is squeezed out, where its law is singular."""
+def _squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
+    """Return the error for a film that is squeezed out, near the singularity of its law at e = c; else None."""
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
         if joint.film and ratio > NEARLY_CLOSED:
@@ -360,17 +363,18 @@ def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> S
 
 
 def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.intc]) -> tuple[Finding, ...]:
-    """Return the findings from values, times and places (n_checks,) as a run reports them.
+    """Return the audit findings from values, times and places (n_checks,) as a run reports them.
 
-    What was not checked, and has a negative value, has none.
+    Negative values mark checks that were not made.
     """
     rows = zip(CHECKS, worst.tolist(), t.tolist(), where.tolist(), strict=True)
     return tuple(
-        Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows if value >= 0.0
+        Finding(check.name, value, at, _place_name(source, check, k)) for check, value, at, k in rows if value >= 0.0
     )
 
 
-def _place(source: KernelSource, check: Check, k: int) -> str:
+def _place_name(source: KernelSource, check: Check, k: int) -> str:
+    """Return the name of the joint, row, event or coordinate k to which a check refers; "" for none."""
     if k < 0 or not check.place:
         return ""
     if check.place == "joint":
@@ -383,18 +387,18 @@ def _place(source: KernelSource, check: Check, k: int) -> str:
 
 
 def audit_failure(findings: tuple[Finding, ...]) -> AuditError:
-    """Return the error for a run that a check of its audit ended."""
+    """Return the error of a run that a check of its audit ended."""
     worst = max(findings, key=lambda one: one.worst)
     return AuditError(f"{describe(worst)}\n  {REMEDY}", worst.t)
 
 
 def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
-    """Return a note for each check above its limit."""
+    """Return a note for each audit check above its limit."""
     return tuple(describe(one) for one in findings if not one.worst <= 1.0)
 
 
 def describe(finding: Finding) -> str:
-    """Return a finding in words: the check, the value, the time and the place."""
+    """Return a finding as text: the check, the value, the time and the place."""
     check = next(one for one in (*CHECKS, *SAMPLE_CHECKS) if one.name == finding.check)
     place = f" at {check.place} {finding.place}" if finding.place else ""
     return (

@@ -1,12 +1,13 @@
-"""No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
+"""Follow a linkage without degrees of freedom: positions by Newton's method from sample to sample, rates by linear
+solves.
 
-Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre quadrature of
-their power over the steps that follow the motion (engine/kinematic/kinematic.c). `Trajectory.seconds` is
-the time of the motion, works and events not counted.
+Only the works of drives and force elements are integrated, for the energy balance, by Gauss–Legendre quadrature of
+their power over the steps (engine/kinematic/kinematic.c). `Trajectory.seconds` is the time of the motion, without works
+and events.
 
-engine/kinematic/events.c looks for changes of sign over parts of the way in which no expression
-turns back, and locates them to 4 ulp of t or 1e-13 of the part (engine/watch/zeros.h). A zero at the end of the run
-counts: the way is looked at a little beyond it.
+engine/kinematic/events.c searches sign changes of event functions on intervals in which they are monotone. It locates
+zeros to 4 ulp of t or 1e-13 of the interval (engine/watch/zeros.h). A zero at the end of the run counts: the search
+extends a little beyond it.
 """
 
 from __future__ import annotations
@@ -38,12 +39,15 @@ from gudgeon.waiting.asking import Asker
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
-REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
-CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
+REACH = 0.05  # rad, or relative to the mechanism's size: after a larger Newton correction, the step is halved
+CHUNK, TURN = 10_000, 0.02  # largest number of samples that are computed together, and their time limit in s
 
 
-class _Way:
-    """The run as far as it is complete: rows `reached` of positions, velocities, accelerations and works; events."""
+class _KinematicRun:
+    """Hold a kinematic run as far as it is complete: positions, velocities, accelerations, works and events.
+
+    Rows up to `reached` are complete.
+    """
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.compiled, self.t = problem, problem.compiled, problem.t
@@ -51,17 +55,17 @@ class _Way:
         self.q, self.v, self.a = (np.zeros((len(self.t), self.compiled.n)) for _ in range(3))
         self.work = np.zeros((len(self.t), N_WORK))
         self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
-        self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; steps, rows of a call
+        self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
         self.reached, self.seconds = 0, 0.0
         self.events = Events(problem) if self.compiled.source.events else None
         self.asker = Asker(self.compiled, self.look)
-        self.course = self._course()
-        self.steps = self._steps(problem.look) if problem.look else None
+        self.course = self._new_course()
+        self.steps = self._make_record(problem.look) if problem.look else None
         if self.steps:
             self.steps.lay(self.pointer(self.course, "void *"))
 
-    def _course(self) -> NDArray[Any]:
-        """A struct of C that follows the motion, or its works."""
+    def _new_course(self) -> NDArray[Any]:
+        """Return a new struct of C that follows the motion, or its works."""
         course = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
         size = mechanism_size(self.compiled, self.problem.p)
         self.compiled.lib.gudgeon_kinematic_begin(
@@ -69,35 +73,37 @@ class _Way:
         )
         return course
 
-    def _steps(self, look: Look) -> Course:
+    def _make_record(self, look: Look) -> Course:
+        """Return the record of all steps for an observer."""
         none = np.zeros((1, 0))
         begin = Steps(
             self.t[:1], self.q[:1], self.v[:1], self.work[:1], none, none.astype(np.int8), np.ones(1, dtype=bool)
         )
-        return Course(self.compiled, look, self._course, begin)
+        return Course(self.compiled, look, self._new_course, begin)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
+        """Return a C pointer to an array."""
         return self.compiled.pointer(array, kind)
 
     def look(self) -> None:
-        """Between chunks or, asked by C, within one: takes Ctrl-C and a better library, moves the progress bar."""
+        """Check for Ctrl-C and for an optimized library, and report progress; called by C and between chunks."""
         self.compiled.lib.newest()
         self.problem.take()
         if self.problem.progress:
             t = self.problem.t
-            come = float(np.nanmean(self._pace()[0])) if self.begun else t[0]  # of motion and works
+            come = float(np.nanmean(self._progress()[0])) if self.begun else t[0]  # of motion and works
             self.problem.progress(float(come - t[0]) / max(float(t[-1] - t[0]), 1e-300), "following the constraints")
 
     def go(self) -> None:
-        """All the way, chunk by chunk: motion, then events and works of the same samples. Raises SolverError."""
+        """Follow the motion to its end in chunks: motion, events, then works of the same samples. Raise SolverError."""
         first, last, chunk = 0, len(self.t) - 1, 1
         while first < last or not self.begun:
             before = perf_counter()
-            end, failed = self._motion(first, min(first + chunk, last))
+            end, failed = self._compute_motion(first, min(first + chunk, last))
             stops = self.events is not None and end > first and self.events.find(self, first, end)
             if stops:
-                end = last = self._cut(first, end)
-            self.reached = self._works(first, end)
+                end = last = self._cut_at_event(first, end)
+            self.reached = self._compute_works(first, end)
             if self.steps:
                 self.steps.hand_on(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
             if failed and not stops:
@@ -108,11 +114,11 @@ class _Way:
 
     @property
     def begun(self) -> bool:
-        """Whether the first row is complete."""
+        """Return whether the first row is complete."""
         return not np.isnan(self.a[0]).all()
 
-    def _motion(self, first: int, last: int) -> tuple[int, int]:
-        """Rows up to `last`, the last one that could be reached, and why no further (0: there was no need)."""
+    def _compute_motion(self, first: int, last: int) -> tuple[int, int]:
+        """Compute rows up to `last`; return the last row that was reached, and the status (0: no failure)."""
         longs, course, status = self.pointer(self.longs, "long *"), self.pointer(self.course, "void *"), EVENTS_FULL
         while status == EVENTS_FULL:
             rows, before = slice(first, None), perf_counter()
@@ -134,8 +140,8 @@ class _Way:
             self.asker.check(status == STOPPED)
         return first, int(status)
 
-    def _works(self, first: int, last: int) -> int:
-        """Works of rows up to `last`; raises SolverError where they cannot be computed all the way."""
+    def _compute_works(self, first: int, last: int) -> int:
+        """Compute the works of rows up to `last`. Raise SolverError where they cannot be computed to the end."""
         if last == first:
             return last
         rows, done = slice(first, None), np.zeros(1, dtype=np.int_)
@@ -153,8 +159,8 @@ class _Way:
             raise self._failure(status)
         return last
 
-    def _cut(self, first: int, end: int) -> int:
-        """An event ends the run among these rows: the last sample stands at its time."""
+    def _cut_at_event(self, first: int, end: int) -> int:
+        """Shorten the samples to the event that ends the run among these rows; return the index of the last sample."""
         assert self.events is not None
         t_end = float(self.events.in_order()[0]["t"][-1])
         last = first + int(np.searchsorted(self.t[first : end + 1], t_end - resolution(self.problem.t)))
@@ -163,38 +169,39 @@ class _Way:
             self.steps.lay(self.pointer(self.course, "void *"), 0)
         if last > first:
             self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.course, "void *"))
-            _, failed = self._motion(last - 1, last)
+            _, failed = self._compute_motion(last - 1, last)
             if failed:
                 raise self._failure(failed)
         return last
 
     def _failure(self, status: int) -> SolverError:
-        at, gained, steps, crawls = self._pace()
+        """Return the error for a status of C."""
+        at, gained, steps, crawls = self._progress()
         t, t_end = float(at[0]), float(self.problem.t[-1])
         if status == STALLED:
             pace = Pace(t, t_end - t, gained, steps, bool(crawls))
             return outgrown(pace, drives_at(self.compiled, self.problem.p, t)) if crawls else too_far(pace)
         if status == NOT_FINITE:
-            return self._no_number(float(at[1]))
-        return _failure(self.problem, status, t, self._place(t))
+            return self._not_a_number_error(float(at[1]))
+        return _failure(self.problem, status, t, self._positions_at(t))
 
-    def _place(self, t: float) -> Array:
-        """Where the motion came to at t (s), from the last complete row."""
+    def _positions_at(self, t: float) -> Array:
+        """Return the positions at t (s), followed from the last complete row."""
         k = self.reached
         if not self.begun or not t > self.t[k]:
             return self.q[k]
         return along(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
 
-    def _no_number(self, t: float) -> SolverError:
-        """A drive, a force or a rate of theirs is none at t (s), where a work was asked for."""
+    def _not_a_number_error(self, t: float) -> SolverError:
+        """Return the error for a drive, a force or one of their rates that is not a number at t (s)."""
         compiled, p = self.compiled, self.problem.p
         why = reason(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
         why = why or rate_reason(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
         why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_at(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
 
-    def _pace(self) -> tuple[Array, float, int, int]:
-        """Where motion and works are (s); what the last steps gained (s), how many they are, whether they crawl."""
+    def _progress(self) -> tuple[Array, float, int, int]:
+        """Return the times (s) of motion and works, the gain (s) of the last steps, their number, and if they crawl."""
         t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
         self.compiled.lib.gudgeon_kinematic_progress(
             self.pointer(self.course, "void *"), self.pointer(t), self.pointer(gained), self.pointer(steps, "long *")
@@ -202,7 +209,7 @@ class _Way:
         return t, float(gained[0]), int(steps[0]), int(steps[1])
 
     def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
-        """What is complete."""
+        """Return the complete rows as a Trajectory."""
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         rows, first = slice(self.reached + 1), np.zeros(1)
@@ -233,11 +240,12 @@ class _Way:
 
 
 def run(problem: Problem) -> Trajectory:
-    """Samples at the output times, and at the event that ends the run, if any does. KeyboardInterrupt before the first.
+    """Return the Trajectory of a kinematic run at the output times, and at an event that ends it.
 
-    A chunk (TURN) that Ctrl-C cuts short is not kept: motion, works and events belong together.
+    Raises KeyboardInterrupt before the first sample. A chunk that Ctrl-C interrupts is discarded, because motion, works
+    and events belong together.
     """
-    way = _Way(problem)
+    way = _KinematicRun(problem)
     interrupted, stopped = False, None
     try:
         way.go()
@@ -251,7 +259,9 @@ def run(problem: Problem) -> Trajectory:
 
 
 def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """q and q̇ (T, n) at times t (T,), the first of which has the state q, v (n,); NaN where they cannot be found."""
+    """Return q and q̇ (T, n) at times t (T,), following the motion from the state q, v (n,) at t[0]; NaN after a
+    failure.
+    """
     T, pointer, done = len(t), compiled.pointer, np.zeros(2, dtype=np.int_)
     course, maxima, a = (
         np.zeros(compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8),
@@ -278,7 +288,7 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
 
 
 def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
-    """Why the motion cannot be followed beyond t (s), where it is at q (n,)."""
+    """Return the error for a motion that cannot be followed beyond t (s), with positions q (n,) there."""
     if told := overflowing(problem.compiled, problem.p, t):
         return told
     later = problem.t[problem.t > t]
@@ -318,15 +328,15 @@ def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
 
 
 class Events:
-    """Those of a run as far as they were looked for: `found`, EVENT_DTYPE, in the order of the search."""
+    """Collect the user events of a kinematic run in `found` (EVENT_DTYPE), in the order of the search."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.end = problem, float(problem.t[-1])
         self.side = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
         self.found, self.capacity = no_events(), MAX_LISTED
 
-    def find(self, way: _Way, first: int, last: int) -> bool:
-        """Looks through the intervals between rows first to last of the way; whether an event ends the run there.
+    def find(self, way: _KinematicRun, first: int, last: int) -> bool:
+        """Search the intervals between rows first to last; return whether an event ends the run there.
 
         Raises SolverError where the motion cannot be followed between its samples.
         """
@@ -335,7 +345,7 @@ class Events:
             more = max(4.0 * float(np.spacing(abs(self.end))), 1e-12 * (self.end - float(times[-2])))
             times = np.append(times, self.end + more)
         while done < len(times) - 1:
-            status, count = self._look(way, first + done, times[done:])
+            status, count = self._search_intervals(way, first + done, times[done:])
             done += count
             if status == EVENT_STOPS:
                 return True
@@ -349,8 +359,8 @@ class Events:
                 break  # beyond the end
         return False
 
-    def _look(self, way: _Way, row: int, times: Array) -> tuple[int, int]:
-        """From a row on through the intervals between these times: a status, and how many are complete."""
+    def _search_intervals(self, way: _KinematicRun, row: int, times: Array) -> tuple[int, int]:
+        """Search the intervals between these times from a row on; return a status and the number of complete ones."""
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
         at, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
         status = self.problem.compiled.lib.gudgeon_kinematic_events(
@@ -376,7 +386,7 @@ class Events:
         return int(status), int(counts[1])
 
     def in_order(self) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Events by time, not beyond the end, and the first time at which each is no number."""
+        """Return the events by time, not beyond the end, and the first time at which each is not a number."""
         events, lost = split_undefined(self.problem.compiled, self.found)
         events["t"] = np.minimum(events["t"], self.end)
         return events, lost[np.unique(lost["event"], return_index=True)[1]]

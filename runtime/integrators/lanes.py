@@ -1,7 +1,7 @@
-"""Runs of a batch side by side in vector registers (engine/batch/lanes.h): a lane each.
+"""Integrate several runs of a batch in the lanes of vector registers, one run per lane (engine/batch/lanes.h).
 
-Each run has steps of its own, and a lane whose run is over takes the next one. The library is compiled when a batch
-first asks for it.
+Each run has its own steps, and a lane whose run has ended loads the next one. The library of lanes is compiled when a
+batch first needs it.
 """
 
 from __future__ import annotations
@@ -32,23 +32,24 @@ if TYPE_CHECKING:
     from gudgeon.integrators.steps import Tape
 
 NONE = -1  # in place of the number of a run
-FEW = 16  # runs that are worth a vector
-MOST, ALWAYS = 32, 8  # runs that may be under way side by side, several a lane; those that are, however many samples
-WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled
+FEW = 16  # smallest number of runs for which vectors are used
+# largest number of runs that proceed together, and the number that always may, however many samples they have
+MOST, ALWAYS = 32, 8
+WORTH = 6.0  # s: expected remaining time of a batch from which on its library is compiled
 _later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
 
 
-_made: WeakKeyDictionary[CompiledModel, Lanes] = WeakKeyDictionary()
+_made: WeakKeyDictionary[CompiledModel, Lanes] = WeakKeyDictionary()  # libraries of lanes by scene
 _making = Lock()
 
 
 class Lanes:
-    """The library of a scene's runs side by side; `count` of them."""
+    """Hold the library that integrates `count` runs of a scene side by side."""
 
     def __init__(self, compiled: CompiledModel) -> None:
         from gudgeon.loading.build import compile_kernels
 
-        library = compile_kernels(_source(compiled), portable=compiled.portable)
+        library = compile_kernels(_source_of_lanes(compiled), portable=compiled.portable)
         self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
@@ -57,10 +58,9 @@ class Lanes:
     def flow(
         self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
     ) -> None:
-        """All runs of `supply`, each in a row of `memories`; where places are shared, its samples go there from
-        `place` on.
+        """Integrate all runs of `supply`, each with a row of `memories` as its storage.
 
-        `tapes`: one a row, where somebody looks at all steps.
+        If rows of samples are shared, those from `place` on are used. `tapes`: step records for observers, one per row.
         """
         arguments, rows, number = self._arguments(runs, memories)
         free, waiting, status = [*range(place, place + runs.places)], list[int](), LISTS
@@ -76,7 +76,7 @@ class Lanes:
             empty = [k for k, i in enumerate(number) if i == NONE and k < len(rows)]
             for k in empty if status != LISTS else range(len(rows)):
                 if before[k] != NONE:
-                    _fetch(runs, before[k], rows[k], tapes[k] if tapes else None)
+                    _fetch_lists(runs, before[k], rows[k], tapes[k] if tapes else None)
             waiting += [before[k] for k in empty if before[k] != NONE]
             if runs.shared and len(free) < len(empty):
                 runs.are_over(waiting)
@@ -88,8 +88,7 @@ class Lanes:
                 runs.to_its_end(i, memories[k], tapes[k] if tapes else None)
 
     def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
-        """What C is given, the rows of `memories` that it uses as a run's own library knows them, and the numbers of
-        runs: none yet."""
+        """Return the arguments for C, pointers to the rows of `memories`, and the run numbers of the lanes (none)."""
         rows = [runs.compiled.pointer(memory, "void *") for memory in memories[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
         for k, memory in enumerate(memories[: self.count]):
@@ -99,7 +98,7 @@ class Lanes:
 
 
 class Flow:
-    """The lanes of a batch, from when on they are worth it."""
+    """Provide the lanes of a batch, as soon as compiling their library is worth the time."""
 
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.count, self.later = compiled, MOST, _later.get()
@@ -109,7 +108,10 @@ class Flow:
         self.began = time.perf_counter()
 
     def begins(self, runs: Runs) -> Lanes | None:
-        """The lanes, if what is left is worth them; one thread compiles, the others go on meanwhile."""
+        """Return the lanes if the remaining runs are worth them, else None.
+
+        One thread compiles their library while the others continue.
+        """
         self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
         if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
             try:
@@ -122,13 +124,14 @@ class Flow:
         return self.lanes
 
     def _is_worth(self, runs: Runs) -> bool:
+        """Return whether the remaining runs are expected to take longer than WORTH."""
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
         return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > WORTH
 
 
 @contextmanager
 def followed_by(runs: int) -> Iterator[None]:
-    """Batches here are a part of more: so many runs come behind them, for which a library may be worth it too."""
+    """Announce within a with block that so many runs follow in later batches, for which a library may pay off."""
     token = _later.set(runs)
     try:
         yield
@@ -137,12 +140,12 @@ def followed_by(runs: int) -> Iterator[None]:
 
 
 def _lanes_of(compiled: CompiledModel) -> Lanes:
-    """Once a library, for all its batches."""
+    """Return the library of lanes of a scene, loaded once for all its batches."""
     return _made.setdefault(compiled, _made.get(compiled) or Lanes(compiled))
 
 
 def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
-    """The runs of portions that are yet to begin, as long as there are any."""
+    """Yield the runs of the portions that are yet to begin, taking portions until none is left."""
     while portions and not runs.stopping:
         try:
             portion = portions.popleft()
@@ -151,21 +154,22 @@ def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
         yield from (i for i in portion if runs.arrays["phase"][i] == NEW)
 
 
-def _source(compiled: CompiledModel) -> KernelSource:
-    """What the library is compiled from."""
+def _source_of_lanes(compiled: CompiledModel) -> KernelSource:
+    """Return the scene with the sources and declarations of the library of lanes."""
     from gudgeon.loading.engine import lane_declarations
 
     return replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
 
 
 def _is_compiled(compiled: CompiledModel) -> bool:
+    """Return whether the library of lanes is in the cache."""
     from gudgeon.loading.build import is_compiled
 
-    return is_compiled(_source(compiled), portable=compiled.portable)
+    return is_compiled(_source_of_lanes(compiled), portable=compiled.portable)
 
 
-def _fetch(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
-    """The lists of a run, if it has any, and of its tape the pieces that it has alone."""
+def _fetch_lists(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
+    """Fetch the contacts and events of run i, and its step record if it is full or the run is over."""
     if runs.arrays["status"][i] == NOT_CLOSED:
         return
     over = bool(runs.arrays["phase"][i] == OVER)
@@ -176,6 +180,9 @@ def _fetch(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
 
 
 def wanted(compiled: CompiledModel, method: str, runs: int) -> bool:
-    """Whether runs may go side by side: what has Taylor's method has lanes for no other."""
+    """Return whether the runs of a batch may share vectors: enough runs, and a method that the lanes have.
+
+    Scenes derived for Taylor's method have lanes for it only.
+    """
     fits = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
     return runs >= FEW and fits and is_there()

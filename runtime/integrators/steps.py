@@ -1,4 +1,4 @@
-"""States along a run, for whoever looks at every step: the ends of steps and places between them, block by block.
+"""Pass the states of all steps of a run to an observer: ends of steps and points between them, in blocks.
 
 The time loops in C write the states into rows (engine/run/step_record.c) and return when the rows are full. An observer
 reads the rows before the loop continues. A run without observers has no rows.
@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import N_TAPE_HEAD, N_WORK, TAPE_JUMPED, TAPE_T
 from gudgeon.model.compiled import Array, CompiledModel
 
-ROWS = 4096
+ROWS = 4096  # rows of a block
 
 
 @dataclass(frozen=True)
 class Steps:
-    """k states in the order of time; SI. Where something jumps both its sides are there, right beside it."""
+    """Hold k states in the order of time, SI units. Where something jumps, both sides are given at nearly one time."""
 
     t: Array  # (k,)
     q: Array  # (k, n)
@@ -32,21 +32,23 @@ class Steps:
     jumped: NDArray[np.bool_]  # (k,) whether something jumped, or began, since the row before
 
     def __len__(self) -> int:
+        """Return the number k of states."""
         return len(self.t)
 
     def __getitem__(self, rows: slice | NDArray[Any]) -> Steps:
+        """Return the states of these rows."""
         return Steps(*(getattr(self, each.name)[rows] for each in fields(self)))
 
     def then(self, later: Steps) -> Steps:
-        """These, and the later ones behind them."""
+        """Return these states followed by later ones."""
         return Steps(*(np.concatenate([getattr(self, x.name), getattr(later, x.name)]) for x in fields(self)))
 
 
-Look: TypeAlias = Callable[[Steps], None]
+Look: TypeAlias = Callable[[Steps], None]  # observer of the states of all steps of a run
 
 
 class Tape:
-    """Rows that a run in C fills, for `look`."""
+    """Hold the rows that a run in C fills, and pass them to the observer `look`."""
 
     def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
         self.compiled, self.look = compiled, look
@@ -55,16 +57,17 @@ class Tape:
         self.rows = np.zeros((ROWS, sum(self.widths)))
 
     def lay(self, run: Any) -> None:
-        """A run that is about to begin writes here."""
+        """Let a run that is about to begin write its states into these rows."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
 
     def fetch(self, run: Any) -> None:
-        """Hands on what the run has written since the last time."""
+        """Pass the states that the run has written since the last call to the observer."""
         count = int(self.compiled.lib.gudgeon_run_recorded(run))
         if count and self.look:
-            self.look(self._steps(self.rows[:count].copy()))
+            self.look(self._as_steps(self.rows[:count].copy()))
 
-    def _steps(self, rows: Array) -> Steps:
+    def _as_steps(self, rows: Array) -> Steps:
+        """Return the rows that C wrote as Steps."""
         (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(
@@ -79,14 +82,17 @@ class Tape:
 
 
 class Shown:
-    """The same of a run that Python drives; nobody may `look`."""
+    """Collect the states of a run that Python drives, and pass them to the observer `look`, if there is one."""
 
     def __init__(self, compiled: CompiledModel, look: Look | None) -> None:
         self.n, self.look = compiled.n, look
         self.waiting: list[Steps] = []
 
     def add(self, t: Array, y: Array, memory: Array, state: NDArray[Any], jumped: bool) -> None:
-        """States (k, 2n + 3) at times t (k,), all with these contacts; `jumped`: something did before the first."""
+        """Add states (k, 2n + 3) at times t (k,), all with the same contacts.
+
+        `jumped`: whether something jumped before the first.
+        """
         k, n = len(t), self.n
         first = np.arange(k) < int(jumped)
         repeated = np.tile(memory, (k, 1)), np.tile(state, (k, 1))
@@ -95,7 +101,7 @@ class Shown:
             self.hand_on()
 
     def hand_on(self) -> None:
-        """What waits."""
+        """Pass the collected states to the observer."""
         waiting, self.waiting = self.waiting, []
         if self.look and waiting:
             columns = zip(*(vars(steps).values() for steps in waiting), strict=True)
@@ -103,37 +109,38 @@ class Shown:
 
 
 class Course:
-    """The same of a motion without a freedom (engine/kinematic): rows of t, q, q̇, with their works."""
+    """Collect the states of a kinematic motion (engine/kinematic), add their works, and pass them to an observer."""
 
     def __init__(self, compiled: CompiledModel, look: Look, begin: Callable[[], NDArray[Any]], first: Steps) -> None:
         self.compiled, self.look, self.last = compiled, look, first
         self.rows = np.zeros((ROWS, 1 + 2 * compiled.n))
-        self.waiting: list[Array] = []  # of a part of the way that an event may yet cut off
-        self.works = begin()  # a struct of its own, for the works on the way
+        self.waiting: list[Array] = []  # rows of a chunk that an event may yet cut off
+        self.works = begin()  # a separate struct of C for the works
         look(first)
 
     def lay(self, course: Any, rows: int = ROWS) -> None:
-        """The motion writes here from now on; 0 rows: no longer."""
+        """Let the motion write its states into these rows from now on; with 0 rows, stop that."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
         lib.gudgeon_kinematic_record(course, where if rows else self.compiled.ffi.NULL, rows)
 
     def fetch(self, course: Any) -> None:
-        """Takes what was written since the last time."""
+        """Collect the states that were written since the last call."""
         count = int(self.compiled.lib.gudgeon_kinematic_recorded(course))
         if count:
             self.waiting.append(self.rows[:count].copy())
 
     def hand_on(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
-        """What waits, up to a last state (t, q, q̇) where the way ends there."""
+        """Pass the collected states to the observer, up to a last state (t, q, q̇) if the motion ends there."""
         rows = np.concatenate(self.waiting) if self.waiting else self.rows[:0]
         self.waiting = []
         if end is not None:
             rows = np.concatenate([rows[rows[:, 0] < end[0]], np.hstack(end)[None]])
         rows = rows[rows[:, 0] > self.last.t[0]]
         for first in range(0, len(rows), ROWS):
-            self._hand_on(rows[first : first + ROWS], p)
+            self._show_rows(rows[first : first + ROWS], p)
 
-    def _hand_on(self, rows: Array, p: Array) -> None:
+    def _show_rows(self, rows: Array, p: Array) -> None:
+        """Compute the works of these rows and pass them to the observer."""
         n, count, pointer = self.compiled.n, len(rows), self.compiled.pointer
         t, q, v = rows[:, 0].copy(), rows[:, 1 : 1 + n].copy(), rows[:, 1 + n :].copy()
         work, done = np.full((count + 1, N_WORK), np.nan), np.zeros(1, dtype=np.int_)

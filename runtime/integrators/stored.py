@@ -1,4 +1,4 @@
-"""What is stored of runs: arrays that C or a driver in Python fills, lists that are fetched, and each run read back."""
+"""Store the results of runs: arrays that C or Python fills, lists of contacts and events, and each run read back."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ from gudgeon.integrators.trajectory import (
 )
 from gudgeon.model.compiled import Array, CompiledModel
 
-BLOCK = 16 * MAX_LISTED  # contacts that have their room together
+BLOCK = 16 * MAX_LISTED  # contacts that are stored in one block
 
 
 def as_impacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
-    """Return contacts (IMPACT_DTYPE) from their numbers (n, N_IMPACT_COLUMNS) and joints (n,) as C lists them."""
+    """Return contacts (IMPACT_DTYPE) from their values (n, N_IMPACT_COLUMNS) and joints (n,) as C lists them."""
     impacts = np.empty(len(joints), dtype=IMPACT_DTYPE)
     impacts["joint"] = joints
     for name in (IMPACT_DTYPE.names or ())[1:]:
@@ -62,13 +62,13 @@ def as_impacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
 
 
 class Contacts:
-    """What the threads of a batch have fetched; each has its own lists."""
+    """Collect the contacts of the runs of a batch; each thread has its own lists."""
 
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.own, self.all = compiled, local(), list[_Fetched]()
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
-        """Takes over the list of run i, which is emptied; with `last` the contacts that still go on too."""
+        """Fetch and empty the list of contacts of run i; with `last` also the contacts that are still closed."""
         try:
             fetched: _Fetched = self.own.fetched
         except AttributeError:
@@ -77,9 +77,9 @@ class Contacts:
         fetched.fetch(i, run, last)
 
     def joined(self, n: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
-        """IMPACT_DTYPE, those of runs 0 to n - 1, run by run and by their onset; where each run's begin, (n + 1,).
+        """Return the contacts (IMPACT_DTYPE) of runs 0 to n − 1, by run and onset, and each run's first index.
 
-        To be asked once: the lists are let go.
+        The indices have the shape (n + 1,). Call it once: the lists are released.
         """
         if not self.all:
             return np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
@@ -99,7 +99,7 @@ class Contacts:
 
 
 class _Fetched:
-    """The lists of one thread, one behind the other: whose they are, how many contacts each has, these in blocks."""
+    """Collect the contacts fetched by one thread: runs, number of contacts of each, and the contacts in blocks."""
 
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.runs, self.counts = compiled, list[int](), list[int]()
@@ -107,11 +107,13 @@ class _Fetched:
         self._begin()
 
     def _begin(self) -> None:
+        """Allocate an empty block."""
         self.numbers, self.joints, self.n = np.empty((BLOCK, N_IMPACT_COLUMNS)), np.empty(BLOCK, np.intc), 0
         pointer = self.compiled.pointer
         self.to = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
+        """Fetch the contacts of run i into blocks; with `last` also those that are still closed."""
         self.runs.append(i)
         self.counts.append(0)
         while True:
@@ -126,12 +128,12 @@ class _Fetched:
             self._begin()
 
     def blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
-        """Numbers (n, N_IMPACT_COLUMNS) and joints (n,), as far as they are filled."""
+        """Return the filled blocks: values (n, N_IMPACT_COLUMNS) and joints (n,)."""
         return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]
 
 
 class _Driven(NamedTuple):
-    """What arrays have no place for, of a run that Python drove."""
+    """Hold the lists of a run that Python drove."""
 
     impacts: NDArray[Any]
     events: NDArray[Any]
@@ -140,9 +142,9 @@ class _Driven(NamedTuple):
 
 
 class StoredRuns:
-    """Arrays by run, and by place where there are samples; what is not reached is NaN."""
+    """Store arrays by run, and samples by place; values that were not reached are NaN."""
 
-    struct: Any  # the arrays as C has them
+    struct: Any  # pointers to the arrays, for C
 
     def __init__(
         self,
@@ -183,20 +185,21 @@ class StoredRuns:
             self.arrays["a"] = np.full((places, N, compiled.n), np.nan)
         self.driven: dict[int, _Driven] = {}
         self.fetched = Contacts(compiled)
-        self.events: dict[int, list[NDArray[Any]]] = {}  # of runs that have any, with states
-        self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)  # once all are over: by run
+        self.events: dict[int, list[NDArray[Any]]] = {}  # lists of events with states, of runs that have any
+        # contacts by run once all are over, and each run's first index
+        self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
 
     def keep_trace(self) -> None:
-        """Runs that are yet to begin keep what a picture needs of each step."""
+        """Allocate the envelope of forces and paths that new runs record for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
         x["trace"], x["traced"] = np.empty((self.n, TRACE_ROWS, trace_width(joints))), np.zeros(self.n, np.int_)
         self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], written=True), TRACE_ROWS
         self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
 
     def _join_contacts(self) -> None:
-        """Contacts of all runs, once these are over."""
+        """Join the contacts of all runs, once these are over."""
         if not self.driven:
             self.contacts, self.cuts = self.fetched.joined(self.n)
             return
@@ -204,7 +207,7 @@ class StoredRuns:
         self.contacts, self.cuts = joined(each), np.cumsum([0, *map(len, each)])
 
     def store(self, i: int, found: Trajectory) -> None:
-        """Fill the arrays of run i, which Python drove."""
+        """Fill the arrays of run i from the Trajectory that Python computed."""
         x, k, N, n = self.arrays, int(self.arrays["place"][i]), len(found.t), self.compiled.n
         for columns, values in ((slice(n), found.q), (slice(n, 2 * n), found.v), (slice(2 * n, None), found.work)):
             x["y"][k, :N, columns] = values
@@ -223,39 +226,39 @@ class StoredRuns:
             self.failures[i] = found.stopped
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
-        """Takes over the lists of contacts and events of run i."""
+        """Fetch and empty the lists of contacts and events of run i."""
         if self.compiled.source.clearances:
             self.fetched.fetch(i, run, last)
         if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
             self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
 
     def findings(self, i: int) -> tuple[Finding, ...]:
-        """What the audit of run i found; of one that Python drove nothing is checked on the way."""
+        """Return the audit findings of run i; () for runs that Python drove."""
         if i in self.driven:
             return ()
         return as_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
 
     def impacts_of(self, i: int) -> NDArray[Any]:
-        """IMPACT_DTYPE, the contacts of run i by their onset."""
+        """Return the contacts (IMPACT_DTYPE) of run i, by onset."""
         if i in self.driven:
             return self.driven[i].impacts
         return self.contacts[self.cuts[i] : self.cuts[i + 1]].copy()
 
     def all_impacts(self) -> tuple[NDArray[Any], ...]:
-        """The same of all runs, views of one array."""
+        """Return the contacts of each run, as views of one array."""
         return tuple(self.contacts[a:b] for a, b in pairwise(self.cuts.tolist()))
 
     def all_events(self) -> tuple[NDArray[Any], ...]:
-        """EVENT_DTYPE, the user events of all runs by time."""
+        """Return the user events (EVENT_DTYPE) of each run, by time."""
         events = [no_events()] * self.n
         for i in (*self.events, *self.driven):
             events[i] = plain(self._events_of(i)[0])
         return tuple(events)
 
     def _events_of(self, i: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the user events of run i by time, and those that are no number from a time on.
+        """Return the user events of run i by time, and those that are not numbers from a time on.
 
-        What C lists has the states there too.
+        What C lists also has the states there.
         """
         if i in self.driven:
             return self.driven[i].events, self.driven[i].no_number
@@ -269,23 +272,23 @@ class StoredRuns:
         return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
 
     def is_complete(self, i: int) -> bool:
-        """Whether run i came to the last of its times."""
+        """Return whether run i reached the last of its times."""
         reached = self._times_of(i)
         return self.arrays["status"][i] != STOPPED and len(reached) > 0 and reached[-1] >= self.times.of(i)[-1]
 
     def counts(self, i: int) -> Counts:
-        """Sums and maxima over the steps of run i."""
+        """Return the sums and maxima over the steps of run i."""
         return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
 
     def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
-        """Times of the samples of run i that were reached, and views of these: (q, v, works), memory, codes."""
+        """Return the times of the reached samples of run i, and views of (q, v, works), memory and codes."""
         x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
         t, joints = self._times_of(i), len(compiled.source.clearances)
         y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
         return t, y, memory[:, : compiled.n_memory], state[:, :joints]
 
     def accelerations(self, i: int) -> Array | None:
-        """Views of q̈ at the samples of run i, as a method found them that Python drives."""
+        """Return views of q̈ at the samples of run i, if its method is driven by Python; else None."""
         a: Array | None = self.arrays.get("a")
         return None if a is None else a[self.arrays["place"][i], : self.arrays["done"][i]]
 
@@ -298,7 +301,7 @@ class StoredRuns:
         return t
 
     def trajectory(self, i: int) -> Trajectory:
-        """Return run i; of several runs a copy, without their arrays."""
+        """Return run i as a Trajectory; of several runs a copy of its arrays."""
         own, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
         (t, y, memory, state), a, driven = self.samples(i), self.accelerations(i), self.driven.get(i)
         error, (events, no_number) = self.failures.get(i), self._events_of(i)
@@ -321,12 +324,13 @@ class StoredRuns:
             events=plain(events),
             event_states=None if driven else events,
             no_number=plain(no_number),
-            trace=self._trace(i),
+            trace=self._envelope_of(i),
             audit=self.findings(i),
             change_points=driven.change_points if driven else NO_CHANGE_POINTS,
         )
 
-    def _trace(self, i: int) -> Trace | None:
+    def _envelope_of(self, i: int) -> Trace | None:
+        """Return the envelope of forces and paths of run i, or None."""
         if "trace" not in self.arrays:
             return None
         rows = self.arrays["trace"][i, : self.arrays["traced"][i]]

@@ -1,4 +1,4 @@
-"""Threads that work on the runs of a batch: each takes portions of them, and moves these on alone or side by side."""
+"""Work on the runs of a batch in threads, each of which takes portions of runs."""
 
 from __future__ import annotations
 
@@ -18,19 +18,22 @@ if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
     from gudgeon.integrators.trajectory import Progress
 
-PORTION = 16  # runs handed out at once, at most
-POLL_INTERVAL_S = 0.05  # s between two looks of the waiting thread
+PORTION = 16  # largest number of runs handed to a thread at once
+POLL_INTERVAL_S = 0.05  # s between two checks of the waiting thread
 
 
 def available_threads() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def wait_for(
     waiting: set[Future[None]], ctrl_c: CtrlC, progress: Progress | None, fraction: Callable[[int], float]
 ) -> None:
-    """Wait for all; raise Ctrl-C and what one of them raises. `fraction` of the work done, if so many still wait."""
+    """Wait for all futures; raise their errors, and KeyboardInterrupt after Ctrl-C.
+
+    `fraction` returns the fraction of the work done, given the number of unfinished futures.
+    """
     while waiting:
         ended, waiting = wait(waiting, POLL_INTERVAL_S)
         ctrl_c.take()
@@ -41,12 +44,12 @@ def wait_for(
 
 
 def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
-    """All wanted runs, to their ends. Ctrl-C ends them where they are."""
+    """Integrate all `wanted` runs to their ends in threads. Ctrl-C ends them where they are."""
     portion = max(1, min(PORTION, len(wanted) // (8 * runs.threads)))
     portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
-            work = _follow if runs.drive else _work
+            work = _work_in_python if runs.drive else _work_in_c
             waiting: set[Future[None]] = {pool.submit(work, runs, portions, k) for k in range(runs.threads)}
             wait_for(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
@@ -54,16 +57,16 @@ def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int],
             raise
 
 
-def _follow(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
-    """One thread: runs whose loop is in Python, until none is left."""
+def _work_in_python(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
+    """Integrate runs whose loop is in Python, in one thread, until none is left."""
     for i in numbers_of(runs, portions):
         if runs.shared:
             runs.arrays["place"][i] = worker * runs.places
         runs.follow(i)
 
 
-def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
-    """One thread: portions of runs until none is left."""
+def _work_in_c(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
+    """Integrate portions of runs in one thread, alone or in lanes, until none is left."""
     memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
     tapes, place = [Tape(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.places
     for memory, own in zip(memories, tapes, strict=False):

@@ -1,4 +1,4 @@
-"""Output times of the runs of a batch: the same for all, or each run's own; the last step of a fixed length."""
+"""Hold the output times of the runs of a batch, common to all or one row per run, and compute the last fixed step."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ from numpy.typing import NDArray
 
 from gudgeon.model.compiled import Array
 
-SAME = 1e-9  # share of the step by which the last one may differ and counts as equal: times are sums of rounded numbers
+SAME = 1e-9  # relative difference up to which the last step counts as equal: times are sums of rounded numbers
 
 
 @dataclass(frozen=True, eq=False)
 class Times:
-    """`t` (N,) where all runs have the same, else (n, N), NaN behind a run's last."""
+    """Hold output times `t`: (N,) if all runs share them, else (n, N) with NaN after a run's last time."""
 
     t: Array  # s
-    count: NDArray[np.int_]  # (n,) how many each run has
-    skipped: NDArray[np.int_]  # (n,) 1 where the first one, the start, was not requested, and is not a sample
+    count: NDArray[np.int_]  # (n,) number of times of each run
+    skipped: NDArray[np.int_]  # (n,) 1 if the first time, the start, was not requested and is not a sample
 
     @staticmethod
     def of_runs(each: Mapping[int, tuple[Array, bool]], n: int) -> Times:
-        """Of n runs from the times of those that are to begin, at least one, and whether these were all requested."""
+        """Return the Times of n runs from the rows of those that begin (at least one), and whether they were
+        requested.
+        """
         first, all_requested = next(iter(each.values()))
         skipped = np.array([int(not each.get(i, (first, all_requested))[1]) for i in range(n)])
         if all(row is first or np.array_equal(row, first) for row, _ in each.values()):
@@ -37,25 +39,25 @@ class Times:
 
     @property
     def most(self) -> int:
-        """N, rows of a run in the arrays of a batch."""
+        """Return N, the number of rows of a run in the arrays of a batch."""
         return self.t.shape[-1]
 
     @property
     def start(self) -> float:
-        """Time (s) at which all runs begin."""
+        """Return the time (s) at which all runs begin."""
         return float(self.t[0] if self.t.ndim == 1 else np.nanmin(self.t[:, 0]))
 
     @property
     def apart(self) -> int:
-        """Numbers between the times of two runs in memory; 0: they are the same."""
+        """Return the stride in memory between the times of two runs, in numbers; 0 if they share them."""
         return self.most if self.t.ndim == 2 else 0
 
     def of(self, i: int) -> Array:
-        """Those of run i, (count[i],)."""
+        """Return the times of run i, (count[i],)."""
         return (self.t[i] if self.t.ndim == 2 else self.t)[: self.count[i]]
 
     def before(self, ends: Mapping[int, float]) -> Times:
-        """Return the same, for some runs only the times before an end (s); the first one stays."""
+        """Return Times in which some runs have only the times before an end (s); the first time stays."""
         count = self.count.copy()
         for i, end in ends.items():
             count[i] = max(int(np.searchsorted(self.of(i), end)), 1)
@@ -79,13 +81,13 @@ class Times:
         return found
 
     def ends(self) -> Array:
-        """The last of each run, (n,); NaN where a run has none."""
+        """Return the last time of each run, (n,); NaN for runs without times."""
         t = np.broadcast_to(self.t, (len(self.count), self.most))
         return np.where(self.count > 0, t[np.arange(len(self.count)), self.count - 1], np.nan)
 
 
 def last_step(duration: float, step: float) -> float:
-    """Length (s) of the last of the steps over `duration`: `step`, or what is left (step_end in numbers.h)."""
+    """Return the length (s) of the last fixed step over `duration`: `step`, or the rest (step_end in numbers.h)."""
     total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
     rest = duration - (total - 1) * step
     return step if abs(rest - step) < SAME * step else rest

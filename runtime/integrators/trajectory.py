@@ -1,4 +1,4 @@
-"""What a method hands back: samples at the output times, events, the trace of joints, and what it counted."""
+"""Define the input and output of every integration method: Problem, Trajectory, Counts, events and envelope."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ IMPACT_DTYPE = np.dtype(
 )
 
 NO_CHANGE_POINTS = 0, float("nan")
-Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
-EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, s
-TRACE_ROWS = 4096  # of a trace; even, a picture has fewer columns
+Progress: TypeAlias = Callable[[float, str], None]  # called with the fraction done, and what is being done
+EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, time in s
+TRACE_ROWS = 4096  # largest number of rows of an envelope; it is even
 TRACED = {
     "F_low": ("N", "least force since the row before"),
     "t_F_low": ("s", "its time"),
@@ -52,31 +52,31 @@ EPSILON = float(np.finfo(np.float64).eps)
 
 @cache
 def event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
-    """An event with the state there as samples have it: y is q, v (n each) and the works."""
+    """Return the type of an event with its state, as samples have it: y is q, v (n each) and the works."""
     at = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
     return np.dtype([("event", "i4"), ("t", "f8"), *at])
 
 
 def plain(found: NDArray[Any]) -> NDArray[Any]:
-    """EVENT_DTYPE of events with their states."""
+    """Return events with states as plain events (EVENT_DTYPE)."""
     events = np.zeros(len(found), dtype=EVENT_DTYPE)
     events["event"], events["t"] = found["event"], found["t"]
     return events
 
 
 def no_events() -> NDArray[Any]:
-    """An empty list of events."""
+    """Return an empty list of events."""
     return np.zeros(0, dtype=EVENT_DTYPE)
 
 
 def joined(impacts: Iterable[NDArray[Any]]) -> NDArray[Any]:
-    """These lists of IMPACT_DTYPE one behind the other: numpy's own way compares their fields at each."""
+    """Return lists of contacts (IMPACT_DTYPE) joined to one; faster than numpy, which compares all fields."""
     return np.frombuffer(bytearray().join(impacts), IMPACT_DTYPE)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A scene with numbers, a start and the times at which samples are wanted (the first is the start)."""
+    """Define a run: a scene with parameter values, a start, and the times of the samples (the first is the start)."""
 
     compiled: CompiledModel
     p: Array
@@ -84,19 +84,19 @@ class Problem:
     q: Array  # (n,)
     v: Array
     memory: Array  # (n_clearances + n_frictions,) δ̇⁻ of closed contacts, modes of friction; NaN: free, unknown
-    step: float  # s, of a method with fixed step; inf: the method chooses
+    step: float  # s, of a method with fixed step; inf: the method controls it
     progress: Progress | None = None
-    state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one goes on from
+    state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one resumes
     method: str = "rk4"
-    rtol: float = 0.0  # of methods that choose their step
+    rtol: float = 0.0  # tolerance of methods that control their step
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
-    remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
+    remarks: tuple[str, ...] = ()  # notes on the start, which come first in the run's notes
     start_is_sample: bool = True  # False: t[0] was not requested
     audit: int = 1  # level of the audit (contract/audit.py)
-    begun: State | None = None  # that the run goes on from
-    look: Look | None = None  # is shown the states of all steps
-    take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
+    begun: State | None = None  # state that the run resumes from
+    look: Look | None = None  # observer of all steps
+    take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (asking.py)
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class Counts:
 
 
 def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
-    """Return the counts (N_COUNTS,) and residuals (N_RESIDUALS,) that gudgeon_run_report writes."""
+    """Return the Counts from the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes."""
     residuals = [x if math.isfinite(x) else math.nan for x in numbers.tolist()]
     known = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
     return Counts(**{each.name: known[each.name] for each in fields(Counts)})
@@ -134,16 +134,16 @@ def counts_of_runs(counts: NDArray[Any], numbers: Array) -> dict[str, NDArray[An
 
 @dataclass(frozen=True)
 class Trajectory:
-    """N samples or, when `stopped` or interrupted, as many as were reached.
+    """Hold the N samples of a run or, when it was stopped or interrupted, those that were reached.
 
-    Where an event ended the run the last sample stands at its time, and `events` ends with it. Where Ctrl-C ended it,
-    or it no longer advanced, the last sample is what was reached then.
+    If an event ended the run, the last sample and the last of `events` are at its time. After Ctrl-C, or if the run no
+    longer advanced, the last sample is the state reached then.
     """
 
     t: Array
     q: Array  # (N, n)
     v: Array
-    a: Array | None  # None: not looked at by the method
+    a: Array | None  # None: the method does not compute them
     memory: Array  # (N, n_clearances + n_frictions)
     state: NDArray[Any]  # (N, n_clearances) int8
     work: Array  # (N, 3) J: drives, applied forces, joints with play
@@ -163,20 +163,20 @@ class Trajectory:
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """R rows, each of as many steps as any other but the last one."""
+    """Hold the envelope of forces and paths: R rows, each of the same number of steps except the last."""
 
     t: Array  # (R,) s, the end of the row's last step
     joints: Array  # (R, n_clearances, 9) as TRACE_COLUMNS has them, SI
 
     @staticmethod
     def of_rows(rows: Array, clearances: int) -> Trace:
-        """From the rows that C writes, (R, width)."""
+        """Return the envelope from the rows that C writes, (R, width)."""
         joints = rows[:, 1:].reshape(len(rows), clearances, N_TRACE_COLUMNS)
         return Trace(rows[:, 0].copy(), joints[:, :, [TRACE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
 
 
 def trace_width(clearances: int) -> int:
-    """Return the count of numbers in a row of a trace."""
+    """Return the number of values in a row of the envelope."""
     return 1 + N_TRACE_COLUMNS * clearances
 
 
@@ -191,9 +191,9 @@ def no_states(compiled: CompiledModel) -> NDArray[Any]:
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
-    """Return the list of user events of a struct (event_dtype), which is emptied; those of the start do not count.
+    """Fetch and empty the list of user events of a run's struct (event_dtype), without those at its start.
 
-    Numbers beyond the events of the scene stand for the same events, which are no number from that time on.
+    Event numbers beyond the events of the scene mean that event was not a number from that time on.
     """
     joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
     t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
@@ -219,7 +219,7 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
 
 
 def split_undefined(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Return the events by time, and those that are no number from a time on; both of the type of `found`."""
+    """Return the events by time, and those that are not numbers from a time on; both of the type of `found`."""
     ordered = found[np.argsort(found["t"], kind="stable")]
     number = ordered["event"] < len(compiled.source.events)
     lost = ordered[~number]

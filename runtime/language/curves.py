@@ -1,11 +1,11 @@
-"""Curves through points: cubic splines and monotone cubics, as coefficients and as numbers.
+"""Interpolate curves through points: cubic splines and monotone cubics, as coefficients and as values.
 
 A spline has a continuous second derivative: C. de Boor, A Practical Guide to Splines (2001), chapter IV. A monotone
-cubic is C¹ and never beyond the points on either side: F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17 (1980)
-238–246; F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304.
+cubic is C¹ and stays between neighbouring points: F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238–246;
+F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304.
 
-Between knots k and k + 1 a curve is y = c0 + h (c1 + h (c2 + h c3)) with h = x - x_k: all targets evaluate this, by
-Horner's rule and in this order.
+Between knots k and k + 1 a curve is y = c0 + h (c1 + h (c2 + h c3)) with h = x − x_k. All targets evaluate this by
+Horner's rule, in this order.
 """
 
 from __future__ import annotations
@@ -25,37 +25,40 @@ if TYPE_CHECKING:
 NATURAL, CLAMPED, PERIODIC, NOT_A_KNOT = ENDS = ("natural", "clamped", "periodic", "not_a_knot")
 SPLINE, MONOTONE = INTERPOLATIONS = ("spline", "monotone")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
-LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # points
-_TOLD = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}
+LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # smallest number of points by condition at the ends
+_TOLD = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}  # names of the interpolations in messages
 LONG = 4000  # points: tables of longer curves are stored and emitted as bytes, which takes a tenth of the time
-MARGIN = 1e-9  # of the range: so far outside an argument may be by rounding
+MARGIN = 1e-9  # of the range: an argument may be outside by so much through rounding
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A spline over knots x (n + 1, rising) with coefficients (n, 4); SI. None for a dimension: it fits any."""
+    """Hold a curve over increasing knots x (n + 1) with coefficients (n, 4), SI units.
+
+    A dimension of None fits any dimension.
+    """
 
     name: str
     x: tuple[float, ...]
     coefficients: tuple[tuple[float, float, float, float], ...]
     ends: str = NATURAL
-    extrapolate: str = STOP  # outside the range; of a periodic curve there is none
+    extrapolate: str = STOP  # outside the range; not used by periodic curves
     argument: Dimension | None = None
     value: Dimension | None = None
     unit: str | None = None  # SI, of the value: an angle's is rad
-    over: str = ""  # the unit of x as the file has it; "": SI
-    source: str = ""  # the file that the points came from
+    over: str = ""  # unit of x in the file; "": SI
+    source: str = ""  # file that the points came from
     interpolation: str = SPLINE
-    points: int = 0  # how many there were: a piece may have been halved (`in_pairs`)
+    points: int = 0  # number of points; one piece may have been halved (`in_pairs`)
 
     @property
     def repeats(self) -> bool:
-        """Whether it begins anew beyond its range."""
+        """Return whether the curve is periodic."""
         return self.ends == PERIODIC
 
     @property
     def goes_on(self) -> bool:
-        """Whether it has values beyond its range, which begin at a corner."""
+        """Return whether the curve has values beyond its range, which begin at a switching point."""
         return self.extrapolate != STOP
 
     @property
@@ -64,23 +67,24 @@ class Curve:
         return len(self.x) > LONG
 
     def __hash__(self) -> int:
+        """Return a hash of name, range and options; the coefficients are too many."""
         return hash((self.name, self.x[0], self.x[-1], len(self.x), self.ends, self.extrapolate))
 
     @cached_property
     def _tables(self) -> tuple[Any, Any]:
-        """Knots (n + 1,) and coefficients (n, 4) as arrays."""
+        """Return knots (n + 1,) and coefficients (n, 4) as arrays."""
         return np.array(self.x), np.array(self.coefficients)
 
     @property
     def range_text(self) -> str:
-        """From where to where it is, SI: an angle in rad."""
+        """Return the range of the argument as text, in SI units: "from 0 to 0.5 s"."""
         from gudgeon.language.units import si_unit
 
         unit = si_unit(self.argument) if self.argument is not None else ""
         return f"from {self.x[0]:.6g} to {self.x[-1]:.6g} {unit or '(SI, angles in rad)'}"
 
     def outside(self, x: float) -> str:
-        """What a place outside the range is, in as many digits as tell it from the end that it is behind."""
+        """Return a text on an argument x outside the range, with enough digits to show the difference."""
         from gudgeon.language.plot_units import told_apart
         from gudgeon.language.units import parse_unit
 
@@ -96,25 +100,27 @@ class Curve:
         )
 
     def told(self) -> str:
-        """What it is, in words."""
+        """Return a description of the curve: interpolation, points, ends, range."""
         ends = f"{self.ends.replace('_', '-')} ends"
         after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
         points = f"{self.points} points{f' of {self.source}' * bool(self.source)}"
         return f"{_TOLD[self.interpolation]} through {points}, {ends}, {self.range_text}, outside {after}"
 
     def end(self, order: int) -> float:
-        """A derivative at the last knot."""
+        """Return a derivative of the given order at the last knot."""
         return float(_horner(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
 
     def within(self, x: Any) -> Any:
-        """Whether there is a value."""
+        """Return whether the curve has a value at x (number or array)."""
         if self.repeats or self.extrapolate != STOP:
             return np.isfinite(x)
         margin = MARGIN * (self.x[-1] - self.x[0])
         return (x >= self.x[0] - margin) & (x <= self.x[-1] + margin)
 
     def at(self, x: Any, order: int = 0) -> Any:
-        """Values, or those of a derivative, at numbers or arrays; NaN outside the range of one that stops there."""
+        """Return values or derivatives of the given order at x (number or array); NaN outside the range if it stops
+        there.
+        """
         x = np.asarray(x, dtype=float)
         (knots, pieces), first, last = self._tables, self.x[0], self.x[-1]
         with np.errstate(invalid="ignore"):
@@ -124,11 +130,11 @@ class Curve:
             held = np.clip(x, first, last) if self.extrapolate != STOP else x
             k = np.clip(np.searchsorted(knots, held, side="right") - 1, 0, len(knots) - 2)
             value = _horner(np.moveaxis(pieces[k], -1, 0), held - knots[k], order)
-            value = self._beyond(value, x, order)
+            value = self._extrapolate(value, x, order)
         return np.where(inside, value, np.nan)[()]
 
-    def _beyond(self, value: Any, x: Any, order: int) -> Any:
-        """What goes on outside as was asked for."""
+    def _extrapolate(self, value: Any, x: Any, order: int) -> Any:
+        """Replace the values outside the range by those of the extrapolation."""
         if self.extrapolate == HOLD and order:
             return np.where((x < self.x[0]) | (x > self.x[-1]), 0.0, value)
         if self.extrapolate == LINE and order < 2:
@@ -141,13 +147,13 @@ class Curve:
         return value
 
     def to_data(self) -> list[Any]:
-        """What a stored expression keeps of it: not its dimensions, which were checked."""
+        """Return the curve as JSON data for a stored expression, without dimensions."""
         x, pieces = (packed(table) if self.is_long else table.tolist() for table in self._tables)
         return [self.name, x, pieces, self.ends, self.extrapolate, self.unit, self.over]
 
     @staticmethod
     def from_data(data: Sequence[Any]) -> Curve:
-        """The curve that `to_data` wrote."""
+        """Return the curve that `to_data` wrote."""
         name, x, coefficients, ends, extrapolate, unit, *over = data  # results of earlier versions hold no `over`
         if isinstance(x, str):
             x, pieces = _unpacked(x, coefficients)
@@ -171,9 +177,9 @@ def _unpacked(x: str, pieces: str) -> tuple[tuple[float, ...], tuple[tuple[float
 def in_pairs(
     x: Sequence[float], pieces: Sequence[tuple[float, float, float, float]]
 ) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
-    """Knots and pieces, of which there are an even number: the last one is halved for it.
+    """Return knots and pieces of an even number; if it is odd, the last piece is halved.
 
-    Neighbours are told apart by odd and even, also where the last one is before the first.
+    Neighbouring pieces are distinguished by odd and even index, also across the end of a periodic curve.
     """
     if len(pieces) % 2 == 0:
         return tuple(x), tuple(pieces)
@@ -185,7 +191,7 @@ def in_pairs(
 
 
 def _horner(c: Any, h: Any, order: int) -> Any:
-    """A derivative of c0 + h (c1 + h (c2 + h c3))."""
+    """Return c0 + h (c1 + h (c2 + h c3)) or its derivative of the given order."""
     match order:
         case 0:
             return c[0] + h * (c[1] + h * (c[2] + h * c[3]))
@@ -199,18 +205,18 @@ def _horner(c: Any, h: Any, order: int) -> Any:
 def spline(
     x: Sequence[float], y: Sequence[float], ends: str, interpolation: str = SPLINE
 ) -> tuple[tuple[float, float, float, float], ...]:
-    """Coefficients of the cubic spline, or the monotone cubic, through points, (n, 4).
+    """Return the coefficients (n, 4) of the cubic spline or monotone cubic through points.
 
-    natural: no second derivative at the ends; clamped: no slope there; not_a_knot: the first two pieces are one
-    polynomial, and the last two; periodic: slope and second derivative of the end are those of the beginning.
-    Of a monotone cubic, natural: slopes at the ends by three points, not beyond what keeps it monotone.
+    Ends: natural (no second derivative), clamped (no slope), not_a_knot (the first two pieces are one polynomial, and
+    the last two), periodic (slope and second derivative of the end equal those of the beginning). For a monotone cubic,
+    natural means end slopes from three points, limited to keep it monotone.
     """
     h = [b - a for a, b in zip(x, x[1:], strict=False)]
     rises = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
     if interpolation == MONOTONE:
         slopes = monotone_slopes(h, rises, ends == PERIODIC, ends == CLAMPED)
     else:
-        slopes = _periodic(h, rises) if ends == PERIODIC else _open(h, rises, ends)
+        slopes = _periodic_slopes(h, rises) if ends == PERIODIC else _slopes_with_ends(h, rises, ends)
     return tuple(
         (
             y[k],
@@ -222,54 +228,60 @@ def spline(
     )
 
 
-def _inner(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:
-    """The equation of a knot between pieces of lengths a, b and rises p, q: below, on, above the diagonal, right."""
+def _knot_equation(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:
+    """Return a row of the linear system: a knot between pieces of lengths a, b and mean slopes p, q.
+
+    The entries are those below, on and above the diagonal, and the right-hand side.
+    """
     return b, 2.0 * (a + b), a, 3.0 * (b * p + a * q)
 
 
-def _open(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
-    """Slopes at the knots of a curve with two ends."""
-    rows = [_inner(a, b, p, q) for a, b, p, q in zip(h, h[1:], rises, rises[1:], strict=False)]
+def _slopes_with_ends(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
+    """Return the slopes at the knots of a spline with two ends."""
+    rows = [_knot_equation(a, b, p, q) for a, b, p, q in zip(h, h[1:], rises, rises[1:], strict=False)]
     if ends == CLAMPED:
         first, last = (0.0, 1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
     elif ends == NATURAL:
         first, last = (0.0, 2.0, 1.0, 3.0 * rises[0]), (1.0, 2.0, 0.0, 3.0 * rises[-1])
     else:
-        above, right = _one_polynomial(h[0], h[1], rises[0], rises[1])
+        above, right = _not_a_knot_equation(h[0], h[1], rises[0], rises[1])
         first = (0.0, h[1], above, right)
-        below, right = _one_polynomial(h[-1], h[-2], rises[-1], rises[-2])
+        below, right = _not_a_knot_equation(h[-1], h[-2], rises[-1], rises[-2])
         last = (below, h[-2], 0.0, right)
-    return _tridiagonal([first, *rows, last])
+    return _solve_tridiagonal([first, *rows, last])
 
 
-def _one_polynomial(a: float, b: float, p: float, q: float) -> tuple[float, float]:
-    """Of the outer piece (a, p) and its neighbour: the factor of the inner slope, and the right side."""
+def _not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[float, float]:
+    """Return the end equation of not_a_knot: the factor of the inner slope, and the right-hand side.
+
+    The outer piece has length a and mean slope p, its neighbour b and q.
+    """
     both = a + b
     return both, ((a + 2.0 * both) * b * p + a * a * q) / both
 
 
-def _periodic(h: Sequence[float], rises: Sequence[float]) -> list[float]:
-    """Slopes where the end is the beginning: two tridiagonal solves (Sherman and Morrison)."""
+def _periodic_slopes(h: Sequence[float], rises: Sequence[float]) -> list[float]:
+    """Return the slopes at the knots of a periodic spline, by two tridiagonal solves (Sherman and Morrison)."""
     before = [h[-1], *h[:-1]]
-    rows = [_inner(a, b, p, q) for a, b, p, q in zip(before, h, [rises[-1], *rises[:-1]], rises, strict=True)]
+    rows = [_knot_equation(a, b, p, q) for a, b, p, q in zip(before, h, [rises[-1], *rises[:-1]], rises, strict=True)]
     corner_up, corner_down = rows[0][0], rows[-1][2]  # entries (first, last) and (last, first)
     shift = -rows[0][1]
     kept = [list(row) for row in rows]
     kept[0][1] -= shift
     kept[-1][1] -= corner_up * corner_down / shift
-    one = _tridiagonal(kept)
+    one = _solve_tridiagonal(kept)
     for row in kept:
         row[3] = 0.0
     kept[0][3], kept[-1][3] = shift, corner_down
-    other = _tridiagonal(kept)
+    other = _solve_tridiagonal(kept)
     share = corner_up / shift
     factor = (one[0] + share * one[-1]) / (1.0 + other[0] + share * other[-1])
     slopes = [a - factor * b for a, b in zip(one, other, strict=True)]
     return [*slopes, slopes[0]]
 
 
-def _tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
-    """The solution of rows (below, on, above the diagonal, right); rows are dominated by their diagonals."""
+def _solve_tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
+    """Solve a diagonally dominant tridiagonal system of rows (below, on, above the diagonal, right-hand side)."""
     above, right = [0.0] * len(rows), [0.0] * len(rows)
     for k, (below, on, up, given) in enumerate(rows):
         pivot = on - (below * above[k - 1] if k else 0.0)
@@ -280,14 +292,14 @@ def _tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
 
 
 def monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, flat_ends: bool) -> list[float]:
-    """Return the slopes at the knots: weighted harmonic means of the rises on both sides, 0 at extremes.
+    """Return the slopes at the knots: weighted harmonic means of the mean slopes on both sides, 0 at extrema.
 
-    h, rises: lengths and rises of the pieces, (n,). `repeats`: the end is the beginning; `flat_ends`: no slope there.
+    h, rises: lengths and mean slopes of the pieces, (n,). `repeats`: periodic; `flat_ends`: no slope at the ends.
     """
     if repeats:
-        inner = [_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)]
+        inner = [_harmonic_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)]
         return [*inner, inner[0]]
-    inner = [_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
+    inner = [_harmonic_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
     if flat_ends:
         return [0.0, *inner, 0.0]
     if not inner:
@@ -296,8 +308,8 @@ def monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, f
     return [first, *inner, last]
 
 
-def _mean(a: float, b: float, p: float, q: float) -> float:
-    """The slope between pieces of lengths a, b and rises p, q."""
+def _harmonic_mean(a: float, b: float, p: float, q: float) -> float:
+    """Return the monotone slope between pieces of lengths a, b and mean slopes p, q."""
     if p * q <= 0.0:
         return 0.0
     w, v = 2.0 * b + a, b + 2.0 * a
@@ -305,7 +317,7 @@ def _mean(a: float, b: float, p: float, q: float) -> float:
 
 
 def _end_slope(a: float, b: float, p: float, q: float) -> float:
-    """The slope at the end of the outer piece (a, p) by the parabola through it and its neighbour (b, q), limited."""
+    """Return the limited slope at the end of piece (a, p), from the parabola through it and its neighbour (b, q)."""
     slope = ((2.0 * a + b) * p - a * q) / (a + b)
     if slope * p <= 0.0:
         return 0.0

@@ -1,6 +1,6 @@
-"""Parts of expressions, as they are written, that are no finite numbers: simplified formulas may lack them.
+"""Find parts of expressions, as they are written, that are not finite numbers; simplified formulas may lack them.
 
-`cos(acos(d))` is d, `d/d` is 1; as they are written the one is undefined at d = 2, the other at d = 0.
+Examples: `cos(acos(d))` simplifies to d, and `d/d` to 1. As written, they are undefined at d = 2 and at d = 0.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from gudgeon.language.functions import names_where
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, functions, names
 
-DEFINED = names_where(lambda f: f.is_total)
-DIVIDING = names_where(lambda f: f.divides)
+DEFINED = names_where(lambda f: f.is_total)  # functions that are finite for all numbers
+DIVIDING = names_where(lambda f: f.divides)  # functions that divide by their last argument
 
 
 def is_defined_everywhere(expr: Expr) -> bool:
-    """Whether nothing in it can be undefined: sums, products, and functions of every number."""
+    """Return whether no part can be undefined: only sums, products, and functions of every number."""
     match expr:
         case Unary(operand=operand):
             return is_defined_everywhere(operand)
@@ -31,16 +31,16 @@ def is_defined_everywhere(expr: Expr) -> bool:
 
 
 def undefined_part(expr: Expr, known: Mapping[str, float]) -> float | None:
-    """The value of the first part that numbers, by name, alone determine and that is not finite; None: none is."""
+    """Return the value of the first part that is not finite and depends on the `known` names alone; else None."""
     parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_absorbed_parts(part, known)))
     numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
     return next((number for number in numbers if not math.isfinite(number)), None)
 
 
 def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
-    """Yield the parts of a constant whose infinity or NaN its value may lack: arguments, divisors, bases, exponents.
+    """Yield the parts of a constant whose infinity or NaN its value may lack: arguments, divisors, exponents.
 
-    Of the branch of a `where` that is not picked: those that no parameter could make finite.
+    Of the inactive branch of a `where`, only parts without any parameter are included.
     """
     match expr:
         case Unary(operand=operand):
@@ -63,7 +63,7 @@ def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
 
 
 def _constant_parts(expr: Expr, known: Container[str]) -> Iterator[Expr]:
-    """The largest parts of an expression that parameters alone determine, and 1 over each of them that divides."""
+    """Yield the largest parts that depend on `known` names alone, and 1 over each of them that divides."""
     if all(name.path in known for name in names(expr)):
         yield expr
         return
@@ -82,9 +82,9 @@ def _constant_parts(expr: Expr, known: Container[str]) -> Iterator[Expr]:
 
 
 def may_be_undefined(expr: Expr, known: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
-    """Where any part that these values, (n,) by name, one at least, alone determine is not finite.
+    """Return a mask (n,) of the cases in which a part of the expression may not be finite.
 
-    The branch of a `where` that is not picked included: undefined_part has the last word.
+    `known`: values (n,) by name. The inactive branch of a `where` is included, so that undefined_part decides.
     """
     parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_every_part(part)))
     undefined = np.zeros(next(iter(known.values())).shape, dtype=bool)
@@ -94,7 +94,7 @@ def may_be_undefined(expr: Expr, known: Mapping[str, NDArray[np.float64]]) -> ND
 
 
 def _every_part(expr: Expr) -> Iterator[Expr]:
-    """All parts of an expression, and 1 over what divides within functions."""
+    """Yield all parts of an expression, and 1 over the divisors within functions."""
     match expr:
         case Unary(operand=operand):
             parts: tuple[Expr, ...] = (operand,)

@@ -1,4 +1,4 @@
-"""What is going to go: told whenever it is used, until the version from which on it is gone (CHANGELOG.md)."""
+"""List the deprecated features, and warn about their use until they are removed (CHANGELOG.md)."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Deprecation:
-    """A call, a key or a command that still works: `what`, in a user's words."""
+    """Describe a call, a key or a command that still works but will be removed. `what`: its name for users."""
 
     what: str
     since: str  # version
-    date: str  # of that, or where that is not released yet, of the decision: YYYY-MM-DD
+    date: str  # of that version or, if it is not released yet, of the decision: YYYY-MM-DD
     instead: str
-    gone: str  # version, half a year later at the earliest
+    gone: str  # version that removes it, half a year later at the earliest
 
     def __str__(self) -> str:
+        """Return the warning as text."""
         return (
             f"{self.what} is deprecated since gudgeon {self.since} ({self.date}) and gone from {self.gone} on: "
             f"use {self.instead}"
@@ -28,5 +29,5 @@ DEPRECATIONS = (STRESS,)
 
 
 def deprecated(one: Deprecation) -> None:
-    """Told as a DeprecationWarning, at the line that called the caller."""
+    """Issue a DeprecationWarning at the line that called the caller."""
     warnings.warn(str(one), DeprecationWarning, stacklevel=3)

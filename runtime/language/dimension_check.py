@@ -1,8 +1,8 @@
-"""Dimension analysis of expression trees: what is added, compared or used must be of one kind.
+"""Check the dimensions of expression trees: terms that are added, compared or used must have equal dimensions.
 
-A bare number is SI and fits any dimension: in a sum or as a whole value it takes the dimension that
-is wanted; in a product with a quantity it is a pure number (`2 * 3 mm`), except beside `t` alone,
-where it may be a rate (`sin(2*pi*t)`). A parameter that is defined without a unit fits anywhere.
+A bare number is SI and fits any dimension. In a sum or as a whole value it takes the expected dimension. In a product
+with a quantity it is a pure number (`2 * 3 mm`). With `t` alone it may be a rate (`sin(2*pi*t)`). A parameter that is
+defined without a unit fits anywhere.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from gudgeon.language.functions import FUNCTIONS, Units
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, symbol_dimension, unit
 
-_MOST = 24  # bound on exponents: nothing in mechanics needs more
+_MOST = 24  # largest exponent of a dimension: mechanics needs no larger one
 
 
 @dataclass(frozen=True)
 class _Flexible:
-    """No dimension of its own: a bare number (`pure`), or a product with a parameter without a unit."""
+    """Mark a value without a dimension of its own: a bare number (`pure`), or a product with a unitless parameter."""
 
     pure: bool
 
@@ -35,17 +35,16 @@ _Found = Dimension | _Flexible
 def check_dimension(
     expr: Expr, expected: Dimension | None, dimension_of: Callable[[str], Dimension | None], where: Location
 ) -> Dimension | None:
-    """The dimension of `expr`: `expected` if given and `expr` fits it, None if `expr` fits any.
+    """Return the dimension of `expr`: `expected` if given and `expr` fits it, None if `expr` fits any.
 
-    `dimension_of(path)` gives the dimension of a name, None for one that fits any; it may raise.
-    `where` is the place of the expression's first character.
-    Raises UnitError, which says what was found and what was expected in words and SI units.
+    `dimension_of(path)` returns the dimension of a name, None for one that fits any; it may raise. `where` is the
+    location of the expression's first character. Raises UnitError, which says what was found and what was expected.
     """
     try:
         found = _Checker(dimension_of, where).of(expr)
         if expected is not None and isinstance(found, Dimension) and found != expected:
             message = f"expected {describe(expected)}, got {describe(found)}"
-            raise UnitError(message, where, _of_a_divisor(expr, expected))
+            raise UnitError(message, where, _hint_on_divisor(expr, expected))
     except UnitError as error:
         if not (shadowed := dict.fromkeys(names_over_units(expr))):
             raise
@@ -73,8 +72,8 @@ def names_over_units(expr: Expr) -> Iterator[str]:
                 yield from names_over_units(argument)
 
 
-def _of_a_divisor(expr: Expr, expected: Dimension) -> str:
-    """What to write for `1/12 kg*m^2`, which is 1/(12 kg*m^2)."""
+def _hint_on_divisor(expr: Expr, expected: Dimension) -> str:
+    """Return a hint for expressions such as `1/12 kg*m^2`, which is read as 1/(12 kg*m^2); else ""."""
     if not (isinstance(expr, Binary) and expr.operator == "/" and isinstance(expr.right, Number)):
         return ""
     number, _, word = expr.right.text.partition(" ")
@@ -85,7 +84,7 @@ def _of_a_divisor(expr: Expr, expected: Dimension) -> str:
 
 
 def _is_of_time_alone(expr: Expr) -> bool:
-    """Whether an expression is made of `t` and bare numbers."""
+    """Return whether an expression consists of `t` and bare numbers only."""
     match expr:
         case Number(has_unit=has_unit):
             return not has_unit
@@ -99,11 +98,13 @@ def _is_of_time_alone(expr: Expr) -> bool:
 
 
 class _Checker:
+    """Compute the dimension of a tree. `where`: location of its first character, for errors."""
+
     def __init__(self, dimension_of: Callable[[str], Dimension | None], where: Location) -> None:
         self._dimension_of, self._where = dimension_of, where
 
     def of(self, expr: Expr) -> _Found:
-        """The dimension of a tree, from its leaves up."""
+        """Return the dimension of a tree, computed from its leaves up."""
         match expr:
             case Number(text=text, has_unit=has_unit):
                 known = unit(text.partition(" ")[2]) if has_unit else None
@@ -113,24 +114,24 @@ class _Checker:
             case Unary(operand=operand):
                 return self.of(operand)
             case CurveCall():
-                return self._curve(expr)
+                return self._check_curve(expr)
             case Call():
-                return self._call(expr)
+                return self._check_call(expr)
         if expr.operator in ("+", "-"):
             word = "add" if expr.operator == "+" else "subtract"
-            return self._same(f"cannot {word}", expr.left, expr.right)
+            return self._common_dimension(f"cannot {word}", expr.left, expr.right)
         if expr.operator == "**":
-            return self._power(expr)
-        return self._product(expr)
+            return self._check_power(expr)
+        return self._check_product(expr)
 
-    def _place(self, expr: Expr) -> Location:
-        """Where an expression begins; a Binary's own offset is its operator's."""
+    def _location(self, expr: Expr) -> Location:
+        """Return the location where an expression begins; a Binary's own offset is that of its operator."""
         while isinstance(expr, Binary):
             expr = expr.left
         return Location(self._where.file, self._where.line, self._where.column + expr.offset)
 
-    def _same(self, what: str, *parts: Expr) -> _Found:
-        """The one dimension of all parts."""
+    def _common_dimension(self, what: str, *parts: Expr) -> _Found:
+        """Return the common dimension of all parts. Raise UnitError if two of them differ."""
         result: _Found = _BARE
         for part in parts:
             found = self.of(part)
@@ -138,20 +139,21 @@ class _Checker:
                 result = result if isinstance(result, Dimension) or found.pure else found
             elif isinstance(result, Dimension) and found != result:
                 message = f"{what}: {describe(result)} and {describe(found)}"
-                raise UnitError(message, self._place(part), f"expected {describe(result)}")
+                raise UnitError(message, self._location(part), f"expected {describe(result)}")
             else:
                 result = found
         return result
 
-    def _call(self, call: Call) -> _Found:
+    def _check_call(self, call: Call) -> _Found:
+        """Return the dimension of a function's value, after checking those of its arguments."""
         units, unlike = FUNCTIONS[call.function].units, f"{call.function} of unlike quantities"
         if units is Units.SAME:
-            return self._same(unlike, *call.arguments)
+            return self._common_dimension(unlike, *call.arguments)
         if units is Units.CHOICE:
-            self._same("cannot compare", *call.arguments[:2])
-            return self._same(unlike, *call.arguments[2:])
+            self._common_dimension("cannot compare", *call.arguments[:2])
+            return self._common_dimension(unlike, *call.arguments[2:])
         if units is Units.RATIO:
-            self._same(unlike, *call.arguments)
+            self._common_dimension(unlike, *call.arguments)
             return DIMENSIONLESS
         argument = call.arguments[0]
         found = self.of(argument)
@@ -159,19 +161,20 @@ class _Checker:
             return found if isinstance(found, _Flexible) else found ** Fraction(1, 2)
         if isinstance(found, Dimension) and found != DIMENSIONLESS:
             message = f"{call.function} expected {describe(DIMENSIONLESS)}, got {describe(found)}"
-            raise UnitError(message, self._place(argument))
+            raise UnitError(message, self._location(argument))
         return DIMENSIONLESS if isinstance(found, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
 
-    def _curve(self, call: CurveCall) -> _Found:
-        """Its value's dimension, if its argument has the one that the curve is over."""
+    def _check_curve(self, call: CurveCall) -> _Found:
+        """Return the dimension of a curve's value, after checking that of its argument."""
         (argument,), over = call.arguments, call.curve.argument
         found = self.of(argument)
         if isinstance(found, Dimension) and over is not None and found != over:
             message = f"curve {call.function} is over {describe(over)}, got {describe(found)}"
-            raise UnitError(message, self._place(argument))
+            raise UnitError(message, self._location(argument))
         return _ANY if call.curve.value is None else call.curve.value
 
-    def _product(self, expr: Binary) -> _Found:
+    def _check_product(self, expr: Binary) -> _Found:
+        """Return the dimension of a product or quotient."""
         left, right = self.of(expr.left), self.of(expr.right)
         if _ANY in (left, right):
             return _ANY
@@ -181,13 +184,14 @@ class _Checker:
             return _ANY
         a = left if isinstance(left, Dimension) else DIMENSIONLESS
         b = right if isinstance(right, Dimension) else DIMENSIONLESS
-        return self._bounded(a * b if expr.operator == "*" else a / b, expr)
+        return self._check_bounds(a * b if expr.operator == "*" else a / b, expr)
 
-    def _power(self, expr: Binary) -> _Found:
+    def _check_power(self, expr: Binary) -> _Found:
+        """Return the dimension of a power. Its exponent must be a plain number if the base has a dimension."""
         base, exponent = self.of(expr.left), self.of(expr.right)
         if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:
             message = f"an exponent is a pure number, got {describe(exponent)}"
-            raise UnitError(message, self._place(expr.right))
+            raise UnitError(message, self._location(expr.right))
         if isinstance(base, _Flexible) or base == DIMENSIONLESS:
             return base
         value = float("nan") if any(True for _ in names(expr.right)) else float(evaluate(expr.right, lambda _: np.nan))
@@ -197,10 +201,11 @@ class _Checker:
             and abs(power - value) > 1e-12
         ):
             message = f"the exponent of {describe(base)} is a plain number such as 2 or 1/2"
-            raise UnitError(message, self._place(expr.right))
-        return self._bounded(base**power, expr)
+            raise UnitError(message, self._location(expr.right))
+        return self._check_bounds(base**power, expr)
 
-    def _bounded(self, found: Dimension, expr: Binary) -> Dimension:
+    def _check_bounds(self, found: Dimension, expr: Binary) -> Dimension:
+        """Return the dimension `found`. Raise UnitError if an exponent is too large."""
         if max(abs(found.length), abs(found.mass), abs(found.time)) > _MOST:
-            raise UnitError(f"a unit with an exponent above {_MOST}", self._place(expr))
+            raise UnitError(f"a unit with an exponent above {_MOST}", self._location(expr))
         return found

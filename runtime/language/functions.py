@@ -1,4 +1,4 @@
-"""The functions that expressions may use, one entry each. Everything that knows a function by name reads this table.
+"""Define the functions that expressions may use, one table entry each; all other code reads this table.
 
 | field | who reads it |
 |---|---|
@@ -29,7 +29,7 @@ import numpy as np
 
 
 class Units(Enum):
-    """The dimensions of arguments and value."""
+    """Classify a function by the dimensions of its arguments and value."""
 
     PURE = "pure numbers give a pure number"
     SAME = "arguments and value have one dimension"
@@ -40,9 +40,10 @@ class Units(Enum):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Rising:
-    """Bounds of a function that rises in its domain and whose slope rises or falls on each side of one place at most.
+    """Hold bounds of a function that increases in its domain, for interval arithmetic.
 
-    slope: of x, in C, where the derivative as written cancels digits.
+    Its slope increases or decreases on each side of at most one point. slope: C code of the derivative in x, where the
+    derivative as written cancels digits.
     """
 
     slope_extremum: float = math.nan
@@ -51,19 +52,19 @@ class Rising:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Function:
-    """A function by the name that files use.
+    """Describe a function by the name that files use.
 
-    sympy, c, numpy, text: its name there where that is another one; latex: where SymPy's own LaTeX is not used.
-    sympy None: SymPy has no such class; generator/symbols/from_expressions.py composes it of powers and functions.
-    compute: values by NumPy where NumPy has no such function.
-    derivative: of a function of one argument, as files write it, of the argument `x` and the function's value `f`.
-    far_derivative: the same without the square of an argument, which may overflow where the derivative matters.
-    domain: outside it the function is undefined. bounds: None where engine/watch/ranges.h has `range_` and the C name.
-    has_vector_code: engine/batch/lane_functions.h has `lanes_` and the C name; else lane after lane calls the library.
-    jump_order: of the lowest derivative that jumps where the function changes over; None: it is smooth in its domain.
-    is_total: defined and finite for all numbers. saturates: finite where its argument is infinite. divides: by its last
-    argument. hides_corners: a smooth argument may give a value whose slope jumps, as acos(cos t) does.
-    copies: how many times the formula of generator/symbols holds the arguments. usage: the hint after a wrong call.
+    sympy, c, numpy, text: its name there if it differs; latex: where SymPy's own LaTeX is not used. sympy None: SymPy
+    has no such class; generator/symbols/from_expressions.py composes it of powers and functions. compute: values by
+    NumPy where NumPy has no such function. derivative: of a function of one argument, as files write it, of the
+    argument `x` and the function's value `f`. far_derivative: the same without the square of an argument, which may
+    overflow where the derivative matters. domain: outside it the function is undefined. bounds: None where
+    engine/watch/ranges.h has `range_` and the C name. has_vector_code: engine/batch/lane_functions.h has `lanes_` and
+    the C name; else lane after lane calls the library. jump_order: order of the lowest derivative that jumps at a
+    switching point; None: smooth in its domain. is_total: defined and finite for all numbers. saturates: finite where
+    its argument is infinite. divides: by its last argument. hides_corners: a smooth argument may give a value whose
+    slope jumps, as acos(cos t) does. copies: how many times the formula of generator/symbols holds the arguments.
+    usage: the hint after a wrong call.
     """
 
     name: str
@@ -100,54 +101,55 @@ class Function:
 
     @property
     def in_sympy(self) -> str:
-        """The name of SymPy's class; "": there is none."""
+        """Return the name of SymPy's class; "" if there is none."""
         return "" if self.sympy is None else self.sympy or self.name
 
     @property
     def in_c(self) -> str:
-        """The name of the function in C."""
+        """Return the name of the function in C."""
         return self.c or self.name
 
     @property
     def in_numpy(self) -> str:
-        """The name of NumPy's function."""
+        """Return the name of NumPy's function."""
         return self.numpy or self.name
 
     @cached_property
     def evaluate(self) -> Callable[..., Any]:
-        """The function of numbers or arrays."""
+        """Return the function of numbers or arrays."""
         return self.compute or getattr(np, self.in_numpy)
 
     @property
     def squares_argument(self) -> bool:
-        """Whether the derivative holds the square of the argument, which may overflow."""
+        """Return whether the derivative contains the square of the argument, which may overflow."""
         return "x**2" in self.derivative
 
 
 def smooth_step(t: Any, start: Any, duration: Any) -> Any:
-    """0 up to `start`, 1 from `start + duration`, between them the quintic 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
+    """Return 0 up to `start`, 1 from `start + duration`, between them 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
     s = ramp(t, start, duration)
     return s**3 * (10.0 + s * (6.0 * s - 15.0))
 
 
 def ramp(t: Any, start: Any, duration: Any) -> Any:
-    """0 up to `start`, 1 from `start + duration`, linear between them (its rate jumps at both ends)."""
+    """Return 0 up to `start`, 1 from `start + duration`, linear between them (its rate jumps at both ends)."""
     return np.clip((t - start) / duration, 0.0, 1.0)
 
 
 def where(left: Any, right: Any, then: Any, otherwise: Any) -> Any:
-    """`then` where left < right, else `otherwise`, NaN where one is: `where(left < right, then, otherwise)`."""
+    """Return `then` where left < right, else `otherwise`; NaN where left or right is NaN."""
     undefined = np.isnan(left) | np.isnan(right)
     return np.where(undefined, np.nan, np.where(np.less(left, right), then, otherwise))[()]
 
 
 def mod(a: Any, b: Any) -> Any:
-    """What is left of a behind the last whole multiple of b: from 0 to b, with the sign of b."""
+    """Return the remainder of a after the last whole multiple of b: from 0 to b, with the sign of b."""
     return np.mod(a, b)
 
 
 _HALF_LINE, _UNIT = (0.0, math.inf), (-1.0, 1.0)
 _STEP = "smooth_step(t, start, duration) goes from 0 to 1"
+# all functions, in the order of docs/format.md
 _TABLE = (
     Function("sin", "sine", derivative="cos(x)", has_vector_code=True, is_total=True),
     Function("cos", "cosine", derivative="-sin(x)", has_vector_code=True, is_total=True),
@@ -341,7 +343,9 @@ _TABLE = (
         usage="mod(t, 1 s) begins anew each second",
     ),
 )
+# functions by the name that files use
 FUNCTIONS: Mapping[str, Function] = {function.name: function for function in _TABLE}
+# functions by the name of their SymPy class
 IN_SYMPY: Mapping[str, Function] = {function.in_sympy: function for function in _TABLE if function.in_sympy}
 
 
@@ -350,6 +354,6 @@ def names_where(has: Callable[[Function], bool]) -> frozenset[str]:
     return frozenset(function.name for function in _TABLE if has(function))
 
 
-CORNERED = names_where(lambda f: f.jump_order in (0, 1))  # whose value or slope jumps: steps end there
-JUMPING = names_where(lambda f: f.jump_order == 0)
-PIECEWISE = names_where(lambda f: f.jump_order is not None)
+CORNERED = names_where(lambda f: f.jump_order in (0, 1))  # functions whose value or slope jumps: steps end there
+JUMPING = names_where(lambda f: f.jump_order == 0)  # functions whose value jumps
+PIECEWISE = names_where(lambda f: f.jump_order is not None)  # functions with a derivative that jumps

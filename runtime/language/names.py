@@ -1,4 +1,4 @@
-"""Names: what may be one, whether two things share one, and which existing names are nearest to a mistyped one."""
+"""Check names of a file's items, and find existing names nearest to a mistyped one."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from gudgeon.errors import BadNameError, Location, UnknownNameError
 from gudgeon.language.functions import FUNCTIONS
 
 MAX_LENGTH = 64
-LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"  # of what a study names: windows, measures, parts, claims
+LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"  # pattern of names in studies: windows, measures, parts, claims
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 YAML_NULL = ("", "~", "null", "Null", "NULL")  # plain texts that YAML reads as no value
 
-# What no expression could tell from something else.
+# Names that are ambiguous in expressions, with the reason.
 RESERVED: dict[str, str] = {
     "t": "it is time in expressions",
     "pi": "it is a number in expressions",
@@ -23,7 +23,7 @@ RESERVED: dict[str, str] = {
     "energy": "it heads names of results",
     "work": "it heads names of results",
 }
-# Words of YAML and Python that look like values or operators: an expression takes none of them for a name.
+# Words of YAML and Python that look like values or operators: not names in expressions.
 WORDS = frozenset(
     ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
     + ("and", "or", "not", "in", "is", "if", "else", "lambda", "for", "await", "yield")
@@ -110,7 +110,9 @@ def odd_characters(name: str) -> str:
 
 
 def near(name: str, known: Iterable[str], most: int = 3, cutoff: float = 0.6) -> list[str]:
-    """The known names that `name` may stand for, the likeliest first; an address may lack its first parts."""
+    """Return the known names that `name` may stand for, the most similar first; addresses may lack their first
+    parts.
+    """
     ends: dict[str, list[str]] = {}
     for candidate in sorted(known, key=lambda name: (name.count("."), name)):
         parts = candidate.lower().split(".")
@@ -121,12 +123,12 @@ def near(name: str, known: Iterable[str], most: int = 3, cutoff: float = 0.6) ->
 
 
 def nearest(name: str, known: Iterable[str], cutoff: float = 0.5) -> str | None:
-    """The known name that `name` most likely stands for."""
+    """Return the known name that `name` most likely stands for, or None."""
     return next(iter(near(name, known, 1, cutoff)), None)
 
 
 def known_hint(name: str, known: Iterable[str], most: int = 12) -> str:
-    """ "did you mean 'mass'? expected one of: …" for an error about `name`."""
+    """Return a hint on an unknown `name`: "did you mean 'mass'? expected one of: …"."""
     candidates = list(known)
     guess = nearest(name, candidates)
     listed = ", ".join(candidates[:most]) + (", …" if len(candidates) > most else "")
@@ -138,14 +140,14 @@ def known_hint(name: str, known: Iterable[str], most: int = 12) -> str:
 
 
 def unknown_name(what: str, name: str, known: Iterable[str], where: Location | None) -> UnknownNameError:
-    """The error for a name that nothing defines."""
+    """Return the error for a name that nothing defines, with the nearest known names."""
     return UnknownNameError(f"unknown {what} {str(name)[:200]!r}", where, known_hint(name, known))
 
 
 def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError:
-    """An error for a name that does not exist; it tells the nearest ones, or all if they are few.
+    """Return the error for a name that does not exist, with the nearest names, or all if they are few.
 
-    Of many names those without a dot: the parameters, not every number of every body.
+    If there are many names, only those without a dot are listed: parameters, not addresses.
     """
     if found := near(name, known):
         return UnknownNameError(message, hint=f"nearest: {', '.join(found)}")

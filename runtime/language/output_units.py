@@ -1,7 +1,6 @@
-"""The unit of an output from the units of the names in its expression.
+"""Derive the unit of an output from the units of the names in its expression, for labels of plots.
 
-The generator has checked the dimensions when it read the file; here only the label is worked out,
-so that a plot of an output can say metres. What cannot be told is labelled "".
+The generator has checked the dimensions when it read the file. A unit that cannot be derived is "".
 """
 
 from __future__ import annotations
@@ -17,14 +16,16 @@ from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, U
 # exponents of m, kg, s, rad; None: a bare number, which fits any dimension
 Exponents: TypeAlias = tuple[Fraction, Fraction, Fraction, Fraction]
 _BASES = ("m", "kg", "s", "rad")
+# derived units in base units
 _DERIVED = {"N": "m*kg/s^2", "J": "m^2*kg/s^2", "W": "m^2*kg/s^3", "Pa": "kg/m/s^2", "Hz": "1/s"}
-_TURNS = ("rad", "mrad", "deg", "rev", "rpm")
-_PLAIN = (Fraction(0),) * 4
-_NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")  # preferred
+_TURNS = ("rad", "mrad", "deg", "rev", "rpm")  # units of angles and of rates of angles
+_PLAIN = (Fraction(0),) * 4  # exponents of a pure number
+# preferred units
+_NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")
 
 
 def unit_of(expression: Expr, unit: Callable[[str], str | None]) -> str:
-    """Unit of `expression` in SI; `unit(name)` gives the unit of a name, None if it has none."""
+    """Return the SI unit of `expression`; `unit(name)` returns the unit of a name, None if it has none."""
     try:
         return _text(_exponents(expression, unit) or _PLAIN)
     except (ValueError, ZeroDivisionError):
@@ -32,7 +33,7 @@ def unit_of(expression: Expr, unit: Callable[[str], str | None]) -> str:
 
 
 def parse(unit: str) -> Exponents:
-    """Exponents of an SI unit such as "kg*m^2/s"; ValueError for any other text."""
+    """Return the exponents of an SI unit such as "kg*m^2/s". Raise ValueError for any other text."""
     total = list(_PLAIN)
     sign = 1
     for part in unit.replace("*", " * ").replace("/", " / ").split():
@@ -51,6 +52,7 @@ def parse(unit: str) -> Exponents:
 
 
 def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents | None:
+    """Return the exponents of an expression's unit; None for a bare number."""
     match expression:
         case Number():
             return None
@@ -84,19 +86,22 @@ def _of_call(function: Function, arguments: list[Exponents | None]) -> Exponents
 
 
 def _either(a: Exponents | None, b: Exponents | None) -> Exponents | None:
+    """Return the exponents of a sum: those of a, unless a is a bare or pure number."""
     return b if a is None or (a == _PLAIN and b is not None) else a
 
 
 def _sum(a: Exponents, b: Exponents) -> Exponents:
+    """Return the exponents of a product."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
 
 
 def _scaled(a: Exponents | None, factor: Fraction) -> Exponents | None:
+    """Return the exponents of a power."""
     return None if a is None else (a[0] * factor, a[1] * factor, a[2] * factor, a[3] * factor)
 
 
 def _text(exponents: Exponents) -> str:
-    """A name that people use, else a product of powers; an angle beside a length is left out (rad = 1)."""
+    """Return a unit as text: a preferred name, else a product of powers. Angles in compound units are left out."""
     if any(exponents[:2]):
         exponents = (*exponents[:3], Fraction(0))
     for name in _NAMES:
@@ -109,7 +114,7 @@ def _text(exponents: Exponents) -> str:
 
 
 def angle_power(expression: Expr) -> int:
-    """By which power of an angle numbers of a file are measured: 1 for pi/6, 20 deg, 90 rpm, atan2(4, 3); else 0."""
+    """Return the power of an angle in which a file's number is measured: 1 for pi/6, 20 deg, 90 rpm; else 0."""
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]

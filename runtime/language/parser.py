@@ -57,16 +57,16 @@ def parse(
 
 
 class _Parser:
-    """Precedence climbing over the tokens; counts depth and nodes as it builds."""
+    """Parse an expression by precedence climbing over its tokens, and count depth and nodes."""
 
     def __init__(self, tokens: Tokenizer, first: Token, curves: Mapping[str, Curve]) -> None:
         self.tokens, self.token, self.where, self.curves = tokens, first, tokens.where, curves
-        self.depths: dict[int, int] = {}  # id of a node -> levels below it
-        self.weights: dict[int, int] = {}  # id of a node -> nodes below it, functions written out
-        self.kept: list[Expr] = []  # keeps the ids alive
+        self.depths: dict[int, int] = {}  # id of a node → levels below it
+        self.weights: dict[int, int] = {}  # id of a node → nodes below it, with functions written out
+        self.kept: list[Expr] = []  # nodes whose ids are in use
 
     def whole(self) -> Expr:
-        """The one expression that is all of the text."""
+        """Parse the whole text as one expression. Raise ExpressionError if anything follows it."""
         expr = self.sum(0)
         if self.token.kind != "end":
             self.fail(
@@ -77,21 +77,23 @@ class _Parser:
         return expr
 
     def decimal(self) -> str:
-        """What to do where a comma stands in a number."""
+        """Return a hint if a decimal comma was used in a number; else ""."""
         text, at_comma = self.tokens.text, self.token.offset
         before, after = re.search(r"[0-9]+$", text[:at_comma]), re.match(r"[0-9]+", text[at_comma + 1 :])
         is_decimal = self.token.text == "," and before and after
         return f"a number is written with a point: {before[0]}.{after[0]}" if is_decimal and before and after else ""
 
     def fail(self, message: str, offset: int, hint: str) -> NoReturn:
+        """Raise ExpressionError at an offset of the text."""
         raise ExpressionError(message, at(self.where, offset), hint)
 
     def advance(self) -> Token:
+        """Return the present token and move to the next one."""
         token, self.token = self.token, self.tokens.next()
         return token
 
     def make(self, expr: Expr, *children: Expr) -> Expr:
-        """Every node passes here, so that no tree grows beyond the bounds."""
+        """Register a new node with its children. Raise LimitError if the tree exceeds the limits."""
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
         weight = 1 + sum(self.weights[id(child)] for child in children) * COPIES.get(getattr(expr, "function", ""), 1)
@@ -104,15 +106,17 @@ class _Parser:
         return expr
 
     def bound(self, depth: int, offset: int, most: int = MAX_DEPTH) -> None:
+        """Raise LimitError if the depth exceeds `most` levels."""
         if depth > most:
             hint = f"expected at most {most} levels; name a part of it, as a parameter or in expressions:"
             raise LimitError("an expression nested too deeply", at(self.where, offset), hint)
 
     def sum(self, level: int) -> Expr:
+        """Parse a sum of products."""
         return self.chain(("+", "-"), level)
 
     def chain(self, operators: tuple[str, str], level: int) -> Expr:
-        """Left-associative operators: sums of products, products of signed powers."""
+        """Parse left-associative operators: sums of products, or products of signed powers."""
         below = self.signed if operators == ("*", "/") else lambda n: self.chain(("*", "/"), n)
         self.bound(level, self.token.offset)
         first, rest = below(level), list[Operand]()
@@ -144,7 +148,10 @@ class _Parser:
         return self.joined(self.joined(first, rest[:half]), [(operator, offset, self.joined(operand, after))])
 
     def refuse_ambiguous_angle(self, operator: Token) -> None:
-        """`pi/4 deg` is pi/(4 deg) = 45, and no dimension check can see that it was meant as 45 deg."""
+        """Raise ExpressionError for divisions such as `pi/4 deg`, which means pi/(4 deg) = 45.
+
+        No dimension check could find that 45 deg was meant.
+        """
         number = self.token.number
         if operator.text != "/" or number is None or not number.has_unit:
             return
@@ -155,6 +162,7 @@ class _Parser:
             self.fail(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
 
     def signed(self, level: int) -> Expr:
+        """Parse an operand with its signs and an optional power."""
         self.bound(level, self.token.offset)
         if self.token.kind == "operator" and self.token.text in ("-", "+"):
             sign = self.advance()
@@ -168,6 +176,7 @@ class _Parser:
         return base
 
     def atom(self, level: int) -> Expr:
+        """Parse a number, a name, a call or an expression in brackets."""
         token = self.token
         if token.number is not None:
             self.advance()
@@ -186,16 +195,18 @@ class _Parser:
         return inner
 
     def close(self, opened: int) -> None:
+        """Consume the ")" of the bracket that was opened at an offset. Raise ExpressionError without one."""
         if self.token.text != ")":
             hint = f"the '(' at column {self.where.column + opened} is open"
             self.fail(f"expected ')', got {self.token}", self.token.offset, self.compared() or hint)
         self.advance()
 
     def compared(self) -> str:
-        """A hint, where a comparison stands that belongs elsewhere."""
+        """Return a hint if the present token is a comparison outside of where; else ""."""
         return COMPARED if self.token.text in _COMPARISONS else ""
 
     def name(self, token: Token, level: int) -> Expr:
+        """Parse a name, or the call of a function or curve."""
         called, known = self.token.text == "(", (*self.curves, *FUNCTIONS)
         if token.text not in known:
             if called:
@@ -213,7 +224,7 @@ class _Parser:
         return self.make(call, *arguments)
 
     def arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
-        """What stands in brackets, as many as the function takes; the two that where compares are the first."""
+        """Parse the arguments in brackets and check their number; for where, the compared values come first."""
         opened, compares = self.advance().offset, function.text == "where"
         left = self.sum(level)
         operator = self.token.text
@@ -235,10 +246,10 @@ class _Parser:
             wanted, got = wanted - compares, len(found) + 1 - compares
             message = f"{function.text} takes {wanted} argument{'s' * (wanted > 1)}, got {got}"
             self.fail(message, function.offset, known.usage if known else "")
-        return _in_order(left, operator, *found) if compares else (left, *found)
+        return _ordered_arguments(left, operator, *found) if compares else (left, *found)
 
 
-def _in_order(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
-    """What where compares and gives, as if `<` were written."""
+def _ordered_arguments(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
+    """Return the arguments of where as if `<` had been written."""
     compared = (left, right) if operator in ("<", ">=") else (right, left)
     return (*compared, then, otherwise) if operator in ("<", ">") else (*compared, otherwise, then)

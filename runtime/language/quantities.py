@@ -1,4 +1,4 @@
-"""A number with its unit from the command line or a Python call: '0.5 mm'. Neither YAML nor SymPy."""
+"""Read a number with its unit from the command line or a Python call: '0.5 mm'."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from gudgeon.language.units import dimension
 
 
 def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float:
-    """The number (SI) that `text` writes for the run-time number at `address`.
+    """Return the number (SI) that `text` writes for the parameter at `address`.
 
-    exponents: of m, kg, s; a bare number fits any. An expression of numbers is a number: '2*pi rad/s'.
-    Raises what the same text would raise in a file, at "value of <address>:1:column".
+    exponents: of m, kg, s; a bare number fits any. An expression of numbers is allowed: '2*pi rad/s'. Raises the errors
+    of the same text in a file, at "value of <address>:1:column".
     """
     where, expected = Location(f"value of {address}", 1, 1), dimension(*exponents)
 
@@ -39,7 +39,7 @@ def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float
 
 
 def holds_names(text: str) -> bool:
-    """Whether a text is an expression with names in it; False where it is none."""
+    """Return whether a text is an expression that contains names."""
     try:
         return next(names(parse(text.strip(), Location("", 1, 1))), None) is not None
     except InputError:
@@ -49,9 +49,9 @@ def holds_names(text: str) -> bool:
 def number_of_names(
     text: str, what: str, exponents: Sequence[int], known: Mapping[str, tuple[float, Sequence[float]]]
 ) -> float:
-    """The number (SI) of an expression of `known` names, each with its value and exponents: '2*pi/omega'.
+    """Return the number (SI) of an expression of `known` names, each with value and exponents: '2*pi/omega'.
 
-    Raises what the same text would raise in a file.
+    Raises the errors of the same text in a file.
     """
     where = Location(f"value of {what}", 1, 1)
     expr = parse(text.strip(), where, known)

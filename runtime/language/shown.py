@@ -1,6 +1,6 @@
-"""Text of a file, of an error or of another program, shown as what it is: text. And documents for other programs.
+"""Show text of files, errors or other programs safely on terminals and in figures, and write JSON and CSV.
 
-On a terminal nothing of it is a command, a link, a colour or an emoji; in a figure nothing of it is mathematics.
+On a terminal, such text is never a command, a link, a colour or an emoji; in a figure it is never a formula.
 """
 
 from __future__ import annotations
@@ -13,39 +13,41 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.console import Console
 
-LONGEST = 240  # characters of a title that is shown; a mechanism file has one of 200 at most
+LONGEST = 240  # largest number of characters of a title that is shown
 FORMULAS = ("=", "+", "-", "@")  # first characters for which a spreadsheet computes a cell
-JOINERS = "\u200c\u200d"  # of letters and emoji: text, though no sign of their own
+JOINERS = "\u200c\u200d"  # joiners within letters and emoji: text, though invisible
 
 
 def visible(text: object) -> str:
-    """What a terminal would obey (control characters, directions of writing) as Python writes it; lines stay lines."""
-    return "\n".join(map(_visible, str(text).split("\n")))
+    """Return text with control characters and writing directions escaped as Python writes them; lines are kept."""
+    return "\n".join(map(_escape_line, str(text).split("\n")))
 
 
-def _visible(text: str) -> str:
+def _escape_line(text: str) -> str:
+    """Return one line of text with invisible characters escaped."""
     if text.isprintable():
         return text
     return "".join(c if _is_shown(c) else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
 def _is_shown(character: str) -> bool:
+    """Return whether a character is visible, a space or a joiner."""
     return character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs"
 
 
 def path_text(path: object) -> str:
-    """A file's name: visible, and in a line."""
-    return _visible(str(path))
+    """Return the name of a file as visible text on one line."""
+    return _escape_line(str(path))
 
 
 def one_line(text: str) -> str:
-    """A title: visible, and no longer than one should be."""
-    text = _visible(text)
+    """Return a title as visible text on one line, shortened to LONGEST characters."""
+    text = _escape_line(text)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
 def in_figure(text: str, width: int = LONGEST) -> str:
-    """A title for matplotlib, folded into lines of `width` characters; $ begins no formula."""
+    """Return a title for matplotlib, folded into lines of `width` characters; $ begins no formula."""
     return "\n".join(textwrap.wrap(one_line(text), width)).replace("$", r"\$")
 
 
@@ -67,24 +69,25 @@ def in_spreadsheet(value: Any) -> Any:
 
 
 def plain_console(width: int | None = None, **options: Any) -> Console:
-    """A console that shows texts as they are; what is to be coloured is a rich Text of its own."""
+    """Return a rich console that shows texts as they are, without markup and emoji."""
     from rich.console import Console
 
     return Console(width=width, markup=False, emoji=False, highlight=False, **options)
 
 
 def print_json(document: dict[str, Any]) -> None:
-    """JSON without NaN or infinity, which it does not have: they are null."""
+    """Print a document as JSON; NaN and infinity become null, since JSON lacks them."""
     import json  # here: no help text needs it
 
-    print(json.dumps(_plain(document), ensure_ascii=False, allow_nan=False, indent=1))
+    print(json.dumps(_without_nan(document), ensure_ascii=False, allow_nan=False, indent=1))
 
 
-def _plain(value: Any) -> Any:
+def _without_nan(value: Any) -> Any:
+    """Return JSON data in which NaN and infinity are None."""
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: _without_nan(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
+        return [_without_nan(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

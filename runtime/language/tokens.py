@@ -1,4 +1,4 @@
-"""Tokens of an expression: numbers with their units, names, operators; each with its place."""
+"""Split an expression into tokens: numbers with their units, names and operators, each with its position."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ COMPARED = "two values are compared in where(a < b, then, otherwise) alone, by <
 NESTED = "one where has one comparison; a < b and c < d is where(a < b, where(c < d, x, y), y)"
 _EITHER = "one where has one comparison; a < b or c < d is where(a < b, x, where(c < d, x, y))"
 _PICKED = "one of two values is where(a < b, then, otherwise)"
+# hints by character or word that expressions do not allow
 _ADVICE = {
     "^": "a power is written with **",
     "%": "a share is written as a number, 90 % as 0.9; a remainder as mod(a, b)",
@@ -69,23 +70,26 @@ _ADVICE = {
 
 
 def at(where: Location, offset: int) -> Location:
-    """The place `offset` characters behind `where`."""
+    """Return the location `offset` characters after `where`."""
     return Location(where.file, where.line, where.column + offset)
 
 
 @dataclass(frozen=True)
 class Token:
+    """Hold a token with its position in the text."""
+
     kind: str  # "number", "name", "operator" or "end"
     text: str
     offset: int
     number: Number | None = None
 
     def __str__(self) -> str:
+        """Return the token as messages show it."""
         return repr(self.text) if self.text else "the end"
 
 
 class Tokenizer:
-    """Cuts text into tokens; a unit is part of its number.
+    """Split text into tokens; a unit is part of its number.
 
     `parameters`: names of the file that may stand alone. In a product or a quotient they take precedence over units.
     """
@@ -94,10 +98,11 @@ class Tokenizer:
         self.text, self.where, self.position, self.parameters = text, where, 0, parameters
 
     def fail(self, message: str, offset: int, hint: str = "", kind: type[InputError] = ExpressionError) -> NoReturn:
+        """Raise an error at an offset of the text."""
         raise kind(message, at(self.where, offset), hint)
 
     def next(self) -> Token:
-        """The next token."""
+        """Return the next token. Raise ExpressionError or UnitError."""
         text = self.text
         while text.startswith(" ", self.position):
             self.position += 1
@@ -112,7 +117,7 @@ class Tokenizer:
         self.position = match.end()
         kind = str(match.lastgroup)
         if kind == "number" or match[0] == "pi":
-            return self._number(match[0], start)
+            return self._parse_number(match[0], start)
         if kind == "name":
             self._check_name(match[0], start)
         return Token(kind, match[0], start)
@@ -122,6 +127,7 @@ class Tokenizer:
         return not self.text[self.position :].strip(" ")
 
     def _check_name(self, name: str, start: int) -> None:
+        """Raise ExpressionError for reserved words and for parts of names with leading or double underscores."""
         if name in WORDS:
             hint = _ADVICE.get(name, "expected a number, a name or an expression")
             self.fail(f"{name!r} is no number", start, hint)
@@ -131,10 +137,10 @@ class Tokenizer:
                 self.fail(f"{part!r} is no name", offset, "attributes of Python objects cannot be reached from here")
             offset += len(part) + 1
 
-    def _number(self, literal: str, start: int) -> Token:
-        """A number or pi, with its unit if one follows."""
-        value = Fraction(math.pi) if literal == "pi" else self._value(literal, start)
-        found, end = self._unit(start)
+    def _parse_number(self, literal: str, start: int) -> Token:
+        """Return the token of a number or pi, including the unit that follows it."""
+        value = Fraction(math.pi) if literal == "pi" else self._parse_literal(literal, start)
+        found, end = self._parse_unit_after(start)
         self.position = end
         word = re.sub(r" *([*/]) *", r"\1", self.text[start + len(literal) : end].removeprefix(" "))
         text = f"{literal} {word}" if found else literal
@@ -146,7 +152,8 @@ class Tokenizer:
             self.fail(f"{text!r} is out of range", start, IN_RANGE)
         return Token("number", text, start, Number(si, text, found is not None, start))
 
-    def _value(self, literal: str, start: int) -> Fraction:
+    def _parse_literal(self, literal: str, start: int) -> Fraction:
+        """Return the exact value of a numeric literal. Raise ExpressionError for other notations."""
         following = self.text[self.position : self.position + 1]
         has_unit = following.isalpha() and parse_unit(self.text, self.position) is not None
         based = literal == "0" and following in ("x", "o", "b", "X", "O", "B") and not has_unit
@@ -176,8 +183,8 @@ class Tokenizer:
             self.fail(f"a number of {len(literal)} characters", start, f"expected at most {_MAX_LENGTH}")
         return Fraction(literal)
 
-    def _unit(self, start: int) -> tuple[Unit | None, int]:
-        """The unit behind a number, after one space or none, and where it ends."""
+    def _parse_unit_after(self, start: int) -> tuple[Unit | None, int]:
+        """Return the unit after a number, with one space or none before it, and where it ends; None without one."""
         text, end = self.text, self.position
         spaced = text[end : end + 1] == " "
         self._check_powers(end + spaced)
@@ -195,12 +202,12 @@ class Tokenizer:
                 written = text[:after]
                 hint = f"write {written}^{power[1]} for the power, {written} - {power[1][1:]} for the difference"
                 self.fail(f"{text[: after + 2]!r} can mean two things", after, hint)
-            self._refuse_doubtful(start, end + spaced, after)
+            self._refuse_ambiguous_unit(start, end + spaced, after)
             return found
         spaces = len(text) - end - len(text[end:].lstrip(" "))
         word = re.match(r"[A-Za-z\u00b5\u03bc_][\w*/^.-]*", text[end + spaces :])
         if word and spaced:
-            self._unknown_unit(word[0], end + spaces, spaces)
+            self._fail_unknown_unit(word[0], end + spaces, spaces)
         return None, end
 
     def _check_powers(self, begin: int) -> None:
@@ -225,7 +232,7 @@ class Tokenizer:
         told = f"{power!r} is not a power of the unit {symbol}" if power else f"the unit {symbol} has ^ without a power"
         self.fail(told, found.start("symbol"), hint, UnitError)
 
-    def _refuse_doubtful(self, start: int, begin: int, after: int) -> None:
+    def _refuse_ambiguous_unit(self, start: int, begin: int, after: int) -> None:
         """Raise ExpressionError for `2m` and `3 N m` where m is a name of the file: m may be meant as a factor."""
         written, spaced = self.text[start:after], self.text[begin - 1] == " "
         for before, symbol in factors(self.text[begin:after]):
@@ -237,7 +244,8 @@ class Tokenizer:
                     hint = f"write '{number} {word}' for the unit, '{number} * {symbol}' for the parameter"
                 self.fail(f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", begin, hint)
 
-    def _unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
+    def _fail_unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
+        """Raise UnitError for a word after a number that is not a unit, with the most likely remedy."""
         if parse_unit(word):
             self.fail(f"{spaces} spaces before the unit {word!r}", offset, "expected exactly one")
         guess, powers = nearest(word, UNITS, 0.6), re.sub(r"(?<=[A-Za-z])([2-9])(?!\w)", r"^\1", word)

@@ -1,8 +1,7 @@
-"""The expressions of a mechanism file as plain data: numbers, names, operators, functions.
+"""Represent the expressions of a mechanism file as trees of numbers, names, operators and functions, and walk them.
 
-The parser (gudgeon.generator.expressions) makes these trees; they hold SI numbers only and
-are walked, never handed to Python's or C's own evaluator. They live in the runtime so that a
-compiled model can compute its `outputs` without importing the generator.
+The parser (runtime/language/parser.py) makes the trees. They hold SI numbers only, and are never evaluated by Python's
+or C's own parsers. They belong to the runtime, so that a compiled model computes its `outputs` without the generator.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Number:
-    """A number in SI; `text` is what the user wrote ("80 mm"), `has_unit` whether a unit was given."""
+    """Hold a number in SI; `text` is as the user wrote it ("80 mm"), `has_unit` whether a unit was given."""
 
     value: float
     text: str = ""
@@ -31,7 +30,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Name:
-    """A parameter, `t`, or the dotted name of something a result has ("S9.y", "A.F")."""
+    """Hold a name: a parameter, `t`, or the dotted name of a result ("S9.y", "A.F")."""
 
     path: str
     offset: int = 0
@@ -39,6 +38,8 @@ class Name:
 
 @dataclass(frozen=True)
 class Unary:
+    """Hold a negated expression."""
+
     operator: str  # "-" (a leading "+" is dropped by the parser)
     operand: Expr
     offset: int = 0
@@ -46,6 +47,8 @@ class Unary:
 
 @dataclass(frozen=True)
 class Binary:
+    """Hold two operands with the operator between them."""
+
     operator: str  # + - * / **
     left: Expr
     right: Expr
@@ -54,6 +57,8 @@ class Binary:
 
 @dataclass(frozen=True)
 class Call:
+    """Hold the call of a function."""
+
     function: str
     arguments: tuple[Expr, ...]
     offset: int = 0
@@ -61,14 +66,15 @@ class Call:
 
 @dataclass(frozen=True)
 class CurveCall(Call):
-    """A curve of the file at its one argument; `function` is the curve's name."""
+    """Hold the call of a curve of the file at its one argument; `function` is the curve's name."""
 
     curve: Curve = field(kw_only=True)
 
 
-Expr: TypeAlias = Number | Name | Unary | Binary | Call
+Expr: TypeAlias = Number | Name | Unary | Binary | Call  # an expression tree
 
 
+# NumPy's functions of the operators
 _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": np.add,
     "-": np.subtract,
@@ -77,11 +83,11 @@ _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
     "**": np.power,
 }
 
-_CURVE = "curve"  # heads one in a stored tree: no function has this name
+_CURVE = "curve"  # first item of a curve in a stored tree: no function has this name
 
 
 def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
-    """Value of `expr`, scalars or arrays; `value_of(path)` gives the value of a name."""
+    """Return the value of `expr`, a number or an array; `value_of(path)` returns the value of a name."""
     match expr:
         case Number(value=value):
             return np.float64(value)
@@ -101,7 +107,7 @@ def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
 
 
 def names(expr: Expr) -> Iterator[Name]:
-    """Every Name in `expr`, left to right."""
+    """Yield every Name in `expr`, left to right."""
     match expr:
         case Name():
             yield expr
@@ -131,7 +137,7 @@ def units(expr: Expr) -> Iterator[str]:
 
 
 def replaced(expr: Expr, by: Mapping[str, Expr]) -> Expr:
-    """`expr` with other trees in place of names: the same object wherever a name stands."""
+    """Return `expr` with trees in place of names; the same object is used wherever a name occurs."""
     match expr:
         case Name():
             return by.get(expr.path, expr)
@@ -145,7 +151,7 @@ def replaced(expr: Expr, by: Mapping[str, Expr]) -> Expr:
 
 
 def calls(expr: Expr, function: str = "") -> Iterator[Call]:
-    """Every call in `expr`, or those of one function."""
+    """Yield every call in `expr`, or the calls of one function."""
     match expr:
         case Unary(operand=operand):
             yield from calls(operand, function)
@@ -160,7 +166,7 @@ def calls(expr: Expr, function: str = "") -> Iterator[Call]:
 
 
 def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterator[Call]:
-    """The calls of one function on which the value of `expr` hangs: of a where's branches those that are picked."""
+    """Yield the calls of one function on which the value of `expr` depends: only in active branches of where."""
     match expr:
         case Unary(operand=operand):
             yield from reached(operand, function, value_of)
@@ -179,12 +185,12 @@ def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterat
 
 
 def curve_calls(expr: Expr) -> Iterator[CurveCall]:
-    """Every curve that is called in `expr`."""
+    """Return an iterator over the curve calls in `expr`."""
     return (call for call in calls(expr) if isinstance(call, CurveCall))
 
 
 def functions(expr: Expr) -> set[str]:
-    """Names of the functions that `expr` calls; a curve that goes on beyond its range does so by min and max."""
+    """Return the names of the functions that `expr` calls; extrapolated curves call min and max."""
     match expr:
         case Unary(operand=operand):
             return functions(operand)
@@ -199,7 +205,7 @@ def functions(expr: Expr) -> set[str]:
 
 
 def to_json(expr: Expr) -> Any:
-    """Nested lists that `from_json` reads back."""
+    """Return the expression as nested lists that `from_json` reads."""
     match expr:
         case Number(value=value):
             return float(value)
@@ -216,7 +222,7 @@ def to_json(expr: Expr) -> Any:
 
 
 def from_json(data: Any) -> Expr:
-    """The tree that `to_json` wrote."""
+    """Return the expression that `to_json` wrote."""
     if isinstance(data, (int, float)):
         return Number(float(data))
     if isinstance(data, str):

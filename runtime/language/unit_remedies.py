@@ -1,8 +1,7 @@
-"""What to write in place of a unit that the format does not have: `3 km/(60 min)` for `3 km/h`, `2*pi` for `2pi`.
+"""Propose what to write in place of a unit that the format lacks: `3 km/(60 min)` for `3 km/h`, `2*pi` for `2pi`.
 
 The text after a number is read as factors, each a symbol with a power. Symbols of other unit systems are replaced by
-units of the list (units.py). Each proposal is tried before it is made: the value that results from it must be accepted
-where it stands.
+units of the list (units.py). Each proposal is tried before it is made: the resulting value must be accepted there.
 """
 
 from __future__ import annotations
@@ -19,9 +18,10 @@ from gudgeon.errors import ExpressionError, InputError, InputErrors, Location, U
 from gudgeon.language.names import nearest
 from gudgeon.language.units import OTHER_WORDS, UNITS, Dimension, describe, symbol_dimension, unit
 
-_MAX_SHOWN, _MAX_LISTED = 3, 6  # proposals, units that fit
+_MAX_SHOWN, _MAX_LISTED = 3, 6  # largest numbers of proposals, and of units that fit
 _MAX_ALTERNATIVES = 8  # readings of one unit
-_MAX_LENGTH = 2000  # characters of a value whose remedies are tried
+_MAX_LENGTH = 2000  # characters of the longest value whose remedies are tried
+# units that files lack, in units of the list
 _OTHER_UNITS: Mapping[str, tuple[str, ...]] = {
     **{word: (f"1 {written}",) for word, written in OTHER_WORDS.items()},
     **dict.fromkeys(("h", "hr", "hrs", "hour", "hours"), ("60 min",)),
@@ -60,6 +60,7 @@ _OTHER_UNITS: Mapping[str, tuple[str, ...]] = {
     "mNm": ("1 mN*m",),
     "U": ("1 rev",),
 }
+# SI prefixes as factors
 _PREFIXES = {
     "p": "1e-12",
     "n": "1e-9",
@@ -76,7 +77,7 @@ _PREFIXES = {
     "M": "1e6",
     "G": "1e9",
 }
-_PLAIN = str.maketrans("\u00b5\u03bcK", "uuk")  # prefixes as the list has them
+_PLAIN = str.maketrans("\u00b5\u03bcK", "uuk")  # translation of prefixes to those of the list
 _PREFIXED = ("m", "g", "s", "N", "Pa", "J", "W", "rad", "bar", "Hz", "P")
 _RAISED = str.maketrans("\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b", "0123456789-", "\u207a")
 
@@ -95,7 +96,10 @@ _POWERS = tuple(Fraction(n, 2) for n in (4, 6, 2, 8, 3, 1, -2, -4, *range(10, 19
 
 @dataclass(frozen=True)
 class _Factor:
-    """A symbol with its power, None where that is not a number; `either`: the power may have the other sign."""
+    """Hold a unit symbol with its power, None if that is not a number.
+
+    `either`: the power may have the other sign, as m in `N/s m`.
+    """
 
     symbol: str
     power: Fraction | None
@@ -104,7 +108,7 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Quantity:
-    """A number and the text after it that is meant as its unit: text[begin:end], the unit from `unit_at` on."""
+    """Hold a number and the text that is meant as its unit: text[begin:end], the unit from `unit_at` on."""
 
     begin: int
     unit_at: int
@@ -121,11 +125,11 @@ def unit_remedies(
     expected: Dimension | None,
     names: Container[str] = (),
 ) -> Iterator[None]:
-    """Raise the error that is raised inside with a hint that names what to write in place of a wrong unit.
+    """Add a hint to errors raised inside the with block, which names what to write in place of a wrong unit.
 
-    text: the whole value, whose first character stands at `where`; accept(other) raises InputError unless `other` can
-    stand there instead; expected: the dimension of the value, None if any; names: parameters and expressions of the
-    file. An error that is not about a unit stays as it is.
+    text: the whole value, whose first character is at `where`; accept(other) raises InputError unless `other` may
+    replace it; expected: the dimension of the value, None if any; names: parameters and expressions of the file. Errors
+    that are not about a unit stay as they are.
     """
     try:
         yield
@@ -145,6 +149,7 @@ def _remedy(
     expected: Dimension | None,
     names: Container[str],
 ) -> str:
+    """Return the hint for one error; "" if there is no unit at its location, or no proposal fits."""
     place = error.where
     if place is None or (place.file, place.line) != (where.file, where.line) or len(text) > _MAX_LENGTH:
         return ""
@@ -177,7 +182,7 @@ def _remedy(
 
 
 def _fits(accept: Callable[[str], object], before: str, proposal: str, after: str, where: Location) -> bool:
-    """Whether a value is accepted with `proposal` in it, or wrong in the unit of a later number alone."""
+    """Return whether a value with `proposal` in it is accepted, or is wrong only in the unit of a later number."""
     try:
         accept(before + proposal + after)
     except InputError as error:
@@ -222,7 +227,7 @@ def _factors(text: str, position: int, divided: bool, names: Container[str]) -> 
             power = None if power is None else sign * power
             if factor["symbol"] in _SPEEDS and power is not None:
                 found += [_Factor("km", power), _Factor("h", -power)]
-            elif _translations(factor["symbol"]):
+            elif _meanings_of(factor["symbol"]):
                 found.append(_Factor(factor["symbol"], power, bool(found) and not between and below))
             else:
                 return found, end
@@ -237,6 +242,7 @@ def _factors(text: str, position: int, divided: bool, names: Container[str]) -> 
 
 
 def _is_name(symbol: str, names: Container[str]) -> bool:
+    """Return whether a symbol is a name of the file, t or pi."""
     return symbol in names or symbol in ("t", "pi")
 
 
@@ -250,7 +256,7 @@ def _power_of(text: str | None) -> Fraction | None:
         return None
 
 
-def _translations(symbol: str) -> list[tuple[Decimal, str]]:
+def _meanings_of(symbol: str) -> list[tuple[Decimal, str]]:
     """Return what a symbol may mean: a number times a unit of the list."""
     if symbol_dimension(symbol):
         return [(Decimal(1), symbol)]
@@ -261,10 +267,10 @@ def _translations(symbol: str) -> list[tuple[Decimal, str]]:
         if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
             if symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
                 return [(Decimal(1), plain)]
-            return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _translations(rest)]
+            return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _meanings_of(rest)]
     alike = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
     differ = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in alike}
-    return [meant for one in alike if differ[one] == min(differ.values()) for meant in _translations(one)]
+    return [meant for one in alike if differ[one] == min(differ.values()) for meant in _meanings_of(one)]
 
 
 def _proposals(
@@ -279,7 +285,7 @@ def _proposals(
     others += [re.sub(rf"\^ *(?={_SYMBOL})", "*", written)]
     difference = re.sub(r"(?<=[a-z])-(?=[0-9])", " - ", written)
     others += [difference] if expected is None else []
-    yield itertools.chain(_translated(found), others), _MAX_SHOWN
+    yield itertools.chain(_in_listed_units(found), others), _MAX_SHOWN
     yield iter([difference]), 1
     if word:
         yield iter([product]), 1
@@ -288,45 +294,49 @@ def _proposals(
         yield _with_powers(found, wrong[0]), 1
 
 
-def _translated(found: _Quantity) -> Iterator[str]:
+def _in_listed_units(found: _Quantity) -> Iterator[str]:
     """Yield the quantity in units of the list, in each of the meanings that its symbols may have."""
     if not found.factors or any(one.power is None for one in found.factors):
         return
     either = [
-        [(meant, one.power, k) for k in ((1, -1) if one.either else (1,)) for meant in _translations(one.symbol)]
+        [(meant, one.power, k) for k in ((1, -1) if one.either else (1,)) for meant in _meanings_of(one.symbol)]
         for one in found.factors
     ]
     for choice in itertools.islice(itertools.product(*either), _MAX_ALTERNATIVES):
-        yield _written(found.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
+        yield _format_quantity(found.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
 
 
 def _with_powers(found: _Quantity, k: int) -> Iterator[str]:
     """Yield the quantity with other powers of factor k."""
     for power in _POWERS:
         factors = (*found.factors[:k], _Factor(found.factors[k].symbol, power), *found.factors[k + 1 :])
-        yield from _translated(replace(found, factors=factors))
+        yield from _in_listed_units(replace(found, factors=factors))
 
 
 def _is_power(power: Fraction) -> bool:
-    """Whether a unit may have this power (units.py)."""
+    """Return whether a unit may have this power (units.py)."""
     return power != 0 and (abs(power) <= 9 and power.denominator == 1 or abs(power) < 10 and power.denominator == 2)
 
 
-def _written(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]]) -> str:
+def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]]) -> str:
     """Return a number times powers of (number, unit) as an expression."""
     scale, above, below, rest = Decimal(1), list[str](), list[str](), ""
     for (times, symbol), power in factors:
         if times != 1 and power != 1:
             base, operator = f"({times} {symbol})", "/" if power < 0 else " * "
-            rest += operator + base + (f"**{_text(abs(power))}" if abs(power) != 1 else "")
+            rest += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
             continue
         scale *= times
         for sign, one, own in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
             exponent = power * int(own or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
-            if not _is_power(exponent) or exponent.denominator == 2 and not unit(f"{one}^{_text(abs(exponent))}"):
-                rest += f" * (1 {one})**{_text(exponent)}"
+            if (
+                not _is_power(exponent)
+                or exponent.denominator == 2
+                and not unit(f"{one}^{_format_power(abs(exponent))}")
+            ):
+                rest += f" * (1 {one})**{_format_power(exponent)}"
             else:
-                raised = one + (f"^{_text(abs(exponent))}" if abs(exponent) != 1 else "")
+                raised = one + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
                 (above if exponent > 0 else below).append(raised)
     value = number
     if scale != 1:
@@ -337,5 +347,6 @@ def _written(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]
     return " ".join(filter(None, (value, "/".join([written, *below])))) + rest
 
 
-def _text(power: Fraction) -> str:
+def _format_power(power: Fraction) -> str:
+    """Return the power of a unit as text."""
     return str(power) if power.denominator == 1 else str(float(power)) if power.denominator == 2 else f"({power})"

@@ -1,9 +1,8 @@
-"""Dimensions and the published list of units.
+"""Define dimensions and the published list of units, and parse units.
 
-The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. pint is the converter of record: a
-test compares every entry with it, and nothing else imports it. Factors are exact fractions (times a power of π), so
-that `0.3 mm` is the binary64 number nearest to 3e-4 and not 0.3 times the one nearest to 1e-3; roots of them, which
-a unit such as `N/mm^1.5` asks for, have thirty digits.
+The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. A test compares every entry with pint.
+Factors are exact fractions (times a power of π), so that `0.3 mm` is the binary64 number nearest to 3e-4. Roots of
+factors, for units such as `N/mm^1.5`, have thirty digits.
 """
 
 from __future__ import annotations
@@ -18,34 +17,37 @@ from functools import lru_cache
 
 @dataclass(frozen=True)
 class Dimension:
-    """Exponents of metre, kilogram and second; an angle has none (rad = 1)."""
+    """Hold the exponents of metre, kilogram and second; an angle has none (rad = 1)."""
 
     length: Fraction = Fraction(0)
     mass: Fraction = Fraction(0)
     time: Fraction = Fraction(0)
 
     def __mul__(self, other: Dimension) -> Dimension:
+        """Return the dimension of a product."""
         return Dimension(self.length + other.length, self.mass + other.mass, self.time + other.time)
 
     def __truediv__(self, other: Dimension) -> Dimension:
+        """Return the dimension of a quotient."""
         return self * other**-1
 
     def __pow__(self, exponent: int | Fraction) -> Dimension:
+        """Return the dimension of a power."""
         return Dimension(self.length * exponent, self.mass * exponent, self.time * exponent)
 
     @property
     def is_whole(self) -> bool:
-        """Whether all exponents are integers."""
+        """Return whether all exponents are integers."""
         return all(e.denominator == 1 for e in (self.length, self.mass, self.time))
 
     @property
     def has_halves_at_most(self) -> bool:
-        """Whether all exponents are integers or halves of them, as in N/m^1.5: what a number of a run may have."""
+        """Return whether all exponents are integers or halves, as numbers of a run may have (N/m^1.5)."""
         return (self**2).is_whole
 
 
 def dimension(length: float = 0, mass: float = 0, time: float = 0) -> Dimension:
-    """The dimension m^length kg^mass s^time."""
+    """Return the dimension m^length kg^mass s^time."""
     return Dimension(Fraction(length), Fraction(mass), Fraction(time))
 
 
@@ -67,6 +69,7 @@ PRESSURE = dimension(length=-1, mass=1, time=-2)
 VISCOSITY = dimension(length=-1, mass=1, time=-1)
 DENSITY = dimension(length=-3, mass=1)
 
+# description and SI unit of known dimensions
 _WORDS: Mapping[Dimension, tuple[str, str]] = {
     DIMENSIONLESS: ("a pure number or an angle", "rad"),
     LENGTH: ("a length", "m"),
@@ -92,7 +95,7 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
 
 
 def si_unit(of: Dimension) -> str:
-    """The SI unit of a dimension, as it may be written in a file: "m", "kg*m^2", "1/s"; "" for a number."""
+    """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number."""
     if of == DIMENSIONLESS:
         return ""
     if of == RATE:
@@ -100,37 +103,39 @@ def si_unit(of: Dimension) -> str:
     if of in _WORDS:
         return _WORDS[of][1]
     exponents = {"kg": of.mass, "m": of.length, "s": of.time}
-    above = "*".join(_power(s, e) for s, e in exponents.items() if e > 0)
-    below = "".join("/" + _power(s, -e) for s, e in exponents.items() if e < 0)
+    above = "*".join(_format_power(s, e) for s, e in exponents.items() if e > 0)
+    below = "".join("/" + _format_power(s, -e) for s, e in exponents.items() if e < 0)
     return (above or "1") + below
 
 
-def _power(symbol: str, exponent: Fraction) -> str:
+def _format_power(symbol: str, exponent: Fraction) -> str:
+    """Return a unit symbol with its exponent as text."""
     if exponent == 1:
         return symbol
     return f"{symbol}^{exponent}" if exponent.denominator == 1 else f"{symbol}^({exponent})"
 
 
 def describe(of: Dimension) -> str:
-    """A dimension in words: "a length (m)"."""
+    """Return a dimension in words: "a length (m)"."""
     word, unit = _WORDS.get(of, ("a quantity", si_unit(of)))
     return f"{word} ({unit})"
 
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
+    """Hold a unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
 
     factor: Fraction
     pi_power: int
     dimension: Dimension
 
     def to_si(self, number: Fraction) -> float:
-        """`number` of this unit in SI, rounded once."""
+        """Return `number` of this unit in SI, rounded once."""
         return float(number * self.factor * Fraction(math.pi) ** self.pi_power)
 
 
 def _unit(factor: str, of: Dimension, pi_power: int = 0) -> Unit:
+    """Return a unit from its factor as text, its dimension and its power of π."""
     return Unit(Fraction(factor), pi_power, of)
 
 
@@ -183,7 +188,7 @@ _SYMBOLS: Mapping[str, Unit] = {
     "kW": _unit("1e3", POWER),
 }
 
-# What people write, and what is written here.
+# Other spellings of units, and the symbols of this list.
 OTHER_WORDS: Mapping[str, str] = {
     **dict.fromkeys(("inches", "Inch"), "in"),
     **dict.fromkeys(("foot", "feet"), "ft"),
@@ -207,6 +212,7 @@ OTHER_WORDS: Mapping[str, str] = {
     "lbft": "lbf*ft",
 }
 
+# compound units that are published with the list
 _COMPOUNDS = """
     1/s 1/min rad/s deg/s rev/s rev/min rad/s^2 deg/s^2 m/s mm/s m/min m/s^2 mm/s^2 m^2 mm^2 m^3 mm^3
     kg*m^2 kg*mm^2 g*mm^2 kg/m^3 N*m N*mm kN*m N/m N/mm kN/m N*m/rad N*m/deg
@@ -224,13 +230,13 @@ _MOST_FACTORS = 8
 
 
 def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[Unit, int] | None:
-    """The longest unit that begins at text[start], and where it ends; None if none begins there.
+    """Return the longest unit that begins at text[start], and where it ends; None if none begins there.
 
-    A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9, halves too
-    (`kg*m^2`, `kg m²`, `N*s/m`, `1/s`, `N/m^1.5`). What follows a `*` or `/` and is no listed symbol, or a
-    function's name with its `(`, is left to the expression: in `3 mm*c` the unit is mm. So are the last factors that
-    are `names`: a name of the file takes precedence over a unit in a product. `m^1` is always a unit, `s.vx` never is.
-    A space multiplies above the `/` only: `N/m s` could be either.
+    A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9, halves too (`kg*m^2`, `kg
+    m²`, `N*s/m`, `1/s`, `N/m^1.5`). After a `*` or `/`, unlisted symbols and functions belong to the expression: in `3
+    mm*c` the unit is mm. So do the last factors that are `names`: a name of the file takes precedence over a unit in a
+    product. `m^1` is always a unit, `s.vx` never is. A space multiplies above the `/` only, because `N/m s` would be
+    ambiguous.
     """
     divide = divided = text.startswith("1/", start)
     position = start + 2 if divide else start
@@ -241,7 +247,7 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
             break
         is_name = bool(found) and match[0] in names and between in ("*", "/")
         power = Fraction((match["power"] or _RAISED.get(match["raised"]) or "1").strip("()"))
-        raised = _raised(_SYMBOLS[match[1]], -power if divide else power)
+        raised = _power_of_unit(_SYMBOLS[match[1]], -power if divide else power)
         if raised is None:
             break
         total = Unit(total.factor * raised.factor, total.pi_power + raised.pi_power, total.dimension * raised.dimension)
@@ -255,8 +261,8 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
     return found
 
 
-def _raised(of: Unit, power: Fraction) -> Unit | None:
-    """A power of a symbol; None for a root of π."""
+def _power_of_unit(of: Unit, power: Fraction) -> Unit | None:
+    """Return a power of a unit; None for a root of π."""
     if power.denominator == 1:
         return Unit(of.factor ** int(power), of.pi_power * int(power), of.dimension**power)
     if of.pi_power:
@@ -278,12 +284,13 @@ def symbol_dimension(name: str) -> Dimension | None:
 
 @lru_cache(maxsize=1024)
 def unit(token: str) -> Unit | None:
-    """The unit that `token` names, all of it; None if it is not from the list."""
+    """Return the unit that the whole of `token` names; None if it is not in the list."""
     found = parse_unit(token)
     return found[0] if found and found[1] == len(token) else None
 
 
-def _published() -> Iterator[tuple[str, tuple[float, Dimension]]]:
+def _list_units() -> Iterator[tuple[str, tuple[float, Dimension]]]:
+    """Yield each published unit with its factor to SI and its dimension."""
     for token in (*_SYMBOLS, *_COMPOUNDS.split()):
         known = unit(token)
         assert known is not None, token
@@ -291,4 +298,4 @@ def _published() -> Iterator[tuple[str, tuple[float, Dimension]]]:
 
 
 # The published list: token -> (factor to SI, dimension). Further products of the symbols are units, too.
-UNITS: Mapping[str, tuple[float, Dimension]] = dict(_published())
+UNITS: Mapping[str, tuple[float, Dimension]] = dict(_list_units())

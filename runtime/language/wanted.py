@@ -1,6 +1,6 @@
-"""Arguments that are no arrays: texts, flags, functions, mappings, counts, files.
+"""Check arguments other than arrays: texts, flags, functions, mappings, counts, files.
 
-Each is what it should be, or refused: a BadValueError with its name, what was given and what was expected.
+Each function returns the checked value or raises BadValueError with its name, the given and the expected value.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 
-One = TypeVar("One")
+One = TypeVar("One")  # type of the items of a checked list
 IN_RANGE = "expected a magnitude from 2.3e-308 to 1.7e308"
 
 
 def told(value: object) -> str:
-    """A value in a message: short, and whatever it is."""
+    """Return a short text of any value for a message."""
     if isinstance(value, (str, bytes)):
         return repr(value[:60])
     try:
@@ -33,19 +33,19 @@ def told(value: object) -> str:
 
 
 def refuse(name: str, value: object, expected: str, hint: str = "") -> NoReturn:
-    """BadValueError."""
+    """Raise BadValueError: the argument `name` has a value other than expected."""
     raise BadValueError(f"{name} is {told(value)}: expected {expected}", hint=hint)
 
 
 def flag(value: object, name: str) -> bool:
-    """True or False, of Python or NumPy: "no" and 0.0 would count as either."""
+    """Return a flag as bool. Only True and False of Python or NumPy are accepted."""
     if not isinstance(value, (bool, np.bool_)):
         refuse(name, value, "True or False")
     return bool(value)
 
 
 def text(value: object, name: str, expected: str = "a text") -> str:
-    """A text that can be written as UTF-8."""
+    """Return a text that can be encoded as UTF-8."""
     if not isinstance(value, str):
         refuse(name, value, expected)
     try:
@@ -56,14 +56,14 @@ def text(value: object, name: str, expected: str = "a text") -> str:
 
 
 def function(value: Any, name: str) -> Any:
-    """Something that can be called, or None."""
+    """Return a callable, or None."""
     if value is not None and not callable(value):
         refuse(name, value, "a function, or None")
     return value
 
 
 def path(value: Any, name: str) -> str | os.PathLike[str]:
-    """The name of a file."""
+    """Return the name of a file."""
     if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
         refuse(name, value, "the name of a file: a text or a Path")
     try:
@@ -76,12 +76,12 @@ def path(value: Any, name: str) -> str | os.PathLike[str]:
 
 
 def is_whole(value: object) -> TypeGuard[int]:
-    """Whether it is a whole number of Python or NumPy: no truth, and no lapse of time, which NumPy counts as one."""
+    """Return whether a value is an integer of Python or NumPy, but neither a boolean nor a timedelta."""
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
 def whole(value: Any, name: str, least: int, most: int) -> int:
-    """A whole number between bounds."""
+    """Return an integer between bounds."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if not is_whole(value) or not least <= value <= most:
@@ -90,7 +90,7 @@ def whole(value: Any, name: str, least: int, most: int) -> int:
 
 
 def number_of(value: Any, name: str) -> float:
-    """A finite float, of any kind of real number but text and truth. Raises BadValueError that names it."""
+    """Return a finite float from any real number, but not from a text or boolean. Raise BadValueError."""
     try:
         if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) or np.iscomplexobj(value):
             raise TypeError
@@ -106,19 +106,19 @@ def number_of(value: Any, name: str) -> float:
 
 
 def whole_digits(value: float, name: str) -> float:
-    """A number that has all its digits: below the smallest normal one they are lost. Raises BadValueError."""
+    """Return a number unless it is subnormal, since such numbers have lost digits. Raise BadValueError."""
     if value and abs(value) < sys.float_info.min:
         raise BadValueError(f"{name}: {value!r} is out of range", hint=IN_RANGE)
     return value
 
 
 def time(value: Any) -> float:
-    """A time (s); NaN and infinities stay: C says what becomes of them."""
+    """Return a time (s) as float. NaN and infinities are kept for C to handle."""
     return value if isinstance(value, float) else number_of(value, "t")
 
 
 def mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
-    """A mapping by texts, as which a Series of pandas counts; None is an empty one."""
+    """Return a mapping with texts as keys; a pandas Series is accepted, None is an empty mapping."""
     if value is None:
         return {}
     found = value
@@ -135,7 +135,7 @@ def mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
 
 
 def listed(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
-    """A list of one kind, of any sequence but a text; arrays and columns of a table count."""
+    """Return a list of items of one type from any sequence but a text; arrays and table columns are accepted."""
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) != 1:
         refuse(name, value, expected)
     if isinstance(value, Sequence) or len(getattr(value, "shape", ())) == 0 or len(value) < 10**6:  # type: ignore[arg-type]
@@ -146,25 +146,25 @@ def listed(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
 
 
 def names(value: Any, name: str, expected: str) -> list[str]:
-    """One name, or names in any sequence or set, as plain texts."""
+    """Return one name or several names in any sequence or set as a list of plain texts."""
     every = [value] if isinstance(value, str) else listed(value, name, str, expected)
     return [str.__str__(text(one, name, expected)) for one in every]
 
 
 def instance(value: Any, name: str, kind: type[One]) -> One:
-    """An object of a class."""
+    """Return an instance of a class."""
     if not isinstance(value, kind):
         refuse(name, value, f"a {kind.__name__}")
     return value
 
 
 def optional(value: Any, name: str, kind: type[One]) -> One | None:
-    """An object of a class, or None."""
+    """Return an instance of a class, or None."""
     return None if value is None else instance(value, name, kind)
 
 
 def positive(value: Any, name: str) -> float:
-    """A number above zero."""
+    """Return a positive number."""
     number = number_of(value, name)
     if not number > 0.0:
         refuse(name, value, "a number above zero")
@@ -172,11 +172,11 @@ def positive(value: Any, name: str) -> float:
 
 
 def optional_positive(value: Any, name: str) -> float | None:
-    """A number above zero, or None."""
+    """Return a positive number, or None."""
     return None if value is None else positive(value, name)
 
 
 def numbers(values: Any, name: str) -> list[float]:
-    """Numbers of a list, an array or a column; None is an empty list."""
+    """Return the finite numbers of a list, an array or a column; [] for None."""
     every: list[Any] = [] if values is None else listed(values, name, object, "a list of numbers")
     return [number_of(value, f"{name}[{k}]") for k, value in enumerate(every)]

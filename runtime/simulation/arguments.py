@@ -1,4 +1,4 @@
-"""Arguments of `simulate`: its method and step, when it ends, and at which times samples are wanted."""
+"""Check the arguments of `simulate`: method, step, end of the run, and times of the samples."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
 
-DRIVES: dict[str, Drive] = {KINEMATIC: kinematic.run, **dict.fromkeys(driver.NAMES, driver.run)}  # by Python
+# methods whose time loop runs in Python, with the function that runs them
+DRIVES: dict[str, Drive] = {KINEMATIC: kinematic.run, **dict.fromkeys(driver.NAMES, driver.run)}
 METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *DRIVES)
-MAX_STEPS = 10**12
-DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
+MAX_STEPS = 10**12  # largest number of fixed steps of a run
+DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8  # numbers of intervals: the default, and the largest that is allowed
 OUTPUT = f"a whole number of intervals, 1 to {MOST_OUTPUT:.0e}, or times (s)"
-MOST_TRUTHS = 10**4  # entries of a list that are looked at one by one
-NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
+MOST_TRUTHS = 10**4  # largest number of list entries that are searched for True and False
+# shortest run in roundings of its times, the same in s, and latest end of a run in s
+NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18
 
 
 def integrate(problem: Problem) -> Trajectory:
@@ -36,12 +38,14 @@ def integrate(problem: Problem) -> Trajectory:
 
 
 def seconds(name: str, value: float | str) -> float:
-    """A time (s) as a number or a text: '5 ms', '1e-3'. Raises InputError."""
+    """Return a time in s from a number or a text such as '5 ms' or '1e-3'. Raise InputError for anything else."""
     return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
 
 
 def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float | str | None:
-    """t_end (s) where it is an expression of numbers of the run, '2*pi/omega', by these; else as it is."""
+    """Return t_end (s), evaluated with the parameter values p if it is an expression such as '2*pi/omega'. Numbers,
+    plain texts and None are returned unchanged.
+    """
     if not isinstance(t_end, str):
         return t_end
     from gudgeon.language.quantities import holds_names, number_of_names
@@ -58,9 +62,8 @@ def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float |
 def output_times(
     source: KernelSource, p: Array, t0: float, t_end: float | str | None, output: int | ArrayLike | None
 ) -> tuple[Array, bool]:
-    """Return the times (s) of a run with the numbers p, a copy, and whether the first one, t0, is a sample too.
-
-    The times increase from the start t0. Raises BadValueError.
+    """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample. The times
+    are a new array that begins with t0. `p` are the parameter values of the run. Raises BadValueError.
     """
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
@@ -70,7 +73,7 @@ def output_times(
         times, requested = _given_times(t0, output)
         kind = np.asarray(output).dtype
         rounding = float(np.finfo(kind).eps) if kind.kind == "f" else 0.0
-        _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]), rounding)
+        _check_t_end_matches_output(None if t_end is None else seconds("t_end", t_end), float(times[-1]), rounding)
         return times, requested
     end = seconds("t_end", scene_end(source, p) if t_end is None else t_end)
     if not end > t0:
@@ -78,12 +81,15 @@ def output_times(
     intervals = scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
         raise BadValueError(f"output is {told(intervals)}: expected {OUTPUT}")
-    _check_end("t_end is", t0, end, 4 * int(intervals))
+    _check_duration("t_end is", t0, end, 4 * int(intervals))
     check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
     return np.linspace(t0, end, int(intervals) + 1), True
 
 
 def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
+    """Check the sample times that the user gave as an array. Return them from t0 on, and whether t0 is one of them.
+    Raises BadValueError for booleans, times that do not increase, and times before t0.
+    """
     times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
         for k, value in enumerate(np.asarray(output, object)[:MOST_TRUTHS]):
@@ -97,20 +103,20 @@ def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
         raise BadValueError(f"output: expected increasing times (s), got {times[k + 1]!s} s after {times[k]!s} s")
     if times[0] < t0:
         raise BadValueError(f"output: times begin at {t0!s} s, got {times[0]!s} s")
-    _check_end("output ends", t0, float(times[-1]), 1)
+    _check_duration("output ends", t0, float(times[-1]), 1)
     requested = bool(times[0] == t0)
     return times if requested else np.concatenate([[t0], times]), requested
 
 
-def _check_both(t_end: float | None, last: float, rounding: float) -> None:
-    """BadValueError for a t_end that is not the last of the times that were given, but for their `rounding`."""
+def _check_t_end_matches_output(t_end: float | None, last: float, rounding: float) -> None:
+    """Raise BadValueError if t_end differs from the last of the given sample times by more than their `rounding`."""
     if t_end is not None and not abs(t_end - last) <= max(1e-9, 0.5 * rounding) * max(abs(t_end), abs(last)):
         hint = "leave out t_end, for the times say when the run ends, or let them end there"
         raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last:.12g} s", hint=hint)
 
 
-def _check_end(what: str, t0: float, end: float, roundings: int) -> None:
-    """BadValueError for an end so near to the start that no times lie between, or beyond all times."""
+def _check_duration(what: str, t0: float, end: float, roundings: int) -> None:
+    """Raise BadValueError if the end of a run is too close to its start for distinct times, or too large."""
     if end > FURTHEST:
         raise BadValueError(f"{what} {end:g} s: expected {FURTHEST:g} s at most", hint="times are in s")
     least = max(max(roundings, NEAREST) * float(np.spacing(max(abs(t0), abs(end)))), SHORTEST)
@@ -123,14 +129,17 @@ def _check_end(what: str, t0: float, end: float, roundings: int) -> None:
 
 
 def derived_for(source: KernelSource, method: str) -> str:
-    """What a scene is derived as once more for a method that this library does not have; "" where it has it."""
+    """Return the variant that a scene must be derived as for a method that its library lacks; "" if it has it."""
     if method in STAGED:
         return "" if source.stages or source.no_slopes else STAGES
     return method if method in SMOOTH and not source.taylor else ""
 
 
 def method_of(source: KernelSource, method: str, fixed: bool) -> str:
-    """The method that runs, "adaptive" for what auto chooses as it goes; `fixed`: a step is given."""
+    """Return the name of the method that integrates the scene, "adaptive" where auto switches between methods.
+    `fixed` says that a step is given. Raises BadValueError for a method that does not fit, AssemblyError if dof <
+    0.
+    """
     dof = source.degrees_of_freedom
     if dof < 0:
         raise AssemblyError(
@@ -160,7 +169,7 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
 
 
 def step_of(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
-    """The step (s) of a run; infinite where the method chooses its own."""
+    """Return the fixed step (s) of a run, or infinity where the method controls its step."""
     if method == "kinematic" or (step is None and method != "rk4"):
         return math.inf
     if step is None:

@@ -1,7 +1,7 @@
-"""The audit of a run's samples: what is reported there against equations that produced none of it.
+"""Audit the samples of a run: check reported results with equations that did not produce them.
 
-The checks of steps are C's (engine/run/audit.c). Here the reported accelerations, torques and forces are held against
-the change of energy, sampled forces against the list of contacts, and the works against the energy of the motion.
+The audit of the steps is in C (engine/run/audit.c). Here, accelerations, torques and forces are compared with the
+rate of change of energy, sampled forces with the list of contacts, and works with the energy of the motion.
 """
 
 from __future__ import annotations
@@ -22,20 +22,22 @@ from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.simulation.newton_euler import newton_euler
 
-DRAWN = np.sort(np.random.default_rng(1).random(8))  # where in the run samples lie that are checked in C
-LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}  # of the largest terms, by check
-BODY = {"body": 1e-9}  # the same of the largest force or moment
-SHORT = 500  # right-hand sides: a run of fewer costs less than the checks of all these samples may
-LONG = 2000  # right-hand sides: a run of more is worth the equations of single bodies
-NOT_FINITE = 2.0  # a note: at an instant, as a singular position is one, a motion may have no accelerations
-ENERGY = 1e3  # times rtol and the root of the number of steps, of the energy that was turned over
-LEAST_ENERGY = 1e-6  # the same, at least
-ENOUGH = 20  # samples from which on the energy that was turned over is known
-AT_REST = 1e-9  # of the speed that crosses the mechanism in the time of the run: the energy of less is rounding
-LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
-FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
-START, START_RATES = 1e-9, 1e-6  # of the size, and of the largest speed: how far the first sample is from the start
-PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
+DRAWN = np.sort(np.random.default_rng(1).random(8))  # random positions in the run, 0 to 1, of the samples that C checks
+# allowed error of each check, relative to the largest terms
+LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}
+BODY = {"body": 1e-9}  # the same for the equations of single bodies, relative to the largest force or moment
+SHORT = 500  # right-hand sides: in a shorter run, fewer samples are checked to save time
+LONG = 2000  # right-hand sides: in a longer run, the equations of single bodies are checked too
+NOT_FINITE = 2.0  # a note, not a failure: at a singular position a motion may have no finite accelerations
+ENERGY = 1e3  # times rtol times the root of the number of steps: allowed residual relative to the energy throughput
+LEAST_ENERGY = 1e-6  # smallest allowed residual, relative to the energy throughput
+ENOUGH = 20  # samples: with fewer, the energy throughput is not known
+AT_REST = 1e-9  # of the speed that crosses the mechanism during the run: slower motion has an energy of rounding size
+LEAST = 1e-250  # J: smaller works have no reliable digits
+FORCE = 1e-6  # of a joint's largest force: allowed force of an open joint
+# allowed distance of the first sample from the start: of the size, and of the largest speed
+START, START_RATES = 1e-9, 1e-6
+PEAK = 1e-2  # of the largest force of its contacts: allowed excess of a joint's peak force
 
 
 def audit_level(audit: bool | str) -> int:
@@ -48,13 +50,19 @@ def audit_level(audit: bool | str) -> int:
 def audit_samples(
     compiled: CompiledModel, problem: Problem, x: Trajectory, evaluation: Evaluation, balance: tuple[float, float]
 ) -> tuple[Finding, ...]:
-    """Return the findings of all checks of samples that apply to the run; none where the audit is switched off."""
+    """Return the findings of all checks of samples that apply to the run; an empty tuple without an audit.
+
+    `balance`: largest energy residual and energy throughput (J).
+    """
     if not problem.audit or not len(x.t):
         return ()
     source, size = compiled.source, max(float(mechanism_sizes(compiled.source, problem.p)), 1e-300)
-    found = [*_start(problem, x, size), *_contacts(compiled, x, evaluation)]
+    found = [*_check_first_sample(problem, x, size), *_check_contact_forces(compiled, x, evaluation)]
     if not source.massless and not source.indeterminate:
-        found += [*_energy(compiled, problem, x, evaluation, balance, size), *_finite(compiled, x, evaluation)]
+        found += [
+            *_check_energy(compiled, problem, x, evaluation, balance, size),
+            *_check_finite(compiled, x, evaluation),
+        ]
     left_out = set[str]()
     if source.massless or source.indeterminate:
         left_out.add("body")
@@ -62,31 +70,35 @@ def audit_samples(
         left_out |= {"power", "torque"}
     if problem.method == "rk4" and source.formulation == "full":  # its rows drift
         left_out |= {"rows", "rates", "power", "body"}
-    return (*found, *(one for one in _balances(compiled, problem, x, size, evaluation) if one.check not in left_out))
+    return (
+        *found,
+        *(one for one in _check_drawn_samples(compiled, problem, x, size, evaluation) if one.check not in left_out),
+    )
 
 
 def failed(findings: tuple[Finding, ...]) -> bool:
-    """Whether a check of samples ends the run with an error."""
+    """Return whether a finding about the samples is so bad that the run ends with an error."""
     return any(not one.worst <= FAILS for one in findings)
 
 
-def _start(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
-    """The first sample is the start that was found, which is where the file says.
+def _check_first_sample(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
+    """Compare the first sample with the computed start, and the start with the positions that the file gives.
 
-    A state that a run goes on from may lie off its constraints; rigid contacts that are closed change the start.
+    Resumed runs are skipped: their states may violate the constraints. Rigid contacts that are closed change the
+    start.
     """
     if problem.state is not None or problem.compiled.source.rigid:
         return
     states = np.array((problem.q, problem.v, x.q[0] - problem.q, x.v[0] - problem.v))  # of bodies: x, y, theta
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
     far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
-    off = max(off, _off_given(problem, size))
+    off = max(off, _distance_from_given_start(problem, size))
     worst = max(off / (START * (size + far)), slower / max(START_RATES * fast, 1e-300))
     yield Finding("start", worst, float(x.t[0]), "")
 
 
-def _off_given(problem: Problem, size: float) -> float:
-    """Return how far the start is from the positions that the file gives (start.set), m; angles at `size`, m."""
+def _distance_from_given_start(problem: Problem, size: float) -> float:
+    """Return the largest difference (m) between the start and the file's `start.set`; angles are scaled by `size`."""
     source, off = problem.compiled.source, 0.0
     for k, name in enumerate(source.coordinates):
         given = source.place.get(f"start.set.{name}") if name in source.start_set else None
@@ -97,7 +109,7 @@ def _off_given(problem: Problem, size: float) -> float:
     return off
 
 
-def _energy(
+def _check_energy(
     compiled: CompiledModel,
     problem: Problem,
     x: Trajectory,
@@ -105,7 +117,7 @@ def _energy(
     balance: tuple[float, float],
     size: float,
 ) -> Iterator[Finding]:
-    """The balance of the whole run; a fixed step has no tolerance to compare it with."""
+    """Check the energy balance of the whole run; a fixed step has no tolerance to compare the residual with."""
     residual, turned = balance[0], balance[1] + float(np.abs(evaluation.energy).max(initial=0.0))
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
     if not adaptive or len(x.t) < ENOUGH or not math.isfinite(residual):
@@ -120,8 +132,8 @@ def _energy(
     yield Finding("energy", residual / (share * turned), float(x.t[-1]), "")
 
 
-def _finite(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
-    """What is computed at each sample is finite; forces of rigid contacts are known to a run alone."""
+def _check_finite(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
+    """Check that the results of each sample are finite. Forces of rigid contacts are not recomputed here."""
     parts = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
     parts += [] if compiled.source.rigid else [evaluation.clearance[:, :, :2]]
     if all(math.isfinite(np.add.reduce(part, axis=None)) for part in parts if part.size):
@@ -131,8 +143,8 @@ def _finite(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> I
     yield Finding("finite", NOT_FINITE if odd.any() else 0.0, float(x.t[int(odd.argmax())]), "")
 
 
-def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
-    """Forces of samples outside contacts, and peaks against the forces of contacts, of joints without a film."""
+def _check_contact_forces(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
+    """Check contact forces of joints without a film: none outside contacts, and peaks equal to those of contacts."""
     for k, joint in enumerate(compiled.source.clearances):
         if joint.film or joint.name in compiled.source.rigid:
             continue
@@ -151,12 +163,12 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
             yield Finding("peak", max(over, 0.0), float(x.peaks[k, PEAK_t]), joint.name)
 
 
-def _balances(
+def _check_drawn_samples(
     compiled: CompiledModel, problem: Problem, x: Trajectory, size: float, evaluation: Evaluation
 ) -> tuple[Finding, ...]:
-    """Power, drive torques, positions and velocities of all rows at drawn samples, by C's gudgeon_audit_samples.
+    """Check power, drive torques and constraint equations at random samples with C's gudgeon_audit_samples.
 
-    And, in long runs and where audit is "full", the equations of motion of single bodies there.
+    In long runs, and if audit is "full", the equations of motion of single bodies are checked there too.
     """
     N = len(x.t)
     drawn = DRAWN if problem.audit > 1 or x.counts.right_hand_sides > SHORT else DRAWN[::2]

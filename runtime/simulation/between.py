@@ -1,4 +1,4 @@
-"""States of a scene by the block, every series there, and the states between two that are neighbours."""
+"""Interpolate a run between the states of its steps: evaluate any series at those states and between neighbours."""
 
 from __future__ import annotations
 
@@ -24,12 +24,13 @@ from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
 
-NODES = 0.5 * (leggauss(6)[0] + 1.0)  # shares of a part of a step at which powers are taken
-INSIDE = 0.381966  # share of a part of a step: no multiple of it is near the period of a force that a step hides
-KEPT = 256  # places that were looked at, whose series are at hand for the next name
-ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
+NODES = 0.5 * (leggauss(6)[0] + 1.0)  # fractions of an interval between two states at which powers are evaluated
+INSIDE = 0.381966  # fraction of an interval: no multiple of it is near the period of a force that a step could hide
+KEPT = 256  # largest number of evaluated places that are cached for the next series
+ROUNDED = 1e-7  # of the speed: in shorter intervals, differences of positions are too rounded to check the speed
 REST = 1e-9  # of the positions: a block that moves by less is at rest
-CLOSE = 1e-3  # of the largest acceleration: states between others whose forces err more are left out
+CLOSE = 1e-3  # of the largest acceleration: interpolated states whose accelerations err by more are left out
+# diagnostics of a block of states, in which nothing is known
 NONE = Diagnostics(
     method="",
     step=math.nan,
@@ -50,9 +51,9 @@ NONE = Diagnostics(
 
 
 class Path:
-    """The present block of a run: its states, of which the first two ended the block before.
+    """Hold the current block of states of a run, and evaluate series at and between them.
 
-    `names`: series that it will be asked for, so that no others are prepared; None: any.
+    The first two states ended the block before. `names`: the only series that will be evaluated; None: any.
     """
 
     def __init__(
@@ -67,42 +68,45 @@ class Path:
         self.exact = self.source.methods == (KINEMATIC,)
         self.films = any(joint.film for joint in self.source.clearances)
         self.gives = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
-        self.first: Steps | None = None  # of the run: energies count from it
-        self.lost = 0  # states without accelerations
-        self.seen: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # places that were looked at
-        self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1, with their integral
-        self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
-        self.middle: Result | None = None  # at INSIDE of every part
+        self.first: Steps | None = None  # first state of the run: energies count from it
+        self.lost = 0  # number of states without accelerations
+        self.seen: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # cached evaluations between states
+        # k, polynomial of the rates between states k and k + 1, and its integral
+        self.nearest: tuple[int, Any] = (-1, None)
+        self.powers: tuple[int, Any] = (-1, None)  # k, integral of the powers between states k and k + 1
+        self.middle: Result | None = None  # run evaluated at INSIDE of every interval
         self.steps: Steps
         self.run: Result
         self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
 
     def take(self, steps: Steps) -> None:
-        """The next block."""
+        """Replace the block by the next states of the run; the last two states of the old block stay in front."""
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
         self.run, good = self._result(self.steps)
         self.nearest, self.powers, self.seen, self.middle = (-1, None), (-1, None), {}, None
         self.lost += int((~good[len(good) - len(steps) :]).sum())
-        self.inner = ~self.steps.jumped[1:] & (np.diff(self.steps.t) > (0.0 if self.exact else _shortest(self.steps)))
+        self.inner = ~self.steps.jumped[1:] & (
+            np.diff(self.steps.t) > (0.0 if self.exact else _shortest_interval(self.steps))
+        )
 
     def values(self, name: str) -> Array:
-        """A series at the states, (K,); NaN where it is not known."""
+        """Return a series at the states of the block, (K,); NaN where it is not known."""
         return self.run[name][1:]
 
     def between(self, k: int, t: Array, name: str) -> Array:
-        """A series at times t (T,) between states k and k + 1."""
+        """Return a series at times t (T,) between states k and k + 1; NaN where the interpolation is too inaccurate."""
         place = (k, len(t), float(t[0]), float(t[-1]))
         if place not in self.seen:
             if len(self.seen) >= KEPT:
                 self.seen.clear()
-            found = self._result(self._states(k, t))[0]
-            self.seen[place] = found, self._off(k, t, found.a[1:]) if self.gives else np.zeros(len(t))
+            found = self._result(self._interpolate_states(k, t))[0]
+            self.seen[place] = found, self._interpolation_error(k, t, found.a[1:]) if self.gives else np.zeros(len(t))
         found, off = self.seen[place]
         return np.where(off <= CLOSE, found[name][1:], np.nan)
 
     def inside(self, name: str) -> Array:
-        """A series at INSIDE of the way from each state to the next, (K − 1,); NaN beyond jumps, or where unknown.
+        """Return a series at the fraction INSIDE between successive states, (K − 1,); NaN across jumps or if unknown.
 
         The motion there is Hermite's polynomial of order 5 through positions, velocities and accelerations.
         """
@@ -122,11 +126,11 @@ class Path:
             self.middle = self._result(Steps(t, place, speed, works, x.memory[:-1], x.state[:-1], x.jumped[:-1]))[0]
         return self.middle[name][1:]
 
-    def _off(self, k: int, t: Array, a: Array) -> Array:
-        """How far accelerations a (T, n) that follow from states are from those of the polynomial, as shares (T,).
+    def _interpolation_error(self, k: int, t: Array, a: Array) -> Array:
+        """Return the relative error (T,) of the accelerations a (T, n) against those of the interpolant at times t.
 
-        Of the largest of their kind. A film's force follows the speed so steeply that a state between others, whose
-        speed is as good as the tolerance, need not say it; so does stiff friction.
+        The error is relative to the largest acceleration of its kind. The forces of films and of stiff friction
+        depend steeply on the speed. Interpolated speeds within the tolerance may therefore give wrong forces.
         """
         mid, half, rates, _ = self._rates(k)
         off = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
@@ -135,10 +139,10 @@ class Path:
         return np.maximum(*shares)
 
     def _result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
-        """The run's first state, then these, and which of all have accelerations."""
+        """Return a Result of the run's first state and these states, and which states have accelerations."""
         assert self.first is not None
         x = self.first.then(steps)
-        evaluation, good = self._evaluation(x)
+        evaluation, good = self._evaluate_states(x)
         run = Result(
             compiled=self.compiled,
             source=self.source,
@@ -158,8 +162,8 @@ class Path:
         run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
         return run, good
 
-    def _evaluation(self, x: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
-        """NaN at states where the equations cannot be solved, and where they can."""
+    def _evaluate_states(self, x: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
+        """Evaluate the equations at states; return NaN where they cannot be solved, and a mask of the others."""
         good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
         t = x.t
         if self.compiled.beyond and not self.exact:  # an end of a step has the rates in front of a corner, not behind
@@ -180,20 +184,23 @@ class Path:
             whole[name][good] = getattr(found, name)
         return Evaluation(**whole), good
 
-    def _states(self, k: int, t: Array) -> Steps:
-        """At times t (T,) between states k and k + 1, with the contacts of the first of them."""
+    def _interpolate_states(self, k: int, t: Array) -> Steps:
+        """Interpolate the states at times t (T,) between states k and k + 1, with the contacts of the first of them."""
         x = self.steps
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
-        q, v = self._motion(k, t, s)
+        q, v = self._interpolate_motion(k, t, s)
         memory = np.repeat(x.memory[k : k + 1], len(t), axis=0)
         states = slice(memory.shape[1] - len(self.source.states), None)
         memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
-        works = self._works(k, s) if self.works else np.full((len(t), N_WORK), np.nan)
+        works = self._interpolate_works(k, s) if self.works else np.full((len(t), N_WORK), np.nan)
         return Steps(t, q, v, works, memory, codes, s[:, 0] < 0.5)  # from where rates come
 
-    def _motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
-        """q and q̇ (T, n) at times t and shares s (T, 1): polynomials, or what the drives say."""
+    def _interpolate_motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
+        """Return q and q̇ (T, n) at times t and fractions s (T, 1) between states k and k + 1.
+
+        They follow from the interpolating polynomials, or from the drives where the scene has no degrees of freedom.
+        """
         x = self.steps
         if self.exact:
             q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
@@ -205,19 +212,22 @@ class Path:
         return x.q[k] + (way[2:] - way[0]) + s * left, legval(places[2:], rates).T
 
     def _rates(self, k: int) -> tuple[float, float, Any, Any]:
-        """Legendre coefficients of q̇ about a time, for so many seconds on both sides: through states k and k + 1 and
-        their neighbours where these help, which they do not beyond a kink of a force; those of the integral."""
+        """Return the interpolant of q̇ between states k and k + 1: middle and half width (s), Legendre coefficients.
+
+        The last item returned is the integral of the polynomial. It also passes through neighbouring states where
+        these improve it, which they do not across a kink of a force.
+        """
         if self.nearest[0] != k:
             h, far = np.diff(self.steps.t), 2 if self.films else 1  # neighbours on each side
             before, after = (self._neighbours(h, k, way, far) for way in (-1, 1))
             parts = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
-            best = min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])
+            best = min((self._fit_rates(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])
             self.nearest = k, (*best[1:], legint(best[3]))
         found: tuple[float, float, Any, Any] = self.nearest[1]
         return found
 
     def _neighbours(self, h: Array, k: int, way: int, most: int) -> int:
-        """How many states before k (way −1), or behind k + 1 (1), the polynomial may go through."""
+        """Return how many states before k (way −1) or after k + 1 (way 1) the polynomial may pass through."""
         a = self.run.a[1:]
         for found in range(most):
             j = k + way * (found + 1)
@@ -227,10 +237,10 @@ class Path:
                 return found
         return most
 
-    def _hermite(self, rows: slice) -> tuple[float, float, float, Any]:
-        """The polynomial of q̇ through states and their accelerations, as _rates has it, behind its likely error.
+    def _fit_rates(self, rows: slice) -> tuple[float, float, float, Any]:
+        """Fit the polynomial of q̇ through states and their accelerations; return its estimated error and itself.
 
-        With films through states alone: there accelerations have the errors of velocities many times over.
+        With films, accelerations are not used: they amplify the errors of velocities.
         """
         x, a = self.steps, self.run.a[1:]
         t, n = x.t[rows], len(x.t[rows]) * (1 if self.films else 2)
@@ -238,19 +248,19 @@ class Path:
         places = (t - mid) / half
         matrix, given = legvander(places, n - 1), x.v[rows]
         if not self.films:
-            matrix = np.concatenate([matrix, legval(places, _slopes(n)).T])
+            matrix = np.concatenate([matrix, legval(places, _legendre_derivatives(n)).T])
             given = np.concatenate([given, half * a[rows]])
         found = np.linalg.solve(matrix, given)
         last, before = np.abs(found[-1]).max(), np.abs(found[-2]).max()
         return float(last * min(1.0, last / max(before, 1e-300))), mid, half, found
 
-    def _works(self, k: int, s: Array) -> Array:
-        """Works (T, 3) at shares s (T, 1): the integral of the polynomial through the powers on the way."""
+    def _interpolate_works(self, k: int, s: Array) -> Array:
+        """Return the works (T, 3) at fractions s (T, 1): the integral of the polynomial through the powers."""
         x = self.steps
         if self.powers[0] != k:
             h = x.t[k + 1] - x.t[k]
             t = x.t[k] + h * NODES
-            q, v = self._motion(k, t, NODES[:, None])
+            q, v = self._interpolate_motion(k, t, NODES[:, None])
             power = self.compiled.evaluate(t, q, v, np.repeat(x.memory[k : k + 1], len(t), axis=0), self.p).power
             self.powers = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
         work = legval(2.0 * s[:, 0] - 1.0, self.powers[1]).T
@@ -260,15 +270,15 @@ class Path:
 
 
 @cache
-def _slopes(n: int) -> Any:
-    """Legendre coefficients of the derivatives of the first n polynomials of Legendre."""
+def _legendre_derivatives(n: int) -> Any:
+    """Return the Legendre coefficients of the derivatives of the first n Legendre polynomials."""
     return legder(np.eye(n))
 
 
-def _shortest(x: Steps) -> float:
-    """The shortest part of a step, s, whose speeds differences of positions tell but for ROUNDED.
+def _shortest_interval(x: Steps) -> float:
+    """Return the length (s) of the shortest interval in which differences of positions still determine speeds.
 
-    By lengths and by angles; those of a block at rest tell nothing, though forces may vary there.
+    Lengths and angles are tested separately. Blocks at rest are not limited, though forces may vary there.
     """
     shortest = 0.0
     for kind in (slice(0, None, 3), slice(1, None, 3), slice(2, None, 3)):  # x, y, angles of all bodies

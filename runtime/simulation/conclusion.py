@@ -1,4 +1,4 @@
-"""The end of a run: samples and counts put together as a Result with its diagnostics, soon where Ctrl-C ended it."""
+"""Build the Result of a finished run from samples and counts, with diagnostics and notes; quickly after Ctrl-C."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
-COARSE = 1e-4  # of the energy turned over: a larger residual of rk4 is told
-BLOCK = 1 << 16  # samples balanced between two looks
-APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
-MANY = 10_000  # steps of an explicit method, that a stiff film asks for
+COARSE = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
+BLOCK = 1 << 16  # samples of the energy balance between two polls for cancellation
+APART = 0.01  # of the mechanism's size: constraint violations that are too large for drift
+MANY = 10_000  # steps of an explicit method that indicate a stiff film
 THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
-DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
-KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
-AFTER_CTRL_C = 0.1  # s that the energy balance of an interrupted run may take; without it its residual is NaN
+DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these fractions of c and of R are outside the model
+KEPT = 20_000  # samples up to which the evaluation made for the energy balance is cached
+AFTER_CTRL_C = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
 
 
 def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, float]) -> Diagnostics:
-    """What a run says about itself, from its trajectory and the `balance` of its energy."""
+    """Return the diagnostics of a run, from its trajectory and its energy `balance` (residual, throughput; J)."""
     compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
     worst, turned = balance
     duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
@@ -89,10 +89,9 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
 
 
 def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
-    """The largest residual of kinetic and potential energy (N, 2) and works (N, 3), and how much was turned over; J.
-
-    NaN where there is no sample. A blow at the very start has taken its work before the first one. `look` is called
-    now and then, and what it raises is passed on.
+    """Return the largest residual of energies (N, 2) and works (N, 3), and the energy throughput; both in J. Both are
+    NaN without samples. An impact at the very start has done its work before the first sample. `look` polls for
+    cancellation between blocks; its exceptions are passed on.
     """
     if not len(energy):  # not even the start has accelerations
         return math.nan, math.nan
@@ -119,7 +118,7 @@ def coarse(problem: Problem, worst: float, turned: float) -> tuple[str, ...]:
 
 
 def unbalanced(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
-    """What is told of samples whose balance of energy is no number; nothing where it is one."""
+    """Return a note that the energy balance is not a number, with the time of the first such sample; else ()."""
     if math.isfinite(worst) or not len(t):
         return ()
     with np.errstate(invalid="ignore"):
@@ -130,7 +129,7 @@ def unbalanced(t: Array, energy: Array, work: Array, worst: float) -> tuple[str,
 
 
 def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
-    """What a reader of this run should know before trusting it."""
+    """Return the notes of a run: warnings that a reader should know before trusting it."""
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
@@ -168,14 +167,14 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
 
 
 def indeterminate(source: KernelSource) -> Iterator[str]:
-    """A remark on redundant constraints, where a scene has any."""
+    """Yield a note on redundant constraints, if the scene has any."""
     if source.indeterminate:
         owners = ", ".join(source.indeterminate)
         yield f"constraints are redundant: the reactions of {owners} are not determined by rigid bodies (NaN)"
 
 
 def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
-    """A remark on many steps of films in a scene with rigid contacts, which no implicit method integrates."""
+    """Yield a note on many steps of a stiff film in a scene with rigid contacts: no implicit method fits."""
     films = [joint.name for joint in source.clearances if joint.film]
     if films and counts.steps > MANY and math.isinf(problem.step):
         yield (
@@ -186,7 +185,7 @@ def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -
 
 
 def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
-    """A remark on the sample at which the second rate of a drive is unbounded, of a run without a degree of freedom."""
+    """Yield a note on the sample of a kinematic run at which the second rate of a drive is unbounded."""
     if compiled.source.methods != ("kinematic",) or not len(trajectory.t) or trajectory.a is None:
         return
     largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
@@ -199,24 +198,28 @@ def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Traj
 
 
 def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
-    """Of which of n runs `not_held` has something to say, (n,): p (n, ...), peaks (n, n_clearances, 3)."""
+    """Return a mask (n,) of the runs for which `not_held` may yield a note. Shapes: parameter values p (n, ...),
+    peaks (n, n_clearances, 3).
+    """
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
     least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
     return (phi_max > APART * size) | (e_max > least * c).any(axis=1)
 
 
 def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
-    """What steps and peaks (n_clearances, 3) say against a run that began at q0: links apart, laws left."""
+    """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws. `q0`
+    is the start, `peaks` (n_clearances, 3).
+    """
     if counts.phi_max > APART * mechanism_size(compiled, p):
         yield (
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
         )
-    yield from _outside(compiled, p, t0, q0, peaks)
+    yield from _note_range_of_laws(compiled, p, t0, q0, peaks)
 
 
-def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
-    """Joints with play that went where their laws do not hold."""
+def _note_range_of_laws(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
+    """Yield a note for each joint with play whose eccentricity left the range of its contact or film law."""
     for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - widest(compiled.source, p, joint)
@@ -232,7 +235,7 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
                 " where a film with extra_clearance still carries it: a dry contact takes its force there"
             )
         if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
-            begun = _depth(compiled, p, t0, q0, k, joint) > most
+            begun = _penetration_at(compiled, p, t0, q0, k, joint) > most
             into = "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"
             yield (
                 f"{joint.name}: the {into.format(f'{1e3 * deepest:.3g}')} {1e3 * c:.3g} mm,"
@@ -241,14 +244,15 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
             )
 
 
-def _depth(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
-    """How deep joint k lies in its bearing, a corner in its wall, m."""
+def _penetration_at(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
+    """Return the penetration (m) of joint k at the positions q: journal in bearing, or corner in wall."""
     if joint.at_wall:
         return corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
     return float(np.hypot(*eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
 
 
 def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
+    """Return the peak force and eccentricity of each joint with play, with its first contact."""
     peaks = []
     for i, joint in enumerate(compiled.source.clearances):
         own = trajectory.impacts[trajectory.impacts["joint"] == i]
@@ -258,25 +262,28 @@ def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
     return tuple(peaks)
 
 
-class _TooLong(Exception):
-    """What is left can wait until somebody asks for it."""
+class _TimeLimitReached(Exception):
+    """Signal that the rest of an interrupted evaluation is left for later."""
 
 
 def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True) -> Result:
-    """A run with its diagnostics, from its samples. Everything that follows from them is evaluated for its balance.
+    """Return the Result of a run with its diagnostics, after evaluating all samples for the energy balance.
 
-    Where Ctrl-C comes meanwhile, or ended the run and (with `soon`) the samples are many, that is left for later.
+    The evaluation is postponed if Ctrl-C comes meanwhile, or if it ended the run and, with `soon`, takes too long.
     """
     compiled = problem.compiled
     x, evaluation, failed, balance = without_works(compiled, trajectory), None, False, (math.nan, math.nan)
-    look = _look(problem, x.interrupted, soon)
+    look = _make_poll(problem, x.interrupted, soon)
     try:
         times = evaluation_times(compiled, x.t, x.q, x.v, problem.p)
         evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, look)
         balance = energy_balance(evaluation.energy, x.work, look)
     except SolverError:
         failed = True
-    except (_TooLong, MemoryError):  # the samples are there; what follows from them is evaluated when asked for
+    except (
+        _TimeLimitReached,
+        MemoryError,
+    ):  # the samples are there; what follows from them is evaluated when asked for
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
@@ -321,7 +328,7 @@ def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: A
 
 
 def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
-    """Return the run, its notes with frictions that drives or other frictions hold at rest from sample to sample."""
+    """Return the run with notes on frictions that drives or other frictions hold at rest over samples."""
     first, found = len(run.source.clearances), list[str]()
     for k, name in enumerate(run.source.frictions):
         mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
@@ -339,27 +346,27 @@ def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
 
 
 def _with_notes(run: Result, told: Sequence[str]) -> Result:
-    """Return the run with more notes; the run itself where nothing is told."""
+    """Return the run with more notes; the same object if there are none."""
     notes = (*run.diagnostics.notes, *told)
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if told else run
 
 
 def _accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
-    """Return q̈ (N, n) as the method found it, else as evaluated; of the last instant the left limit."""
+    """Return q̈ (N, n) from the method, else from the evaluation; at the last instant the left limit."""
     if x.a is None:
         return evaluation.a
     return np.append(x.a[:-1], evaluation.a[-1:], axis=0) if times[-1] < x.t[-1] else x.a
 
 
 def without_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:
-    """The same, whose works are NaN where there are no masses to tell them by."""
+    """Return the trajectory, with works of NaN if the scene has no masses."""
     if not compiled.source.massless:
         return trajectory
     return replace(trajectory, work=np.full_like(trajectory.work, np.nan))
 
 
-def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:
-    """What the evaluation calls each few milliseconds."""
+def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:
+    """Return the function that the evaluation calls every few milliseconds: it polls Ctrl-C and reports progress."""
     begun = told = monotonic()
 
     def look() -> None:
@@ -370,33 +377,35 @@ def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]
             told = now
             problem.progress(1.0, "balancing energy")
         if interrupted and soon and now - begun > AFTER_CTRL_C:
-            raise _TooLong
+            raise _TimeLimitReached
 
     return look
 
 
 def contradicted(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
-    """Return the run, marked as interrupted where Ctrl-C comes meanwhile, and what ends it after all, if anything.
+    """Return the run, and the error that ends it after its samples, or None.
 
-    That is what the time loop met, a contradiction of its constraints, or a check of its samples that failed.
+    Such errors are the failure of the time loop, contradictory constraints, or a failed audit of the samples. If
+    Ctrl-C comes meanwhile, the run is marked as interrupted.
     """
     found = result.diagnostics.audit
     try:
         failure = contradiction(problem, trajectory) or (audit_failure(found) if failed(found) else None)
     except KeyboardInterrupt:
-        result, failure = _interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
+        result, failure = _mark_interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
     return result, trajectory.stopped or failure
 
 
 def late(ctrl_c: CtrlC, result: Result) -> Result:
-    """The result; marked as interrupted where Ctrl-C came while it was put together."""
+    """Return the result, marked as interrupted if Ctrl-C came while it was being built."""
     try:
         ctrl_c.take()
     except KeyboardInterrupt:
-        return _interrupted(result)
+        return _mark_interrupted(result)
     return result
 
 
-def _interrupted(result: Result) -> Result:
+def _mark_interrupted(result: Result) -> Result:
+    """Return the result marked as interrupted, with a note."""
     told = _with_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
     return replace(told, diagnostics=replace(told.diagnostics, interrupted=True))

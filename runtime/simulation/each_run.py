@@ -1,4 +1,4 @@
-"""Times and steps of a batch: t_end, output and step stand for all runs, or each run has its own."""
+"""Read times and steps of a batch: `t_end`, `output` and `step` hold for all runs, or give one value per run."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Errors = dict[int, BadValueError]
 
 
 def rows_of_times(output: Any) -> list[Any] | None:
-    """The output times of the runs, a row each, of a list of rows or an array (n, N); None: it stands for all."""
+    """Return the output times as one row per run, of a list of rows or an array (n, N); None if all runs share them."""
     if getattr(output, "ndim", None) == 2:
         return list(taken(output, "output", (None, None), most=MOST_OUTPUT))
     of_objects = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
@@ -34,20 +34,21 @@ def rows_of_times(output: Any) -> list[Any] | None:
 
 @dataclass
 class EachRun:
-    """What is given for all runs or for each. A number that is none fails its own run, as among the columns."""
+    """Hold `t_end`, `output` and `step` of a batch. A value that is not a number fails its own run only."""
 
     compiled: CompiledModel
     t_end: Any
     output: Any
     step: Any
-    bad: Errors = field(default_factory=dict)  # runs that have no times or step
+    bad: Errors = field(default_factory=dict)  # errors of runs without valid times or step, by index
 
     def __post_init__(self) -> None:
+        """Split the arguments into columns with one value per run."""
         self.ends, self.steps = column("t_end", self.t_end), column("step", self.step)
         self.rows = rows_of_times(self.output)
 
     def length(self, runs: int) -> int:
-        """How many runs there are where the parameters are those of `runs`; BadValueError where that does not fit."""
+        """Return the number of runs, given `runs` parameter sets. Raise BadValueError if lengths do not agree."""
         for name, values in (("t_end", self.ends), ("output", self.rows), ("step", self.steps)):
             if values is not None and (not values or runs not in (1, len(values))):
                 of = "rows of times" if name == "output" else "values"
@@ -57,7 +58,9 @@ class EachRun:
         return runs
 
     def times(self, p: Array, t0: float, left_out: dict[int, Any]) -> Times:
-        """Of all runs with the numbers p (n, ...) from t0 (s), but for those that are left out."""
+        """Return the sample times of all runs from t0 (s), with parameter values p (n, ...). Runs in `left_out` get
+        none; invalid times are recorded in `bad`.
+        """
         source = self.compiled.source
         follows = isinstance(self.t_end, str) and holds_names(spaced(self.t_end)) or bool(source.simulate_written)
         if self.ends is None and self.rows is None and not follows:
@@ -66,7 +69,7 @@ class EachRun:
         found: dict[int, tuple[Array, bool]] = {}
         same: dict[Any, tuple[Array, bool]] = {}
         for i in range(len(p)):
-            own = None if i in left_out else self._of_run(i, p[i], t0, same)
+            own = None if i in left_out else self._times_of_run(i, p[i], t0, same)
             if own is None:
                 continue
             if len(found) == 1 and own is not next(iter(found.values())):  # a row for each is made of them
@@ -76,15 +79,19 @@ class EachRun:
             raise next(iter(self.bad.values()))
         return Times.of_runs(found or {0: (np.array([t0]), True)}, len(p))
 
-    def _of_run(self, i: int, p: Array, t0: float, same: dict[Any, tuple[Array, bool]]) -> tuple[Array, bool] | None:
-        """Return what `output_times` does for run i, once for all that have `same`; None where they are no numbers."""
+    def _times_of_run(
+        self, i: int, p: Array, t0: float, same: dict[Any, tuple[Array, bool]]
+    ) -> tuple[Array, bool] | None:
+        """Return the `output_times` of run i, or None if they are not numbers. `same` caches them across runs."""
         source = self.compiled.source
         row = self.output if self.rows is None else self.rows[i]
         try:
-            end = end_of(source, self.t_end if self.ends is None else _there(self.ends[i], "t_end"), p)
+            end = end_of(source, self.t_end if self.ends is None else _require_time(self.ends[i], "t_end"), p)
         except InputError as error:
             raise BadValueError(f"run {i}: {error}") from None
-        if told := _none(end, "t_end") or ("" if self.rows is None else _none_of(row)):
+        if told := _message_if_not_finite(end, "t_end") or (
+            "" if self.rows is None else _message_if_times_not_finite(row)
+        ):
             self.bad[i] = BadValueError(told)
             return None
         alike = self.rows is None and not source.simulate_written and isinstance(end, (int, float, str))
@@ -101,7 +108,9 @@ class EachRun:
         return same.setdefault(key, t) if key else t
 
     def lengths_of_steps(self, method: str, p: Array, times: Times, left_out: dict[int, Any]) -> Array:
-        """The step (s) of each run, (n,), infinite where the method chooses it; any of what is left out."""
+        """Return the fixed step (s) of each run, (n,); infinite where the method controls its step. Values of runs in
+        `left_out` have no meaning.
+        """
         steps = np.full(len(p), 1.0 if method == "rk4" or self.step is not None else math.inf)
         own = [i for i in range(len(p) if steps[0] < math.inf else 0) if i not in left_out and i not in self.bad]
         if self.step is not None and self.steps is None and times.t.ndim == 1 and own:
@@ -109,7 +118,7 @@ class EachRun:
             return steps
         for i in own:
             step, t = self.step if self.steps is None else self.steps[i], times.of(i)
-            if told := "" if self.steps is None else _none(step, "step"):
+            if told := "" if self.steps is None else _message_if_not_finite(step, "step"):
                 self.bad[i] = BadValueError(told)
                 continue
             steps[i] = self._step_of(i, step, method, p[i], float(t[-1] - t[0]))
@@ -118,8 +127,9 @@ class EachRun:
         return steps
 
     def _step_of(self, i: int, step: Any, method: str, p: Array, duration: float) -> float:
+        """Return the checked step (s) of run i. Errors of the file's own expressions fail this run only."""
         try:
-            h = step_of(self.compiled, step if self.steps is None else _there(step, "step"), method, p, duration)
+            h = step_of(self.compiled, step if self.steps is None else _require_time(step, "step"), method, p, duration)
             if duration / h > MAX_STEPS:
                 raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         except InputError as error:
@@ -132,20 +142,21 @@ class EachRun:
         return h
 
 
-def _there(value: Any, name: str) -> Any:
+def _require_time(value: Any, name: str) -> Any:
+    """Return a time that is given for one run; raise BadValueError if it is None."""
     if value is None:
         raise BadValueError(f"{name} is None: expected a time (s)")
     return value
 
 
-def _none(value: Any, name: str) -> str:
-    """What is said of a number that is none."""
+def _message_if_not_finite(value: Any, name: str) -> str:
+    """Return a message if a float is not finite, else ""."""
     number = isinstance(value, (float, np.floating))
     return f"{name}: {value} is not a finite number" if number and not math.isfinite(value) else ""
 
 
-def _none_of(row: Any) -> str:
-    """The same of times; what is no array of numbers is refused where it is read."""
+def _message_if_times_not_finite(row: Any) -> str:
+    """Return a message on the first sample time that is not finite, else "". Other types are refused by the reader."""
     try:
         t = np.asarray(row if np.size(row) <= MOST_OUTPUT else (), dtype=float)
     except (TypeError, ValueError):

@@ -1,9 +1,9 @@
-"""What other runs beside a run tell of it, for its report: `examine(simulation, run, ideal)`.
+"""Examine a run by further runs, for its report: `examine(simulation, run, ideal)`.
 
-The run once more, bit for bit, sampled within its contacts at Gauss's points between all its samples, rows of its
-trace, onsets, separations and peaks of force: where the work of each joint with play went, and how fast surfaces part.
-The run with steps half as long, or a tolerance a hundred times tighter: how far it errs. The ideal scene at its times:
-what its joints would carry without play. What is found is in `diagnostics.examined`, and in the run's file with that.
+The same run is repeated bit for bit and sampled at Gauss points within its contacts. This gives the works of each
+joint with play and the speeds at separation. A second run with half the step or a tighter tolerance estimates the
+error. The ideal scene gives the forces of joints without play. The findings are in `diagnostics.examined`, also in
+files.
 
 `check_contacts` checks the contacts of a run at many more times than its samples: `run.check()`, `run --verify`.
 """
@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
 
-NODES, WEIGHTS = leggauss(6)
-MOST = 20_000  # samples between which there are Gauss's points; of more each so many-th
-MIN_SAMPLES, MAX_SAMPLES = 2, 100_000_000  # of a check of contacts
+NODES, WEIGHTS = leggauss(6)  # nodes and weights of Gauss's quadrature on −1 to 1
+MOST = 20_000  # largest number of intervals between samples that get Gauss points
+MIN_SAMPLES, MAX_SAMPLES = 2, 100_000_000  # limits of the number of intervals of a contact check
 STORED = "the run could not be repeated bit for bit: only its stored samples were checked"
 ANOTHER = "the run could not be repeated bit for bit: where the work of its joints went is not known"
 
@@ -47,20 +47,19 @@ ANOTHER = "the run could not be repeated bit for bit: where the work of its join
 def examine(
     simulation: Simulation, run: Result, ideal: Simulation | Result | None = None, progress: Progress | None = None
 ) -> Result:
-    """The run with `diagnostics.examined`. `ideal`: the ideal scene, or its run at the run's times.
-
-    BadValueError for a run of another scene, or a file of it that has no scene. Ctrl-C is passed on.
+    """Return the run with `diagnostics.examined`. `ideal`: the ideal scene, or its run at the run's times. Raises
+    BadValueError for a run of another scene, or of a file without the scene. Ctrl-C is passed on.
     """
     check_own(simulation, run, "examine")
     notes: list[str] = []
     whole = with_start(run)
-    joints = _joints(simulation, whole, notes, progress)
-    differences, told = _differences(simulation, whole, notes, progress)
-    found = Examined(joints, _ideal(run, ideal, notes), differences, told, tuple(notes))
+    joints = _examine_joints(simulation, whole, notes, progress)
+    differences, told = _estimate_errors(simulation, whole, notes, progress)
+    found = Examined(joints, _ideal_forces(run, ideal, notes), differences, told, tuple(notes))
     return replace(run, diagnostics=replace(run.diagnostics, examined=found))
 
 
-def _again(
+def _repeat_run(
     simulation: Simulation,
     run: Result,
     t: Array,
@@ -69,9 +68,10 @@ def _again(
     peaks: tuple[str | Rubbing, ...] = (),
     beyond: float = math.nan,
 ) -> Iterator[Result]:
-    """The run at times t: begun as the file says, and begun in its first sample. What ends early is none.
+    """Yield repetitions of the run with samples at times t: from the file's start, then from its first sample.
 
-    `beyond` (s): up to which a run goes that an event or an error ends at the last of the times; NaN: none does.
+    Repetitions that end early are skipped. `beyond` (s): end of the repetition if an event or an error ended the run
+    at the last of the times; NaN if nothing did.
     """
     begin, ends = begin_of(run), math.isfinite(beyond)
     times = np.append(t, beyond) if ends else t
@@ -86,12 +86,13 @@ def _again(
             yield other
 
 
-def _joints(
+def _examine_joints(
     simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
 ) -> tuple[JointExamined, ...]:
+    """Return the works, forces and restitution of each joint with play, from a repetition of the run."""
     if not run.source.clearances or len(run.t) < 2:
         return ()
-    t, weights = _points(run)
+    t, weights = _quadrature(run)
     ends = run.impacts["t_off"]
     every = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
     other = as_it_was(simulation, run, every, progress)
@@ -102,7 +103,7 @@ def _joints(
     solid = other  # the same states, and of its joints' forces what the surfaces bear that touch
     if any(joint.dry and joint.film for joint in joints) and not run.source.laws:
         solid = replace(other, p=without_oil(simulation.compiled, other.p))
-    found = tuple(_joint(run, other, solid, k, joint, at, weights) for k, joint in enumerate(joints))
+    found = tuple(_examine_joint(run, other, solid, k, joint, at, weights) for k, joint in enumerate(joints))
     if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
         return found
     rest = -float(weights @ other.evaluation.power[at, 2])  # its film took, the torque of its shear too, all the rest
@@ -113,9 +114,11 @@ def _joints(
 def as_it_was(
     simulation: Simulation, run: Result, t: Array, progress: Progress | None, peaks: tuple[str | Rubbing, ...] = ()
 ) -> Result | None:
-    """The run again, bit for bit, at times t, among which are its own; None where that cannot be had."""
+    """Return the run repeated bit for bit at times t, which include its own; None if that does not succeed."""
     usual, to = settings_of(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
-    for other in (x for own in _as_it_went(usual) for x in _again(simulation, run, t, own, progress, peaks, to)):
+    for other in (
+        x for own in _exact_settings(usual) for x in _repeat_run(simulation, run, t, own, progress, peaks, to)
+    ):
         if other.t[-1] != t[-1]:  # its event is not quite where it was
             continue
         same = np.searchsorted(other.t, run.t)
@@ -124,15 +127,15 @@ def as_it_was(
     return None
 
 
-def _as_it_went(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """A run by "auto" is told by the one method that made all its steps, if one did."""
+def _exact_settings(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the settings that may repeat the run exactly: for "auto", first those of the method that made all steps."""
     if usual["method"] in CHOOSING and "step" not in usual:
         yield usual | {"method": ADAPTIVE}
     yield usual
 
 
-def _points(run: Result) -> tuple[Array, Array]:
-    """Times (s) and weights (s) of a quadrature over all that is in contact, or where there is a film over all."""
+def _quadrature(run: Result) -> tuple[Array, Array]:
+    """Return times (s) and weights (s) of a quadrature over all contacts, or over the whole run if there is a film."""
     edges = [run.t[:: max(1, len(run.t) // MOST)], run.t[-1:], *(run.impacts[n] for n in ("t_on", "t_off", "t_peak"))]
     edges += [] if run.trace is None else [run.trace.t]
     t = np.unique(np.concatenate(edges))
@@ -147,10 +150,13 @@ def _points(run: Result) -> tuple[Array, Array]:
     return (middle[:, None] + half[:, None] * NODES).ravel(), (half[:, None] * WEIGHTS).ravel()
 
 
-def _joint(
+def _examine_joint(
     run: Result, other: Result, solid: Result, k: int, joint: ClearanceInfo, at: Any, weights: Array
 ) -> JointExamined:
-    """Of `other`, the run once more, at its points `at`; `solid` has the forces of surfaces that touch."""
+    """Return the examined quantities of joint k from the repeated run `other` at the sample indices `at`.
+
+    `solid` is the same run whose forces are those of the touching surfaces only.
+    """
     name, span = joint.name, float(run.t[-1] - run.t[0])
     e, force = other[f"{name}.e"][at], other[f"{name}.F"][at]
     parts = ((solid[f"{name}.F{axis}"] * other[f"{name}.e{axis}"])[at] for axis in "xy")
@@ -172,7 +178,7 @@ def _joint(
         for power in (np.maximum(-normal, 0.0), np.maximum(normal, 0.0), -slip)
     ]
     film = float(weights @ np.where(touching, of_both - in_film, -in_film))
-    impacting = _until_turns(run, other, k, name) / span if joint.dry else math.nan
+    impacting = _compression_time(run, other, k, name) / span if joint.dry else math.nan
     rms = math.sqrt(float(weights @ force**2) / span)
     taken, returned, friction = found if joint.dry else (math.nan,) * 3
     taken, returned = (math.nan, math.nan) if rigid else (taken, returned)
@@ -189,20 +195,20 @@ def _joint(
 
 
 def known_to_rub(source: KernelSource, joint: ClearanceInfo) -> bool:
-    """Whether a joint's surfaces touch, and what they bear of its load is known: of a film only if it is gudgeon's."""
+    """Return whether a joint's surfaces touch with a known contact force; not beside a film of a user-defined law."""
     return joint.dry and not (joint.film and source.laws)
 
 
 def without_oil(compiled: CompiledModel, p: Array) -> Array:
-    """The numbers of a run whose films bear nothing: all of gudgeon's are in proportion to the viscosity."""
+    """Return the parameter values p of a run with all oil viscosities zero, so that its films carry no load."""
     slots = compiled.source.slots
     values = p[: len(slots)].copy()
     values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
     return compiled.prepare(values, np.ones(len(slots), dtype=bool))
 
 
-def _until_turns(run: Result, other: Result, k: int, name: str) -> float:
-    """From the onset of each contact until its penetration first stops growing, s."""
+def _compression_time(run: Result, other: Result, k: int, name: str) -> float:
+    """Return the total time (s) from each onset of joint k until its penetration first stops growing."""
     rate, total = other[f"{name}.deltadot"], 0.0
     for contact in run.impacts[run.impacts["joint"] == k]:
         begin, end = max(contact["t_on"], run.t[0]), contact["t_off"]
@@ -219,7 +225,7 @@ def _until_turns(run: Result, other: Result, k: int, name: str) -> float:
 
 
 def _film_power(run: Result, joint: ClearanceInfo) -> Array:
-    """Of the film's resultant, which acts on both bodies at the journal's centre: F · (ė − ω_i ẑ × e), (N,) W."""
+    """Return the power (N,) in W of the film's resultant at the journal's centre: F · (ė − ω_i ẑ × e)."""
     name, source = joint.name, run.source
     bearing = next((part.ends[0] for part in source.parts if part.section == "joints" and part.name == name), "")
     omega = run[f"{source.bodies[joint.first].name}.omega"] if joint.first >= 0 else 0.0
@@ -230,16 +236,16 @@ def _film_power(run: Result, joint: ClearanceInfo) -> Array:
 
 
 def _rate(run: Result, point: str, axis: int) -> Array:
-    """Velocity of a point; 0 of the ground's."""
+    """Return the velocity (m/s) of a point along an axis (0: x, 1: y); zero for points of the ground."""
     body, _, last = point.rpartition(".")
     name = f"{body if last == 'com' else point}.{MOTION[axis][1]}"
     return run[name] if name in run else np.zeros(len(run.t))
 
 
 def _restitution(run: Result, other: Result, k: int, name: str) -> tuple[int, float, float, float, float, float]:
-    """How many contacts ended, and least, quartiles and largest of what they gave back of the approach's rate.
+    """Return the number of ended contacts, and minimum, quartiles and maximum of their restitution.
 
-    Those that began at rest, as where another contact's blow presses one that is closed, give nothing back.
+    Contacts that began at rest, such as closed ones pressed by the impact of another contact, are not counted in it.
     """
     own = run.impacts[run.impacts["joint"] == k]
     own = own[(own["t_off"] >= run.t[0]) & (own["t_off"] <= run.t[-1])]
@@ -251,8 +257,8 @@ def _restitution(run: Result, other: Result, k: int, name: str) -> tuple[int, fl
     return ended, low, q1, middle, q3, high
 
 
-def _ideal(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> tuple[IdealForce, ...]:
-    """Forces at the joints with play, if they had none."""
+def _ideal_forces(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> tuple[IdealForce, ...]:
+    """Return the largest and rms forces at the joints with play if they had none, from the ideal scene."""
     if ideal is None or run.source.massless or not run.source.clearances:
         return ()
     if hasattr(ideal, "simulate"):
@@ -275,22 +281,25 @@ def _ideal(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> 
 
 
 def mean_square(t: Array, values: Array) -> float:
-    """Over time, by trapezoids between samples; that of the one where there is one alone."""
+    """Return the mean square over time of a series by the trapezoidal rule; of one sample, its square."""
     span = float(t[-1] - t[0])
     return float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
 
 
-def _differences(
+def _estimate_errors(
     simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
 ) -> tuple[tuple[Difference, ...], str]:
-    """Of what a reader wants to see, and of the forces of joints with play, up to the horizon if it is known."""
+    """Return how far the main series and joint forces change in a more accurate run, and how that was run.
+
+    Times after the predictability horizon are not compared.
+    """
     if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
         return (), ""  # Newton's method at each sample: there is no step
     usual, tighter = settings_of(run)
     fixed = "step" in usual
     told = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
     settings = usual | {"step": usual["step"] / 2.0} if fixed else tighter
-    other = next(_again(simulation, run, run.t, settings, progress), None)
+    other = next(_repeat_run(simulation, run, run.t, settings, progress), None)
     if other is None:
         notes.append(f"a run with {told} does not come to the end of this one")
         return (), ""
@@ -308,7 +317,7 @@ def _differences(
 
 
 def check_contacts(run: Result, samples: int, progress: Progress | None = None) -> ContactCheck:
-    """Check a run at `samples` equal intervals and at its own samples; see Result.check."""
+    """Return the check of a run's contacts at `samples` equal intervals and at its own samples; see Result.check."""
     from gudgeon.simulation.simulation import Simulation
 
     samples = whole_number(samples, "samples", MIN_SAMPLES, MAX_SAMPLES)

@@ -1,4 +1,4 @@
-"""From a mechanism's name or file to a simulation."""
+"""Load a mechanism by name or file, and return its Simulation."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def load(
     regenerate: bool = False,
     quick: bool = True,
 ) -> Simulation:
-    """A mechanism's scene, compiled and ready to simulate.
+    """Load a mechanism's scene and return it compiled and ready to simulate.
 
     mechanism: text with "/" or ending in ".yaml" is a path, other text the name of a shipped mechanism.
     scene: a scene of the file; None is "ideal", which has no play and exists in every file.
@@ -73,7 +73,9 @@ def load_bytes(
     quick: bool = False,
     start: float | None = None,
 ) -> Simulation:
-    """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
+    """Load a scene from the bytes of a file; arguments as in `load`. `start`: time of perf_counter when reading
+    began.
+    """
     read = perf_counter()
     start = read if start is None else start
     with EndingSignals(), Ahead(portable, quick=quick and is_allowed(default_cache())) as ahead:

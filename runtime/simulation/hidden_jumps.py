@@ -1,11 +1,11 @@
-"""Corners and jumps of drives that their form does not show: `acos(cos(t))`, `atan2`, a root that touches zero.
+"""Find switching points and jumps of drives that their expressions do not show, as in `acos(cos(t))` or `atan2`.
 
-What is written with abs, min, max or ramp, or is the root of a square, has its corners found by the generator, and a
-step ends there. What is left is looked for by values, of drives that have a function which may hide it; and whether
-what is written with where or mod is continuous at its corners.
-Where the second differences of f on an even grid stand out they are followed to ever shorter distances h. They go
-with h² where f is smooth, with h where its rate jumps, more slowly where that is infinite, and stay where f jumps.
-Where nothing is free there is no impulse to be left out, but near such a place rates are 0/0 in binary64.
+The generator finds the switching points of abs, min, max, ramp and roots of squares; steps end there. The others are
+found here by sampling drives whose functions may hide them. Discontinuities of where and mod are found too.
+
+Where second differences of f on an even grid stand out, they are followed to ever shorter distances h. They are
+proportional to h² where f is smooth, to h where its rate jumps. They decrease more slowly where the rate is infinite,
+and not at all where f jumps. Without degrees of freedom no impulse is lost, but rates near such a point are 0/0.
 """
 
 from __future__ import annotations
@@ -26,64 +26,73 @@ from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, 
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import of_time, trees, undefined_at_a_corner
 
-_HIDING = names_where(lambda f: f.hides_corners)
-GRID, MOST, MOST_CORNERS = 4096, 16, 512  # intervals, candidates; those that are looked at one after the other
-AT_THE_END = 1e-12  # share of a run's time that is looked at behind its end
-POINTS, LEVELS = 16, 11  # intervals of a closer look; each is a quarter as wide as the one before
-EVERYWHERE = 6  # of them that stand out like the one that does most: it is no place
+_HIDING = names_where(lambda f: f.hides_corners)  # functions that may hide a switching point
+# grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_break`
+GRID, MOST, MOST_CORNERS = 4096, 16, 512
+AT_THE_END = 1e-12  # fraction of a run's time that is searched after its end
+# intervals of a refinement level, and number of levels; each is a quarter as wide as the one before
+POINTS, LEVELS = 16, 11
+EVERYWHERE = 6  # number of intervals with large differences from which on there is no isolated point
 
 
 @dataclass(frozen=True)
 class Jump:
-    """Where and how: "rate" (by `size`, of f's unit a second), "infinite rate", "value" (by `size`), or `told`."""
+    """Describe a jump of a drive: its time (s), kind and size.
+
+    Kinds: "rate" (by `size`, in the drive's unit per second), "infinite rate", "value" (by `size`), or a message
+    `told`.
+    """
 
     drive: str
     t: float
     kind: str
     size: float
-    breaks: bool = False  # between what where and mod choose
-    told: str = ""  # a branch of a where is no number at its own corner: in words
+    breaks: bool = False  # whether it lies between the branches of where or mod
+    told: str = ""  # message: a branch of a where is not a number at its own switching point
 
 
 _Search: TypeAlias = tuple[str, Expr, Callable[..., list[Jump]]]  # in a drive with this expression
 
 
 def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
-    """Of all drives between two times (s), in time's order; at most MOST a drive."""
+    """Return the jumps of all drives between t0 and t1 (s), ordered by time; at most MOST per drive."""
     found = []
-    for drive, tree in _that_may_hide(source) if t1 > t0 else ():
-        found += _jumps(source, p, tree, drive, t0, t1)
-    for drive, tree in _that_may_break(source) if t1 > t0 else ():
-        found += _first_break(source, p, tree, drive, t0, t1)
+    for drive, tree in _drives_that_may_hide(source) if t1 > t0 else ():
+        found += _find_jumps(source, p, tree, drive, t0, t1)
+    for drive, tree in _drives_that_may_break(source) if t1 > t0 else ():
+        found += _find_first_break(source, p, tree, drive, t0, t1)
     return sorted(found, key=lambda jump: jump.t)
 
 
 def may_jump(source: KernelSource) -> bool:
-    """Whether a drive is looked at by values at all."""
-    return bool(_that_may_hide(source) or _that_may_break(source))
+    """Return whether any drive needs a search for hidden jumps."""
+    return bool(_drives_that_may_hide(source) or _drives_that_may_break(source))
 
 
-def _looked_at(source: KernelSource) -> list[_Search]:
-    """Return the searches for what no run goes over.
+def _searches(source: KernelSource) -> list[_Search]:
+    """Return the searches for jumps that no run can pass, by drive.
 
-    Without freedom these are infinite rates too, of drives whose corners are found otherwise.
+    For kinematic scenes these include infinite rates of drives whose switching points are found otherwise.
     """
-    found: list[_Search] = [(drive, tree, _jumps) for drive, tree in _that_may_hide(source)]
-    found += [(drive, tree, _first_break) for drive, tree in _that_may_break(source)]
+    found: list[_Search] = [(drive, tree, _find_jumps) for drive, tree in _drives_that_may_hide(source)]
+    found += [(drive, tree, _find_first_break) for drive, tree in _drives_that_may_break(source)]
     known = {drive for drive, *_ in found}
-    others = () if _integrates(source) else _with_drives(source)
-    return found + [(drive, tree, _unbounded) for drive, tree in others if drive not in known and _hides(tree)]
+    others = () if _integrates(source) else _drive_expressions(source)
+    return found + [
+        (drive, tree, _find_unbounded)
+        for drive, tree in others
+        if drive not in known and _may_hide_switching_point(tree)
+    ]
 
 
 def first_jumps(
     source: KernelSource, p: Array, t0: float, ends: Sequence[float], left_out: Container[int] = ()
 ) -> dict[int, Jump]:
-    """Return the first jump that each run meets after t0 until its end (s), by its number; p (runs, numbers).
-
-    The same drives are looked at once.
+    """Return the first jump of each run between t0 and its end (s), by index; parameter values p (runs, values).
+    Drives with equal parameter values are searched once. Runs in `left_out` are skipped.
     """
     first, known = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
-    for drive, tree, search in _looked_at(source):
+    for drive, tree, search in _searches(source):
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
         for i, t1 in enumerate(ends):
@@ -100,37 +109,38 @@ def first_jumps(
 
 
 def _integrates(source: KernelSource) -> bool:
-    """Whether a jump is an impulse on what is free; else the linkage follows it, as far as rates are numbers there."""
+    """Return whether a jump would cause an impulse on degrees of freedom; else the linkage just follows it."""
     return bool(source.drives) and KINEMATIC not in source.methods
 
 
-def _with_drives(source: KernelSource) -> list[tuple[str, Expr]]:
-    """All drives with their expressions."""
+def _drive_expressions(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Return all drives with their expressions."""
     return [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
 
 
-def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Drives whose corners the generator may not have found."""
+def _drives_that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Return the drives that may have switching points which the generator has not found."""
     return [
         (drive, tree)
-        for drive, tree in _with_drives(source)
-        if _hides(tree) and drive not in source.rate_jumps and CORNERED.isdisjoint(functions(tree))
+        for drive, tree in _drive_expressions(source)
+        if _may_hide_switching_point(tree) and drive not in source.rate_jumps and CORNERED.isdisjoint(functions(tree))
     ]
 
 
 def end_before(jump: Jump, t0: float) -> float:
-    """Return the time (s) before which the last sample of a run from t0 is."""
+    """Return the time (s) before which the last sample of a run from t0 must lie that meets a jump."""
     return jump.t - (1e-10 * max(abs(t0), abs(jump.t)) if jump.breaks else 0.0)  # at the jump it is on either side
 
 
 def jump_failure(source: KernelSource, jump: Jump) -> SolverError:
-    """Return the error that a run ends with which came to a jump."""
+    """Return the error that ends a run at a jump of a drive."""
     why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
-    told = _told(jump, "the impulse there would be left out" if _integrates(source) else why)
+    told = _jump_message(jump, "the impulse there would be left out" if _integrates(source) else why)
     return (NonFiniteError if jump.told else SolverError)(told, jump.t)
 
 
-def _told(jump: Jump, why: str) -> str:
+def _jump_message(jump: Jump, why: str) -> str:
+    """Return the error message of a jump; `why` says what makes it an error."""
     if jump.told:
         return f"{jump.told}\n  {NO_NUMBER}"
     if jump.kind == "infinite rate":
@@ -150,37 +160,48 @@ def _told(jump: Jump, why: str) -> str:
     )
 
 
-def _hides(tree: Expr) -> bool:
-    """Whether there is a function, a broken power or a division in it that may hide a corner."""
+def _may_hide_switching_point(tree: Expr) -> bool:
+    """Return whether an expression has a function, a broken power or a division that may hide a switching point."""
     match tree:
         case Unary(operand=operand):
-            return _hides(operand)
+            return _may_hide_switching_point(operand)
         case Binary(operator=operator, left=left, right=right):
             whole = isinstance(right, Number) and (operator == "/" or right.value == round(right.value) >= 0)
-            return operator in ("**", "/") and not whole or _hides(left) or _hides(right)
+            return (
+                operator in ("**", "/")
+                and not whole
+                or _may_hide_switching_point(left)
+                or _may_hide_switching_point(right)
+            )
         case Call(function=function, arguments=arguments):
-            return function in _HIDING or any(map(_hides, arguments))
+            return function in _HIDING or any(map(_may_hide_switching_point, arguments))
     return False
 
 
-def _that_may_break(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Drives whose corners the generator has found, and whose branches may not meet there."""
-    return [(drive, tree) for drive, tree in _with_drives(source) if not JUMPING.isdisjoint(functions(tree))]
+def _drives_that_may_break(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Return the drives with where or mod, whose branches may not meet at their switching points."""
+    return [(drive, tree) for drive, tree in _drive_expressions(source) if not JUMPING.isdisjoint(functions(tree))]
 
 
 @np.errstate(all="ignore")
-def _first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    """The first time at which a drive jumps, its end among them, where the last sample is on either side; or none."""
+def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    """Return the first time at which a drive's value jumps, as a list of one Jump, or an empty list.
+
+    The end is included: the last sample may lie on either side of it.
+    """
     behind = AT_THE_END * (t1 - t0)
     t1 += behind
     info = next(info for info, _ in trees(source, ("drives",)) if info.address.split(".")[1] == drive)
     undefined = undefined_at_a_corner(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
     if undefined:
         t1 = undefined[1]
-    share, h = _share(source, p, tree, t0, t1, "reflect"), (t1 - t0) / GRID  # the last place may stand out too
+    share, h = (
+        _curvature_ratio(source, p, tree, t0, t1, "reflect"),
+        (t1 - t0) / GRID,
+    )  # the last place may stand out too
     for k in np.flatnonzero(share > 3.0)[:MOST_CORNERS].tolist():
         at = t0 + (k + 1) * h
-        jump = _follow(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
+        jump = _classify_jump(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
         if jump and jump.kind == "value":
             near = of_time(source, p, tree, np.array([at - h, at, at + h]))
             if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else the corner of a rate, so near an end
@@ -188,8 +209,8 @@ def _first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: flo
     return [Jump(drive, t1, "no number", np.nan, breaks=True, told=undefined[0])] if undefined else []
 
 
-def _share(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, beyond: Any = "edge") -> Array:
-    """How far second differences on the grid stand out of those around them, (GRID - 1,)."""
+def _curvature_ratio(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, beyond: Any = "edge") -> Array:
+    """Return the ratio (GRID − 1,) of second differences on the grid to the median of those around them."""
     f = of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
     bent = np.abs(np.diff(f, 2))
     around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode=beyond), 17), axis=1)
@@ -197,25 +218,30 @@ def _share(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, bey
 
 
 @np.errstate(all="ignore")
-def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    share = _share(source, p, tree, t0, t1)
+def _find_jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    """Return the hidden jumps of one drive between t0 and t1 (s), at most MOST."""
+    share = _curvature_ratio(source, p, tree, t0, t1)
     outstanding = [k for k in np.argsort(-share, kind="stable")[: 4 * MOST].tolist() if share[k] > 3.0]
     found: list[Jump] = []
     h = (t1 - t0) / GRID
     for k in outstanding:
         at = t0 + (k + 1) * h
         if len(found) < MOST and all(abs(at - jump.t) > 2.5 * h for jump in found):
-            jump = _follow(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
+            jump = _classify_jump(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
             found += [jump] if jump else []
     return found
 
 
-def _unbounded(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    return [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
+def _find_unbounded(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    """Return the hidden jumps of a drive that leave its rate infinite or its value discontinuous."""
+    return [jump for jump in _find_jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
 
 
-def _follow(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:
-    """To ever shorter distances, as long as more is left of the differences than rounding."""
+def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:
+    """Classify a candidate between a and b (s) by second differences on shorter and shorter intervals.
+
+    Return None if the drive is smooth there, or not a number.
+    """
     logs: list[float] = []
     sizes: list[float] = []  # of the rate's change
     for _ in range(LEVELS):

@@ -1,18 +1,17 @@
-"""How far a run can be trusted: impacts multiply small differences until two honest runs have nothing in common.
+"""Compute the predictability horizon of a run: the time up to which it agrees with perturbed repetitions.
 
-`simulate(..., horizon=True)` repeats the run, with a tolerance a hundred times tighter (a step four times smaller), and
-from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond, it is one of many that
-the same numbers allow, and only its statistics mean anything. The horizon is the last of the compared times before the
-run and one of its repetitions part by a quarter: of the radial clearance, in the path of a journal (orbits part for the
-eye); in a scene without play of the mechanism's size, of 1 rad in an angle.
+`simulate(..., horizon=True)` repeats the run with a tolerance a hundred times tighter (or a step four times smaller),
+and from a start that is moved by 1e-12. Impacts amplify such differences. Beyond the horizon, the trajectory is one
+of many that the same parameters allow, and only its statistics are meaningful. The horizon is the last compared time
+before the run and a repetition differ by a quarter of the radial clearance, in the path of a journal. Without play,
+the limit is a quarter of the mechanism's size, and of 1 rad for angles.
 
-Neither t_end nor the output of the run enter. Steps do not depend on them, but for one that an end cuts short, and what
-is compared lies on a ladder of times that is the same for every run: 4,000 between 4^k s and 4^(k + 1) s after the
-start, from the bottom up, until the runs part. So the resolution is 2e-4 of the horizon or better. Runs that part on
-the rung that t_end cuts off are compared again on all of it.
+Neither t_end nor the output of the run enter. Times are compared at 4,000 points between 4^k s and 4^(k + 1) s after
+the start, for increasing k, until the runs differ. The resolution is thus 2e-4 of the horizon or better. If the runs
+differ in the interval that t_end cuts off, that whole interval is compared again.
 
-It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
-What all runs may be believed to on the average is ln(apart/error)/λ, where λ is known: Lyapunov.believable.
+The horizon belongs to the run, not to the scene: each digit of tolerance extends it, until rounding dominates. With
+the Lyapunov exponent λ, its mean over all runs is ln(apart/error)/λ: Lyapunov.believable.
 """
 
 from __future__ import annotations
@@ -36,16 +35,16 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
 
-APART = 0.25  # see above: of the clearance, where orbits part for the eye; dry motion is on a plateau below it
-MOVED = 1e-12  # a relative tolerance (integrators/adaptive.py): as much as one step of such a run may err
-TIGHTER, SHORTER = 100.0, 4.0  # tolerance, step
+APART = 0.25  # of the clearance: difference at which runs count as parted
+MOVED = 1e-12  # relative change of the start: about the error of one step at this tolerance (integrators/adaptive.py)
+TIGHTER, SHORTER = 100.0, 4.0  # factors of tolerance and of step between the run and the more accurate one
 UNFINISHED = "interrupted while its horizon was sought: the run is complete, how far to trust it is not known"
-TIMES = 4000  # compared times on a rung of the ladder: the horizon's resolution
-SHORTEST = 1.0 / 256.0  # of the run's length, about: the ladder's lowest rung
+TIMES = 4000  # compared times between 4^k s and 4^(k + 1) s: the horizon's resolution
+SHORTEST = 1.0 / 256.0  # of the run's length, about: the end of the first compared interval
 
 
 def with_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
-    """The run with diagnostics.horizon; see `horizon`. After Ctrl-C the run itself, complete, and a note."""
+    """Return the run with diagnostics.horizon; see `horizon`. After Ctrl-C, the complete run with a note."""
     try:
         found, interrupted = horizon(simulation, run, progress), False
     except KeyboardInterrupt:
@@ -57,24 +56,24 @@ def with_horizon(simulation: Simulation, run: Result, progress: Progress | None 
 
 
 def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
-    """Time (s) up to which a run agrees with its repetitions; inf: to its end.
+    """Return the time (s) up to which a run agrees with its repetitions; inf: to its end.
 
-    The runs are those of `run.diagnostics.method`, from the run's start to its last sample. A repetition that
-    ends early (an error) is compared as far as it came. Ctrl-C is passed on. `apart`: see above.
+    The runs use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error ends is
+    compared as far as it came. Ctrl-C is passed on. `apart`: limit of the difference, as in the head of this file.
     """
     begin, t1 = begin_of(run), float(run.t[-1])
     t0 = begin.t
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
     usual, tighter = settings_of(run)
-    variants = ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual))
+    variants = ((begin, usual), (begin, tighter), (_perturb_start(simulation, run, begin), usual))
     known = t0
-    for times in _ladder(t0, t1):
+    for times in _intervals_to_compare(t0, t1):
         cut = times[-1] > t1
         within = np.append(times[times < t1], t1) if cut else times
-        found = _parting(simulation, within, variants, progress, apart)
+        found = _find_parting(simulation, within, variants, progress, apart)
         if cut and found is not None:
-            longer = _parting(simulation, times, variants, progress, apart)
+            longer = _find_parting(simulation, times, variants, progress, apart)
             found = longer if longer is not None and known < longer <= t1 else found
         if found is not None:
             return max(known, found)
@@ -82,8 +81,10 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     return math.inf
 
 
-def _ladder(t0: float, t1: float) -> Iterator[Array]:
-    """Times to compare, rung by rung: each TIMES long and four times as far as the one before; t1 is on the last."""
+def _intervals_to_compare(t0: float, t1: float) -> Iterator[Array]:
+    """Yield arrays of TIMES times to compare, each ending four times as far from t0 as the one before; the last has
+    t1.
+    """
     top = 4.0 ** math.floor(math.log(SHORTEST * (t1 - t0), 4.0))
     low, last = 0.0, False
     while not last:
@@ -92,14 +93,14 @@ def _ladder(t0: float, t1: float) -> Iterator[Array]:
         low, top = top, 4.0 * top
 
 
-def _parting(
+def _find_parting(
     simulation: Simulation,
     times: Array,
     variants: Iterable[tuple[State, dict[str, Any]]],
     progress: Progress | None,
     apart: float,
 ) -> float | None:
-    """Of runs from these starts with these settings: the last of the times (s) before they part; None: they do not."""
+    """Run the variants (start, settings) and return the last time (s) before they differ; None if they agree."""
     runs = []
     for start, settings in variants:
         other = repeated(simulation, times, start, settings, progress)
@@ -108,7 +109,7 @@ def _parting(
         if other.diagnostics.interrupted:
             raise KeyboardInterrupt
         runs.append(other)
-    agreed, parted = _agreement(simulation, runs, apart)
+    agreed, parted = _compare_runs(simulation, runs, apart)
     return agreed if parted else None
 
 
@@ -121,18 +122,20 @@ def repeated(
     peaks: tuple[str | Rubbing, ...] = (),
     stop: bool = False,
 ) -> Result | None:
-    """A run through `times`, as far as it goes, None: not even from the start; `stop`: whether events may end it."""
+    """Return a run through `times`, as far as it goes, or None if it fails at its start. `stop`: events may end it."""
     try:
         return simulation.simulate(output=times, start=start, progress=progress, stop=stop, peaks=peaks, **settings)
     except SolverError as error:
         return cast("Result | None", error.partial)
 
 
-def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> tuple[float, bool]:
-    """The last compared time (s) at which the first run is no further than `limit` from each of the others, and whether
-    that is where they part or one of them ends."""
+def _compare_runs(simulation: Simulation, runs: list[Result], limit: float) -> tuple[float, bool]:
+    """Return the last compared time (s) at which all runs are within `limit` of the first, and whether they part.
+
+    They also part where one of them ends early.
+    """
     count = min(len(run.t) for run in runs)
-    paths = [_path(simulation, run)[:count] for run in runs]
+    paths = [_compared_coordinates(simulation, run)[:count] for run in runs]
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
     apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
     last = int(apart[0]) - 1 if len(apart) else count - 1
@@ -140,8 +143,8 @@ def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> tupl
     return agreed, bool(len(apart)) or any(len(run.t) > count for run in runs)
 
 
-def _path(simulation: Simulation, run: Result) -> Array:
-    """What is compared, (N, …): e/c of all journals, or all coordinates of a scene without play."""
+def _compared_coordinates(simulation: Simulation, run: Result) -> Array:
+    """Return the compared coordinates (N, …): e/c of all journals, or all coordinates of a scene without play."""
     if run.source.clearances:
         scaled = [
             run[f"{joint.name}.{axis}"] / run.p[joint.clearance]
@@ -149,15 +152,16 @@ def _path(simulation: Simulation, run: Result) -> Array:
             for axis in ("ex", "ey")
         ]
         return np.stack(scaled, axis=1)
-    return np.asarray(run.q / np.where(_angles(run), 1.0, mechanism_size(simulation.compiled, run.p)))
+    return np.asarray(run.q / np.where(_is_angle(run), 1.0, mechanism_size(simulation.compiled, run.p)))
 
 
-def _angles(run: Result) -> Any:
+def _is_angle(run: Result) -> Any:
+    """Return a mask (n,) of the coordinates that are angles."""
     return np.array([name.endswith(".theta") for name in run.source.coordinates])
 
 
 def check_own(simulation: Simulation, run: Result, asked: str) -> None:
-    """BadValueError for a run of another scene, or a file of it that has no scene, and for what is neither."""
+    """Raise BadValueError unless `run` is a Result of `simulation`'s scene. `asked` names the caller in messages."""
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
@@ -168,7 +172,7 @@ def check_own(simulation: Simulation, run: Result, asked: str) -> None:
 
 
 def settings_of(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Arguments of simulate for the run as it was, and for the more exact one."""
+    """Return the arguments of simulate that repeat a run, and those of a more accurate one."""
     from gudgeon.simulation.arguments import METHODS
 
     d = run.diagnostics
@@ -182,23 +186,26 @@ def settings_of(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 def _tolerances(simulation: Simulation, run: Result) -> Array:
-    """As integrators/adaptive.py has them at MOVED, of all bodies: coordinates, then velocities a unit of speed."""
+    """Return the error tolerance of each coordinate and velocity (2n,) at the relative tolerance MOVED.
+
+    They are those of integrators/adaptive.py; velocities are per unit of speed.
+    """
     length, size = lengths(simulation.compiled, run.p)
-    of_q = MOVED * np.where(_angles(run), length / size, length)
+    of_q = MOVED * np.where(_is_angle(run), length / size, length)
     return np.concatenate([of_q, np.full(len(of_q), MOVED)])
 
 
 def begin_of(run: Result) -> State:
-    """The start of a run, as a state to start from: the one that it was given, or its first sample."""
+    """Return the start of a run as a state to resume from: the state it was given, or its first sample."""
     if run.begun is not None:
         return replace(run.begun, parameters=run.final.parameters)
     run = run.start_row or run
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
 
 
-def _moved(simulation: Simulation, run: Result, start: State) -> State:
-    """The start moved by MOVED in a direction drawn once and for all, and back onto the constraints."""
-    angle, n = _angles(run), len(start.q)
+def _perturb_start(simulation: Simulation, run: Result, start: State) -> State:
+    """Return the start moved by MOVED in a fixed random direction and projected onto the constraints."""
+    angle, n = _is_angle(run), len(start.q)
     draw = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
     scale = draw * _tolerances(simulation, run)

@@ -1,14 +1,13 @@
-"""The largest Lyapunov exponent of a scene's motion, and of its returns to a section.
+"""Compute the largest Lyapunov exponent of a scene's motion, and of its returns to a Poincaré section.
 
-The run goes on interval by interval, each from where the last one ended, and with it a neighbour: as a second run
-(neighbours.py), or in the tangent (tangent.py), which is chosen where the Jacobian says all of how neighbours move. Of
-a section that knows no clock, differences along the motion are taken away (they neither grow nor die out), so that what
-is left is the exponent of the map from return to return; where the file's drives or forces read t, or the section is
-a period, all differences are between states at one time and there is nothing to be taken away.
+The run proceeds in intervals, together with a neighbouring state. The neighbour is a second run (neighbours.py), or a
+tangent vector (tangent.py) where the Jacobian describes all that neighbours do. At a section of an autonomous scene,
+differences along the motion are removed, since they neither grow nor decay. What remains is the exponent of the return
+map. If drives or forces depend on t, or the section is a period, nothing is removed.
 
-Returns to a section are states at an event of the file, or once a period, gathered run by run. A point of them has
-lengths over the mechanism's size, cosine and sine of angles, velocities over their largest rms and, of joints with
-play, e/c: what happens within a clearance is far too small for the size to show.
+Returns to a section are states at an event of the file, or once per period. A point of the section contains lengths
+over the mechanism's size, cosine and sine of angles, and velocities over their largest rms. Joints with play add e/c,
+because motion within a clearance is too small for the mechanism's size to show.
 """
 
 from __future__ import annotations
@@ -46,17 +45,18 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-WAYS = ("auto", "tangent", "twin")
-RTOL = 1e-12  # of the runs, unless told otherwise: far below what neighbours are apart
-LOOSEST = 1e-10  # of twins: where only one of both takes another step, they part by what steps err by
+WAYS = ("auto", "tangent", "twin")  # methods for the growth of differences
+RTOL = 1e-12  # default tolerance of the runs: far below the distance of neighbours
+# loosest tolerance of a second run: if only one run takes another step, they differ by the error of the step
+LOOSEST = 1e-10
 LOOKED = 1000  # samples by which the motion is measured
-INTERVALS = 60  # of the time, and once a period at least
-SHORTEST = 2.0**-12  # of an interval
-ON_TIME = 1e-6  # of a period
+INTERVALS = 60  # number of intervals of the time; at least one per period
+SHORTEST = 2.0**-12  # shortest interval, relative to the longest
+ON_TIME = 1e-6  # of a period: by which a time may differ from a multiple of it
 
 
 def no_tangent(source: KernelSource) -> str:
-    """Why the Jacobian does not say all of how neighbours move; "" where it does."""
+    """Return why the Jacobian does not describe all motions of neighbours; "" where it does."""
     if source.no_slopes:
         return source.no_slopes
     if source.states:
@@ -84,7 +84,7 @@ def lyapunov(
     start: State | None,
     progress: Progress | None,
 ) -> Lyapunov:
-    """See Simulation.lyapunov."""
+    """Return the Lyapunov exponent of the motion; arguments as in Simulation.lyapunov."""
     source = simulation.source
     t_end: float | str
     if isinstance(until, Result):
@@ -93,16 +93,16 @@ def lyapunov(
         t_end = until
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
-    why = _way(source, text(by, "by"))
-    settings = _settings(settings, why is not None)
-    begin = _settled(simulation, skip, settings, parameters, start)
+    why = _reason_for_twin(source, text(by, "by"))
+    settings = _run_settings(settings, why is not None)
+    begin = _settled_start(simulation, skip, settings, parameters, start)
     looked = simulation.simulate(t_end, output=LOOKED, stop=False, peaks=(), progress=progress, **begin, **settings)
     if looked.diagnostics.interrupted:
         raise KeyboardInterrupt
     returns = Returns.of(looked, section)
     measure = Neighbours.of(looked, simulation.compiled)
     _refuse_short(looked, measure)
-    transverse = bool(returns.event) and not _clock(source)
+    transverse = bool(returns.event) and not _depends_on_time(source)
     arguments = (simulation, measure, settings, begin_of(looked), transverse)
     pair = Twin(*arguments) if why is not None else Tangent(*arguments, Flow(simulation.compiled, looked))
     t, growth = [float(looked.t[0])], []
@@ -124,7 +124,7 @@ def lyapunov(
 
 
 def slow_tangent(source: KernelSource) -> str:
-    """Return why `auto` takes a twin although the tangent knows how neighbours move; "" where it does not."""
+    """Return why `auto` follows a second run although the tangent would do; "" where the tangent is fast."""
     films = [joint.name for joint in source.clearances if joint.film]
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
 
@@ -144,7 +144,10 @@ def _of_run(
     start: State | None,
     settings: dict[str, Any],
 ) -> tuple[float, State, dict[str, Any]]:
-    """End, start and settings of a run; a tolerance is not its own, but what a neighbour needs."""
+    """Return end, start and settings of simulate for the exponent of a given run, with the tolerance of neighbours.
+
+    Raises BadValueError for a run of another scene, or if parameters or a start are given too.
+    """
     check_own(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
         hint = "leave out parameters and start"
@@ -157,7 +160,10 @@ def _of_run(
 def _intervals(
     pair: Twin | Tangent, begin: float, end: float, period: float, progress: Progress | None
 ) -> Iterator[tuple[Result, float]]:
-    """Runs one after the other, with ln of the growth in each; ends of periods are ends of intervals."""
+    """Yield the run of each interval and ln of the growth of the difference in it.
+
+    Intervals are halved where the difference grows too much; ends of periods are ends of intervals.
+    """
     longest = (end - begin) / INTERVALS
     if period:
         longest = period / math.ceil(period / longest)
@@ -176,8 +182,8 @@ def _intervals(
             progress((t - begin) / (end - begin), "following a neighbour")
 
 
-def _way(source: KernelSource, by: str) -> str | None:
-    """None: by the tangent; else why not. Raises BadValueError."""
+def _reason_for_twin(source: KernelSource, by: str) -> str | None:
+    """Return None if the tangent is used, else the reason for a second run. Raises BadValueError."""
     if by not in WAYS:
         refuse("by", by, f"one of {', '.join(WAYS)}")
     why = no_tangent(source)
@@ -187,8 +193,8 @@ def _way(source: KernelSource, by: str) -> str | None:
     return None if by == "tangent" or (by == "auto" and not why) else why
 
 
-def _settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
-    """Arguments of simulate for all runs. Raises BadValueError for a tolerance that twins would see."""
+def _run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
+    """Return the arguments of simulate for all runs. Raise BadValueError for a tolerance too loose for a second run."""
     given = {name: value for name, value in settings.items() if value is not None}
     if given.get("step") is not None or str(given.get("method")) == "rk4":
         return given
@@ -200,18 +206,21 @@ def _settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
 
 
 def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
-    """The tolerance of runs beside a neighbour, where that of others is `rtol`: no looser than a twin may have it."""
+    """Return the tolerance of runs with a neighbour, where that of other runs is `rtol`.
+
+    It is at most LOOSEST where a second run is followed.
+    """
     return min(rtol, LOOSEST) if rtol is not None and (no_tangent(source) or slow_tangent(source)) else rtol
 
 
-def _settled(
+def _settled_start(
     simulation: Simulation,
     skip: float | str,
     settings: dict[str, Any],
     parameters: Mapping[str, float | str] | None,
     start: State | None,
 ) -> dict[str, Any]:
-    """Further arguments of simulate for the run that is looked at: it begins where the motion has settled."""
+    """Return the start and parameters of the measured run, which begins after the motion has settled for `skip` (s)."""
     state = None if start is None else own(simulation.source, start)
     given, is_given, _ = numbers(simulation.compiled, state, parameters)
     p = prepare_slots(simulation.compiled, given, is_given)
@@ -229,57 +238,57 @@ def _settled(
     return {"start": run.final}
 
 
-def _clock(source: KernelSource) -> bool:
-    """Whether a drive or a force reads t."""
+def _depends_on_time(source: KernelSource) -> bool:
+    """Return whether a drive or a force depends on t."""
     return any(name.path == "t" for _, tree in trees(source, ("drives", "forces")) for name in names(tree))
 
 
 @dataclass(eq=False)
 class Returns:
-    """Of `event`, or of `period` (s, 0: none), counted from `begin` (s)."""
+    """Collect the returns of a run to a section: at `event`, or after each `period` (s; 0: none) from `begin` (s)."""
 
     event: str
     period: float
     begin: float
     size: float
     speed: float  # m/s, and 1/s of angles times the size
-    extent: float
+    extent: float  # rms distance of the motion's points from their mean
     t: list[float] = field(default_factory=list)
     points: list[Array] = field(default_factory=list)
 
     @staticmethod
     def of(run: Result, section: str | float | None) -> Returns:
-        """Of a run that shows the whole motion. Raises InputError for a section that is none."""
-        event, period = _wanted(run, section)
+        """Prepare the returns from a run that shows the whole motion. Raise InputError for an invalid section."""
+        event, period = _parse_section(run, section)
         size = float(mechanism_sizes(run.source, run.p))
         per = np.where(angles(run.source), 1.0, size)
         speed = float(np.sqrt(np.mean(np.square(run.v / per), axis=0)).max(initial=0.0)) * size
         found = Returns(event, period, float(run.t[0]), size, speed or size, 0.0)
-        whole = found._of(run)
+        whole = found._points_of(run)
         found.extent = float(np.sqrt(np.mean(np.sum(np.square(whole - whole.mean(axis=0)), axis=1))))
         return found
 
     def note(self, run: Result) -> None:
-        """The returns of a part of the run."""
+        """Add the returns of a part of the run."""
         if self.event:
             at = run.at_events(self.event)
             self.t += at.t.tolist()
-            self.points += list(self._of(at)) if len(at) else []
+            self.points += list(self._points_of(at)) if len(at) else []
         elif self.period:
             turns = (float(run.t[-1]) - self.begin) / self.period
             if round(turns) > 0 and abs(turns - round(turns)) < ON_TIME:
                 self.t.append(float(run.t[-1]))
-                self.points.append(self._of(run)[-1])
+                self.points.append(self._points_of(run)[-1])
 
     def section(self) -> Section | None:
-        """What was gathered; None where no section was asked for."""
+        """Return the collected section, or None if no section was requested."""
         if not (self.event or self.period):
             return None
         points = np.array(self.points) if self.points else np.zeros((0, 1))
         return Section(self.event or f"every {self.period:.6g} s", np.array(self.t), points, self.extent)
 
-    def _of(self, run: Result | AtEvents) -> Array:
-        """(k, d) points of all samples, or of all events."""
+    def _points_of(self, run: Result | AtEvents) -> Array:
+        """Return the points (k, d) of all samples of a run, or of its states at events."""
         source = run.source if not hasattr(run, "all") else run.all.source
         p = run.p if not hasattr(run, "all") else run.all.p
         angle = angles(source)
@@ -298,8 +307,8 @@ class Returns:
         return np.concatenate(parts, axis=1)
 
 
-def _wanted(run: Result, section: str | float | None) -> tuple[str, float]:
-    """The event, or the period (s); "" and 0.0 for none."""
+def _parse_section(run: Result, section: str | float | None) -> tuple[str, float]:
+    """Return the event and the period (s) of the requested section; "" and 0.0 if there is none."""
     if section is None:
         return "", 0.0
     events = [event.name for event in run.source.events]

@@ -1,10 +1,9 @@
-"""Newton's and Euler's equations of single bodies at samples, with the reported forces.
+"""Check the Newton–Euler equations of single bodies at samples, with the reported forces.
 
-For each body m a - m g - sum F and J alpha - sum (M + r x F) are computed from the description of the scene. Nothing of
-the derived equations is used but what the run reports: accelerations, reactions, torques of drives, forces of elements,
-of friction and of contacts, and masses. Left out are bodies of joints with a third body (gears, cams), of rigid
-contacts, of drives of lengths and of what redundancy leaves open, and moments of bodies of joints with play, whose
-forces act at the contact.
+For each body, m a − m g − ΣF and J α − Σ(M + r × F) are computed from the description of the scene. From the derived
+equations only reported results enter: accelerations, reactions, drive torques, forces of elements, friction and
+contacts, and masses. Left out are bodies of joints with a third body (gears, cams), of rigid contacts, of length drives
+and of undetermined reactions. Moments of bodies of joints with play are left out too.
 """
 
 from __future__ import annotations
@@ -19,6 +18,7 @@ from gudgeon.contract.kernel_source import KernelSource, PartInfo, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 
+# for each kind of element, the result that is its force or moment
 ELEMENTS = {
     "spring_damper": "F",
     "force": "Fx",
@@ -27,49 +27,50 @@ ELEMENTS = {
     "rotational_spring_damper": "M",
     "angle": "M",
 }  # of each kind the result that is its force or moment
-LEAST = 1e-300  # N, N m
+LEAST = 1e-300  # N, N m: smallest divisor
 GROUND = PointInfo("", -1, -1, -1)
-Number = tuple[int, float]  # index into p, -1: the value itself
+Number = tuple[int, float]  # index into the parameter values p, or −1 and the value itself
 
 
 @dataclass(frozen=True)
 class Element:
-    """A force element or drive: the force and moment on its second body, and the opposite on its first."""
+    """Describe a force element or drive: its force and moment act on the second body, the opposite on the first."""
 
     kind: str
     first: PointInfo
-    second: PointInfo  # at which they act
-    column: int  # of what the run reports: of series, friction or torques
-    direction: tuple[Number, ...] = ()  # of friction, in the first body
+    second: PointInfo  # points at which force and moment act
+    column: int  # of the reported series, frictions or torques
+    direction: tuple[Number, ...] = ()  # of friction, in the first body's frame
 
 
 @dataclass(frozen=True)
 class Table:
-    """Which forces act on which bodies, of a scene: made once. Joints first, then elements, then joints with play."""
+    """Hold which forces act on which bodies of a scene: joints first, then elements, then joints with play."""
 
-    signs: Array  # (n_bodies, n_forces) 1 where a force on the second body acts, -1 where its reaction
+    signs: Array  # (n_bodies, n_forces) 1 for a force on the second body, −1 for its reaction
     moved: NDArray[np.intp]  # bodies on which all forces are known
-    turned: NDArray[np.intp]  # those on which all moments are, too
-    turning: Array  # (n_turned, n_joints + n_elements) rows of `signs`
+    turned: NDArray[np.intp]  # bodies on which all moments are known, too
+    turning: Array  # (n_turned, n_joints + n_elements) the rows of `signs` of these bodies
     points: tuple[PointInfo, ...]  # (n_joints + n_elements,) at which the forces act
     elements: tuple[Element, ...]
-    gravity: tuple[tuple[int, int], ...]  # its given components: axis, index into p
+    gravity: tuple[tuple[int, int], ...]  # given components: axis, index into p
 
 
 def table_of(source: KernelSource) -> Table:
-    """Return the table of a scene; it is kept with the source."""
+    """Return the table of forces of a scene; it is cached in the source."""
     kept = source.__dict__
     if "newton_euler" not in kept:
-        kept["newton_euler"] = _made(source)
+        kept["newton_euler"] = _build_table(source)
     found: Table = kept["newton_euler"]
     return found
 
 
-def _made(source: KernelSource) -> Table:
+def _build_table(source: KernelSource) -> Table:
+    """Build the table of forces of a scene."""
     places, n = {point.name: point for point in source.points}, len(source.bodies)
     points = [places[joint.point] for joint in source.joints]
     bodies = {"ground", *(body.name for body in source.bodies)}
-    found = [(part, _element(source, part)) for part in source.parts if part.section != "joints"]
+    found = [(part, _element_of_part(source, part)) for part in source.parts if part.section != "joints"]
     elements = tuple(element for _, element in found if element)
     lost = {
         name.partition(".")[0]
@@ -102,8 +103,8 @@ def _made(source: KernelSource) -> Table:
     )
 
 
-def _element(source: KernelSource, part: PartInfo) -> Element | None:
-    """Return a force element or drive as a pair of forces; None where it is none."""
+def _element_of_part(source: KernelSource, part: PartInfo) -> Element | None:
+    """Return a force element or drive as a pair of opposite forces; None for other parts."""
     bodies = {body.name: PointInfo("", body.index, -1, -1) for body in source.bodies}
     places = bodies | {point.name: point for point in source.points}
     if part.kind not in ELEMENTS or not places.keys() >= set(part.ends):
@@ -113,7 +114,7 @@ def _element(source: KernelSource, part: PartInfo) -> Element | None:
     if ELEMENTS[part.kind] == "M" and len(ends) == 2:  # what is reported acts on the first body
         first, second = second, first
     if part.kind == "dry_friction":
-        x, y = (_number(source, f"forces.{part.name}.direction.{axis}") for axis in "xy")
+        x, y = (_parse_number(source, f"forces.{part.name}.direction.{axis}") for axis in "xy")
         return Element(part.kind, first, second, source.frictions.index(part.name), (x, y)) if x and y else None
     if part.section == "drives":
         return Element(part.kind, first, second, [drive.name for drive in source.drives].index(part.name))
@@ -121,8 +122,8 @@ def _element(source: KernelSource, part: PartInfo) -> Element | None:
     return Element(part.kind, first, second, [one.name for one in source.series].index(name))
 
 
-def _number(source: KernelSource, address: str) -> Number | None:
-    """Return a number of the file: its index into p, or its value where that is written; None: an expression."""
+def _parse_number(source: KernelSource, address: str) -> Number | None:
+    """Return a number of the file as an index into p or as its written value; None for an expression."""
     if address in source.place:
         return source.place[address], 0.0
     written = [json.loads(one.tree) for one in source.written if one.address == address]
@@ -130,9 +131,9 @@ def _number(source: KernelSource, address: str) -> Number | None:
 
 
 def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
-    """Return what is left of the equations of each body at samples `at`, as a share of the largest term.
+    """Return the residual of each body's equations at samples `at`, relative to the largest term.
 
-    Of shape (len(at), n_bodies), 0 for bodies that are left out.
+    The shape is (len(at), n_bodies); bodies that are left out have 0.
     """
     table, n = table_of(compiled.source), len(at)
     worst = np.zeros((n, len(compiled.source.bodies)))
@@ -144,7 +145,7 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
     wrenches = np.concatenate(
         [
             evaluation.reactions[at, : len(compiled.source.joints)],
-            *(_wrench(element, p, q, evaluation, at)[:, np.newaxis] for element in table.elements),
+            *(_element_wrench(element, p, q, evaluation, at)[:, np.newaxis] for element in table.elements),
         ],
         axis=1,
     )
@@ -162,8 +163,8 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
     return worst
 
 
-def _wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
-    """Return force and moment of an element on its second body, (n, 3) N and N m; q is (n, n_bodies, 3)."""
+def _element_wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
+    """Return force and moment (n, 3) in N and N m of an element on its second body; q is (n, n_bodies, 3)."""
     wrench = np.zeros((len(at), 3))
     if element.kind == "angle":
         wrench[:, 2] = evaluation.torques[at, element.column]
@@ -174,7 +175,7 @@ def _wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: ND
         wrench[:, 0] = force * (np.cos(theta) * u_x - np.sin(theta) * u_y)
         wrench[:, 1] = force * (np.sin(theta) * u_x + np.cos(theta) * u_y)
     elif element.kind == "spring_damper":
-        span = _world(element.first, p, q) - _world(element.second, p, q)
+        span = _point_coordinates(element.first, p, q) - _point_coordinates(element.second, p, q)
         length = np.maximum(np.hypot(span[:, 0], span[:, 1]), LEAST)
         wrench[:, :2] = (evaluation.series[at, element.column] / length)[:, np.newaxis] * span
     elif element.kind == "force":
@@ -184,8 +185,8 @@ def _wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: ND
     return wrench
 
 
-def _world(point: PointInfo, p: Array, q: Array) -> Array:
-    """Return a point's coordinates, (n, 2) m; q is (n, n_bodies, 3)."""
+def _point_coordinates(point: PointInfo, p: Array, q: Array) -> Array:
+    """Return the coordinates (n, 2) in m of a point; q is (n, n_bodies, 3)."""
     x = point.sign_x * p[point.x] if point.x >= 0 else 0.0
     y = point.sign_y * p[point.y] if point.y >= 0 else 0.0
     body = q[:, point.body] * (point.body >= 0)
@@ -194,12 +195,12 @@ def _world(point: PointInfo, p: Array, q: Array) -> Array:
 
 
 def _moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
-    """Return moments about centres of mass, (n, n_turned, n_joints + n_elements) N m, and the longest arm, m.
+    """Return moments about centres of mass (n, n_turned, n_joints + n_elements) in N m, and the longest arm in m.
 
-    q is (n, n_bodies, 3). The longest arm is that of any body: forces at a body's own centre of mass have no arm, but
-    their moments are known to the rounding of forces times lengths of the linkage.
+    q is (n, n_bodies, 3). The longest arm of any body scales the rounding errors of moments: forces at a body's own
+    centre of mass have no arm.
     """
-    points = np.array([_world(point, p, q) for point in table.points]).reshape(-1, len(q), 2).swapaxes(0, 1)
+    points = np.array([_point_coordinates(point, p, q) for point in table.points]).reshape(-1, len(q), 2).swapaxes(0, 1)
     arms = points[:, np.newaxis] - q[:, :, np.newaxis, :2]
     acts = table.signs[:, : len(table.points)] != 0.0
     longest = float((np.hypot(arms[..., 0], arms[..., 1]) * acts).max(initial=0.0))

@@ -1,8 +1,8 @@
-"""Going on from the `final` of another run: whose state it is, and with which numbers.
+"""Resume a run from the `final` state of another run: check that the state fits, and choose the parameter values.
 
-A state of another mechanism, another scene, another version of the file or other overrides is refused, whatever its
-size; so is one whose arrays have another length. Its run-time numbers are those of the further run unless that is
-given others, and then the run says so. The formulation does not matter: a state has the coordinates of all bodies.
+A state of another mechanism, scene, version of the file or other overrides is refused. The resumed run uses the state's
+parameter values unless it is given others; then a note says so. The formulation does not matter: a state has the
+coordinates of all bodies.
 """
 
 from __future__ import annotations
@@ -27,13 +27,16 @@ from gudgeon.model.contours import put
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.results import State
 
-OPEN = 1e-6  # rad, or share of the mechanism's size: a row that is open further was not left so by a run
+OPEN = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
+# code of an open contact, and a hint for messages
 FREE, AS_IT_WAS = 0, "the `final` of a run has both as they belong together"
-MOST_TOLD = 6  # numbers that a note names
+MOST_TOLD = 6  # largest number of parameters or constraint equations that a message names
 
 
 def own(source: KernelSource, start: Any) -> State:
-    """The state with its arrays as C reads them, copied. Raises BadValueError for one that is not this scene's."""
+    """Return a copy of the state with arrays as C needs them. Raise BadValueError if it does not belong to the
+    scene.
+    """
     if not isinstance(start, State):
         hint = "the `final` of a run" if not hasattr(start, "final") else "its `final`"
         raise BadValueError(f"start is a {type(start).__name__}: expected a State", hint=f"give {hint}")
@@ -55,7 +58,10 @@ def own(source: KernelSource, start: Any) -> State:
 
 
 def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
-    """States of a batch: one for all of `rows` runs or one a run, at one time; empty where none is given."""
+    """Return the states of a batch, one per run, from one for all of `rows` runs or one each; [] without a start.
+
+    Raises BadValueError if their number or their times do not fit.
+    """
     if start is None:
         return []
     single = isinstance(start, State) or not isinstance(start, Iterable) or getattr(start, "ndim", 1) == 0
@@ -73,7 +79,10 @@ def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
 
 
 def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
-    """BadValueError for a contact that is both open and closed: what remembers a rate is closed, what has none open."""
+    """Raise BadValueError for a contact whose code and stored approach speed contradict each other.
+
+    Closed contacts need a finite approach speed, open ones NaN. Inner states and friction modes are checked too.
+    """
     for k, (joint, code, rate) in enumerate(zip(source.clearances, state.tolist(), memory.tolist(), strict=False)):
         if code == FREE and not math.isnan(rate):
             told, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
@@ -95,7 +104,10 @@ def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
 
 
 def _check_origin(source: KernelSource, start: State) -> None:
-    """What is empty in a state made by hand is not compared."""
+    """Raise BadValueError if a state belongs to another mechanism, scene, file or overrides.
+
+    Fields that are empty, as in a state made by hand, are not compared.
+    """
     for name in ("mechanism", "scene", "sha256", "formulation"):
         text(getattr(start, name), f"start.{name}")
     overrides = start.overrides
@@ -107,7 +119,7 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f" this is {source.mechanism} / {source.scene}"
         )
     if start.sha256 not in ("", source.whole_sha256):
-        changed = _changed(source, start)
+        changed = _changed_files(source, start)
         if changed:
             told = f"start: this state was computed with another {' and another '.join(changed)}"
             hint = "go on with what it was computed with, or run this one from its start"
@@ -125,8 +137,8 @@ def _check_origin(source: KernelSource, start: State) -> None:
         )
 
 
-def _changed(source: KernelSource, start: State) -> list[str]:
-    """Laws and tables that say something else now, where the file itself is the same."""
+def _changed_files(source: KernelSource, start: State) -> list[str]:
+    """Return the laws and tables that differ from those of the state, if the file itself is the same."""
     then, now = dict(start.beside), dict(source.beside)
     if replace(source, tables=start.beside, laws=()).whole_sha256 != start.sha256:
         return []
@@ -140,7 +152,10 @@ def numbers(
     parameters: Mapping[str, Any] | None,
     contour: Mapping[str, Array] = MappingProxyType({}),
 ) -> tuple[Array, Array, tuple[str, ...]]:
-    """Values and mask of the slots, (n_slots,) each: the state's, and over them those given; what to say of it."""
+    """Return values and mask (n_slots,) of the given run-time parameters, and notes on them.
+
+    Parameters of the state hold unless they are given anew.
+    """
     given, is_given = given_slots(compiled.source, parameters)
     put(compiled.source, contour, given, is_given)
     if start is None:
@@ -159,7 +174,7 @@ def numbers(
         return both, mask, chosen
     slots = compiled.source.slots
     told = [
-        f"{slots[k].address} {_quantity(has[k], slots[k])} (before {_quantity(had[k], slots[k])})"
+        f"{slots[k].address} {_format_value(has[k], slots[k])} (before {_format_value(had[k], slots[k])})"
         for k in changed[:MOST_TOLD]
     ]
     more = f" and {len(changed) - MOST_TOLD} more" if len(changed) > MOST_TOLD else ""
@@ -174,8 +189,8 @@ def numbers(
 
 
 def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
-    """AssemblyError where the numbers p of a further run leave rows open at the state that it goes on from."""
-    if told := _open(compiled, p, compiled.phi(start.t, start.q, p)):
+    """Raise AssemblyError if the parameter values p leave constraint equations open at the state to resume from."""
+    if told := _violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
         raise AssemblyError(
             f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {told} are open by so much\n"
             "  other lengths close elsewhere, and a drive whose value hangs on t and a changed number stands elsewhere"
@@ -184,16 +199,17 @@ def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
 
 
 def off_constraints(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
-    """A remark on a state to go on from, q, v (n,) at t (s), that is off the constraints: one that was made by hand.
+    """Return a note if the state to resume from, q, v (n,) at t (s), violates the constraints; else ().
 
-    Positions Φ(t, q) = 0 and velocities Φ_q q̇ = ν; of these what rounds away beside their terms is no matter.
+    Positions must satisfy Φ(t, q) = 0, velocities Φ_q q̇ = ν, up to the rounding of their terms. A run never leaves
+    such a state; one made by hand may be.
     """
     source = compiled.source
     with np.errstate(all="ignore"):  # the run itself tells what is not finite
-        told = _open(compiled, p, compiled.phi(t, q, p))
+        told = _violated_equations(compiled, p, compiled.phi(t, q, p))
         if not told:
             phi_q, nu = compiled.phi_q(t, q, p), compiled.nu(t, q, p)
-            told = _open(compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s")
+            told = _violated_equations(compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s")
     if not told:
         return ()
     taken = "the run takes the coordinates that it integrates, and closes the others anew"
@@ -204,8 +220,13 @@ def off_constraints(compiled: CompiledModel, p: Array, t: float, q: Array, v: Ar
     return (f"the state at t = {t:.9g} s is off the constraints, rows {told}: {taken}",)
 
 
-def _open(compiled: CompiledModel, p: Array, by: Array, terms: Array | float = 0.0, rate: str = "") -> str:
-    """Rows that are open `by` more than a run leaves them, beside `terms` (m,) of theirs: "rod.length (0.1 m)"."""
+def _violated_equations(
+    compiled: CompiledModel, p: Array, by: Array, terms: Array | float = 0.0, rate: str = ""
+) -> str:
+    """Return the names of constraint equations violated by more than a run leaves: "rod.length (0.1 m)".
+
+    `by` (m,): residuals; `terms` (m,): sizes of their terms.
+    """
     rows, size = compiled.source.rows, mechanism_size(compiled, p)
     allowed = OPEN * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
     told = [
@@ -217,5 +238,6 @@ def _open(compiled: CompiledModel, p: Array, by: Array, terms: Array | float = 0
     return f"{', '.join(told[:MOST_TOLD])}{more}" if told else ""
 
 
-def _quantity(value: float, slot: Slot) -> str:
+def _format_value(value: float, slot: Slot) -> str:
+    """Return the text of a parameter value with its unit, or its word."""
     return str(said(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()

@@ -1,4 +1,4 @@
-"""`Simulation.simulate_many`: many parameter sets of one scene, in threads."""
+"""Simulate many parameter sets of one scene in threads: `Simulation.simulate_many`."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def simulate_many(
     contour: Any = None,
     audit: bool | str = True,
 ) -> Batch:
-    """See Simulation.simulate_many."""
+    """Run each of many parameter sets and return the Batch; arguments as in Simulation.simulate_many."""
     method, progress = text(method, "method"), function(progress, "progress")
     simulation = simulation.of_method(method, progress)
     compiled, source = simulation.compiled, simulation.source
@@ -80,7 +80,7 @@ def simulate_many(
     if not is_whole(workers) or workers < 1:
         raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
-    series = _kept(source, keep)
+    series = _series_to_store(source, keep)
     chosen = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
     asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
@@ -90,17 +90,17 @@ def simulate_many(
     check_room(compiled, times.most, len(p), series, parts_of(source, series or ()), workers)
     steps = each.lengths_of_steps(chosen, p, times, bad)
     bad |= each.bad
-    return _ran(simulation, starts, (p, motion, steps), times, bad, asked)
+    return _run_batch(simulation, starts, (p, motion, steps), times, bad, asked)
 
 
-def _kept(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
-    """Names of the series to be kept; None: states."""
+def _series_to_store(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
+    """Return the names of the series to be stored, or None if states are stored."""
     if isinstance(keep, str) and keep == STATES:
         return None
     return tuple(name for name in wanted_names(source, keep, "keep") if name != "t")
 
 
-def _ran(
+def _run_batch(
     simulation: Simulation,
     starts: _Starts,
     numbers: tuple[Array, Array, Array],
@@ -108,7 +108,7 @@ def _ran(
     bad: dict[int, Any],
     asked: Asked,
 ) -> Batch:
-    """Runs from start to end. A drive that jumps ends its run before."""
+    """Run all prepared runs to their ends and return the Batch. A drive that jumps ends its run before the jump."""
     p, motion, steps = numbers
     jumps = first_jumps(simulation.source, p, starts.t, times.ends().tolist(), bad)
     own_times = times.before({i: end_before(jump, starts.t) for i, jump in jumps.items()})
@@ -138,13 +138,13 @@ def _ran(
         runs.failures[i] = jump_failure(simulation.source, jumps[i])
     tell_of_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
     results.told = [search.told() if search else Told() for search in searches]
-    batch = _of_runs(results, times)
+    batch = _build_batch(results, times)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What every run of a batch is asked for, checked."""
+    """Hold the checked options that all runs of a batch share."""
 
     method: str
     rtol: float
@@ -152,14 +152,17 @@ class Asked:
     progress: Progress | None
     stop: bool
     side_by_side: bool
-    keep: tuple[str, ...] | None  # series; None: states
-    peaks: tuple[str | Rubbing, ...]  # series whose peaks over all steps are wanted, and what rubs
-    against: Simulation | None  # of those less this scene's
+    keep: tuple[str, ...] | None  # series to store; None: states
+    peaks: tuple[str | Rubbing, ...]  # series whose peaks over all steps are requested, and requests for wear
+    against: Simulation | None  # scene whose series are subtracted
     audit: int  # level of the audit
 
 
 class _Starts:
-    """Numbers of all runs, (n_runs, n_slots), states from which they go on (none: from t = 0), what cannot begin."""
+    """Hold the parameter values (n_runs, n_slots) and start states of all runs, and which of them cannot begin.
+
+    Without states, runs begin at t = 0.
+    """
 
     def __init__(
         self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun, worn: dict[str, Array]
@@ -185,6 +188,7 @@ class _Starts:
         self.given, self.is_given = plain or each_of(rows, self._slots)
 
     def _slots(self, i: int, row: Mapping[str, Any]) -> tuple[Array, Array]:
+        """Return values and mask of the parameters that are given for run i, and store its notes."""
         given, is_given, remarks = numbers(
             self.compiled, self.states[i] if self.states else None, row, of_run(self.worn, i)
         )
@@ -192,7 +196,7 @@ class _Starts:
         return given, is_given
 
     def unfit(self, p: Array, bad: Mapping[int, Any]) -> dict[int, Any]:
-        """Runs whose numbers leave rows open at the state that they go on from, or lay journals too deep."""
+        """Return the errors of runs whose parameter values do not fit their state or start position, by index."""
         found: dict[int, Any] = {}
         source = self.compiled.source
         placed = (source.start_apart or any(one.at_wall for one in source.clearances)) and not self.states
@@ -209,7 +213,7 @@ class _Starts:
         return found
 
     def searches(self, p: Array, bad: Mapping[int, Any], asked: Asked) -> list[Looker | None]:
-        """Who looks at the steps of each run; empty where nobody does."""
+        """Return the step observer of each run, or None for it; an empty list if no peaks are requested."""
         every = range(len(p) if asked.peaks else 0)
         numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
         wanted = (asked.rtol, asked.peaks, asked.against)
@@ -218,23 +222,23 @@ class _Starts:
 
 @dataclass
 class _Results:
-    """The Result of run i from what is stored of it."""
+    """Build the Result of run i from the stored arrays of the batch."""
 
     simulation: Simulation
     runs: many.Runs
     starts: _Starts
     asked: Asked
     kept: KeptSeries | None
-    told: Sequence[Told] = ()  # by run; empty where nobody looked
-    said: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that were checked
+    told: Sequence[Told] = ()  # findings of the step observers by run; empty without observers
+    said: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
 
     def run(self, progress: Progress | None) -> None:
-        """All of them."""
+        """Integrate all runs."""
         self.runs.over = self._take if self.kept or self.runs.drive or left_out(self.runs.compiled) else None
         self.runs.run(progress)
 
     def _take(self, over: Sequence[int]) -> None:
-        """Check runs that are over as C does not, and keep their series."""
+        """Check finished runs for errors that C does not find, and store their requested series."""
         runs = self.runs
         if runs.drive:
             for i in over:
@@ -249,7 +253,7 @@ class _Results:
             self.kept.take(runs, over)
 
     def _check(self, i: int) -> Result:
-        """Run i, which Python drove; by its samples it may have failed."""
+        """Return the Result of run i, which a Python time loop made, and record a failed check."""
         problem, trajectory = replace(self._problem(i), take=self.runs.take), self.runs.trajectory(i)
         made = conclude(problem, trajectory, self.starts.given[i], self.starts.is_given[i])
         made, error = contradicted(problem, trajectory, made)
@@ -261,7 +265,7 @@ class _Results:
         return made
 
     def _problem(self, i: int) -> Problem:
-        """Run i with what is to be said of its start."""
+        """Return the Problem of run i, with the notes on its start."""
         problem, t0, remarks = self.runs.problem(i), self.starts.t, self.starts.remarks[i]
         begin = problem.q, problem.v
         if self.starts.states:
@@ -270,7 +274,7 @@ class _Results:
         return replace(problem, remarks=remarks, begun=self.starts.states[i] if self.starts.states else None)
 
     def __call__(self, i: int) -> Result:
-        """Raises the error of a run that failed, with what it reached."""
+        """Return the Result of run i. Raise the error of a run that failed, with its partial result."""
         runs, error = self.runs, self.runs.failures.get(i)
         if error is not None and not runs.arrays["done"][i]:
             raise error
@@ -285,7 +289,7 @@ class _Results:
         return made
 
     def notes(self) -> dict[int, tuple[str, ...]]:
-        """What runs should say of themselves, as far as it is known without their samples; of those that have any."""
+        """Return the notes of all runs that have any, by index, as far as they are known without samples."""
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
         size = mechanism_sizes(source, x["p"])
@@ -303,13 +307,13 @@ class _Results:
         return found
 
     def bare(self, i: int, parts: frozenset[str]) -> Bare | None:
-        """Run i as ResultOf has it."""
+        """Return the samples of run i without diagnostics, as ResultOf needs them; None without samples."""
         run = bare_of(self.runs, i, parts)
         return without_start(run) if run and self.runs.times.skipped[i] else run
 
 
-def _of_runs(results: _Results, times: Times) -> Batch:
-    """What is stored, without a copy, at the output times that were asked for."""
+def _build_batch(results: _Results, times: Times) -> Batch:
+    """Return the Batch of all runs at the requested output times; arrays are not copied."""
     runs, source, kept = results.runs, results.simulation.source, results.kept
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
     alone = np.flatnonzero((x["done"] == 1) & (times.skipped == 1))  # the start is all that they have
@@ -346,7 +350,7 @@ def _of_runs(results: _Results, times: Times) -> Batch:
 
 
 class KeptSeries:
-    """(n, N) arrays by the name of a series, and "t"; NaN where a run has no sample."""
+    """Store requested series as arrays (n, N) by name, and "t"; NaN where a run has no sample."""
 
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
         self.names, self.parts = ("t", *names), parts_of(source, names)
@@ -355,11 +359,11 @@ class KeptSeries:
         self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
 
     def take(self, runs: Runs, over: Sequence[int]) -> None:
-        """Takes those of some runs; where one cannot be computed, that is what its run failed of."""
+        """Store the series of finished runs. A run whose series cannot be computed has failed."""
         begun = [i for i in over if runs.arrays["done"][i]]
         if len(begun) > 1 and self.columns:
             try:
-                self._take(begun, *_joined(runs, begun, self.parts))
+                self._take(begun, *_join_samples(runs, begun, self.parts))
                 return
             except SolverError:  # of one of them: alone it says which
                 pass
@@ -368,14 +372,14 @@ class KeptSeries:
                 self.take_one(runs, i, run)
 
     def take_one(self, runs: Runs, i: int, run: Result) -> None:
-        """The same of run i, which `run` is."""
+        """Store the series of run i, from its Result."""
         try:
             self._take([i], [len(run.t)], run, int(run.start_row is not None))
         except SolverError as error:
             runs.failures.setdefault(i, error)
 
     def _take(self, begun: Sequence[int], counts: Sequence[int], of: Result, row: int = 0) -> None:
-        """counts[k] samples of run begun[k], one after the other, to rows from `row` on."""
+        """Store the samples of several runs, which follow each other in `of`: counts[k] belong to run begun[k]."""
         columns, first = [(self.arrays[name], of[name]) for name in self.names], 0
         for i, count in zip(begun, counts, strict=True):
             for kept, column in columns:
@@ -384,7 +388,7 @@ class KeptSeries:
 
 
 def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> Bare | None:
-    """The samples of run i; None where there is none."""
+    """Return the samples of run i as a Bare result without diagnostics; None if there is none."""
     if not runs.arrays["done"][i]:
         return None
     n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
@@ -394,8 +398,8 @@ def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> Bare | None:
     return made
 
 
-def _joined(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[list[int], Bare]:
-    """How many samples each of these runs has, and all of them as if they were one's, with the numbers of none."""
+def _join_samples(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[list[int], Bare]:
+    """Return the sample counts of these runs, and their samples joined to one Bare result."""
     compiled, n, each = runs.compiled, runs.compiled.n, [runs.samples(i) for i in begun]
     counts = [len(own[0]) for own in each]
     t, y, memory, state = (np.concatenate(arrays) for arrays in zip(*each, strict=True))

@@ -1,4 +1,4 @@
-"""A loaded scene: call it, read its equations, run it."""
+"""Define Simulation, a loaded scene: evaluate its equations and integrate its motion."""
 
 from __future__ import annotations
 
@@ -46,9 +46,10 @@ if TYPE_CHECKING:
 
 
 class Simulation(Shown):
-    """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once.
+    """Evaluate and simulate a loaded scene; `gudgeon.load` returns it.
 
-    It may be pickled: another process takes its library from the cache.
+    It holds no state, so that several threads may run it at once. It can be pickled: another process loads its library
+    from the cache.
     """
 
     def __init__(
@@ -71,7 +72,9 @@ class Simulation(Shown):
 
     @property
     def model(self) -> Model:
-        """The scene's equations in SymPy, derived when first asked for. InputError if the file was edited since."""
+        """Return the scene's equations in SymPy, derived at the first use. Raise InputError if the file was edited
+        since.
+        """
         if self._model is None:
             whole(*GENERATOR)
             from gudgeon.generator.pipeline import derive
@@ -81,16 +84,18 @@ class Simulation(Shown):
 
     @property
     def full(self) -> Simulation:
-        """The same scene integrated in absolute coordinates, with the Jacobian of its state equation.
+        """Return the same scene in absolute coordinates, with the Jacobian of its state equation.
 
-        Derived from the file when first asked for; InputError if that was edited since it was loaded.
+        It is derived from the file at the first use; InputError if the file was edited since it was loaded.
         """
         return self if self.source.formulation == "full" else self._loaded_as("full")
 
     def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
-        """The same scene as a method wants it: in absolute coordinates for cross-checks, with its series for `taylor`.
+        """Return the same scene as a method needs it: in absolute coordinates for cross-checks, with series for
+        `taylor`.
 
-        Derived when first asked for: BadValueError where the motion is not smooth, InputError as for `full`.
+        Variants are derived at the first use. Raises BadValueError where the motion is not smooth, InputError as
+        `full`.
         """
         if method in python_driver.NAMES:
             if progress and "full" not in {*self._variants, self.source.formulation}:
@@ -100,6 +105,7 @@ class Simulation(Shown):
         return self._loaded_as(needed) if needed else self
 
     def _loaded_as(self, formulation: str) -> Simulation:
+        """Return the scene loaded in another formulation, from the cached variants if possible."""
         from gudgeon.simulation.from_file import load_bytes
 
         if formulation not in self._variants:
@@ -114,13 +120,15 @@ class Simulation(Shown):
         return self._variants[formulation]
 
     def to_html(self) -> str:
-        """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
+        """Return the scene's HTML page: its equations, and above them the running mechanism
+        (gudgeon.web.page.write).
+        """
         from gudgeon.web.page import write
 
         return write(self)
 
     def _loaded_bytes(self) -> bytes:
-        """The file's bytes, if they are still those that the kernels were made from."""
+        """Return the bytes of the mechanism's file. Raise InputError if it, a table or a law changed since loading."""
         from gudgeon.loading.find import laws_now, read_bytes, tables_now
 
         data = read_bytes(self.file)
@@ -139,26 +147,27 @@ class Simulation(Shown):
         return data
 
     def __getstate__(self) -> dict[str, Any]:
-        """What is derived is derived again where it is asked for."""
+        """Return the state for pickling, without derived models and variants."""
         return self.__dict__ | {"_model": None, "_variants": {}}
 
     @property
     def p(self) -> Array:
-        """Every run-time number with the file's defaults: slots, then derived; a copy."""
+        """Return all parameter values with the file's defaults: run-time parameters, then derived ones; a copy."""
         return self._defaults.copy()
 
     @cached_property
     def _defaults(self) -> Array:
+        """Return the parameter values with the file's defaults."""
         return prepare(self.compiled, {})[0]
 
     def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
-        """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
+        """Return ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
         return self.compiled.rhs(t, y, self._defaults, memory)[: 2 * self.compiled.n]
 
     def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
-        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
+        """Return the exact Jacobian ∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; SI.
 
-        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, branches of min, max, abs
         and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
         Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
         """
@@ -166,27 +175,27 @@ class Simulation(Shown):
         return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
 
     def phi(self, t: float, q: ArrayLike) -> Array:
-        """Φ(q, t), (m,)."""
+        """Return the residuals Φ(q, t) of the constraint equations, (m,)."""
         return self.compiled.phi(t, q, self._defaults)
 
     def phi_q(self, t: float, q: ArrayLike) -> Array:
-        """Φ_q, (m, n)."""
+        """Return the constraint Jacobian Φ_q, (m, n)."""
         return self.compiled.phi_q(t, q, self._defaults)
 
     def nu(self, t: float, q: ArrayLike) -> Array:
-        """ν = −Φ_t, (m,)."""
+        """Return the right-hand side ν = −Φ_t of the velocity constraints, (m,)."""
         return self.compiled.nu(t, q, self._defaults)
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike) -> Array:
-        """γ, (m,)."""
+        """Return the right-hand side γ of the acceleration constraints, (m,)."""
         return self.compiled.gamma(t, q, v, self._defaults)
 
     def mass(self) -> Array:
-        """Diagonal of M, (n,)."""
+        """Return the diagonal of the mass matrix M, (n,)."""
         return self.compiled.mass(self._defaults)
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
-        """The assembled start at t = 0. Raises AssemblyError."""
+        """Return the assembled start at t = 0. Raise AssemblyError if the linkage does not close."""
         return assemble(self.compiled, prepare(self.compiled, parameters)[0])
 
     def simulate(
@@ -270,7 +279,7 @@ class Simulation(Shown):
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         if begin is not None and remarks:
             check_fits(self.compiled, begin, p)
-        q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
+        q, v, memory = self._assembled_start(p) if begin is None else (begin.q, begin.v, begin.memory)
         check_start(self.compiled, p, t0, q)
         if begin is not None:
             remarks += off_constraints(self.compiled, p, t0, q, v)
@@ -378,7 +387,7 @@ class Simulation(Shown):
         start: State | None = None,
         progress: Progress | None = None,
     ) -> Lyapunov:
-        """The largest Lyapunov exponent (1/s) of the motion up to t_end (s), with its uncertainty; see Lyapunov.
+        """Return the largest Lyapunov exponent (1/s) of the motion up to t_end (s), with its uncertainty; see Lyapunov.
 
         `by`: "tangent", the variational equation with the exact Jacobian and a jump at each contact; "twin", a second
         run that is led back time after time; "auto" the tangent where it says all of how neighbours move.
@@ -395,7 +404,7 @@ class Simulation(Shown):
         return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
 
     def _ran(self, problem: Problem, given: Array, is_given: Array, search: Looker | None) -> Result:
-        """What the time loop made of it and `search` found. Raises SolverError with `partial`."""
+        """Integrate a prepared run and return its Result with what `search` found. Raise SolverError with `partial`."""
         t0 = float(problem.t[0])
         jump = first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
         if jump:
@@ -415,8 +424,8 @@ class Simulation(Shown):
             raise stopped
         return result
 
-    def _closed(self, p: Array) -> tuple[Array, Array, Array]:
-        """The start that the file describes: q, q̇, and nothing in contact."""
+    def _assembled_start(self, p: Array) -> tuple[Array, Array, Array]:
+        """Return the start that the file describes: q, q̇, and discrete states without contacts."""
         assembled = assemble(self.compiled, p)
         tell_unfollowed(self.compiled, p, assembled.q)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

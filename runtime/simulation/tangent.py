@@ -1,18 +1,16 @@
-"""The growth of differences by the tangent: the variational equation along the run, through its contacts.
+"""Follow differences by the tangent: the variational equation along the run, through its contacts.
 
-δẏ = J δy with the exact Jacobian J at states of the run, panel by panel by Gauss's collocation of order 6. Panels end
-where contacts begin and end, as C located them. They are halved until two things hold: the propagator stands still, and
-it carries the motion's own direction, with t as one more coordinate, from one end to the other: f(b) = P f(a). So no
-corner of a force that is passed between two nodes is missed, however short the time, such as a slip that turns round.
+δẏ = J δy is solved with the exact Jacobian J at states of the run, by Gauss collocation of order 6 on panels. Panels
+end where contacts begin and end. They are halved until the propagator P stands still and carries the motion's own
+direction, with t as one more coordinate: f(b) = P f(a). Thus no short change of a force between two nodes is missed.
 
-There the right-hand side changes from f⁻ to f⁺ on a surface g(y) = 0, and differences pass by the saltation matrix
-S = I + (f⁺ − f⁻) ∇gᵀ/(∇gᵀ f⁻) (M. di Bernardo, C. Budd, A. Champneys, P. Kowalczyk, Piecewise-smooth Dynamical Systems,
-Springer 2008, section 2.5); g is the penetration. A contact remembers δ̇⁻, so its difference is one more coordinate:
-it begins at the onset, with δ(δ̇⁻) = ∇ġ·δy + g̈⁻ δt, δt = −∇g·δy/ġ, and ends with the contact.
+At a contact, the right-hand side changes from f⁻ to f⁺ on a surface g(y) = 0; g is the penetration. Differences are
+multiplied by the saltation matrix S = I + (f⁺ − f⁻) ∇gᵀ/(∇gᵀ f⁻) (M. di Bernardo, C. Budd, A. Champneys, P. Kowalczyk,
+Piecewise-smooth Dynamical Systems, Springer 2008, section 2.5). The difference of the stored approach speed δ̇⁻ is one
+more coordinate. It begins at the onset with δ(δ̇⁻) = ∇ġ·δy + g̈⁻ δt, δt = −∇g·δy/ġ, and ends with the contact.
 
-The motion is a flow in the coordinates that are integrated. Of the reduced formulation these are the coordinates of the
-tree, whose neighbours all joints of the tree allow; of the full one those of all bodies. Gains of Baumgarte's terms are
-zero, as in the methods that project.
+The motion is a flow in the integrated coordinates: those of the tree, or of all bodies in the full formulation.
+Baumgarte's gains are zero, as in the methods that project.
 """
 
 from __future__ import annotations
@@ -36,9 +34,10 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-NUDGE = 1e-5  # share of δ̇⁻ by which it is moved for the slope of forces along it: they hang on 1/δ̇⁻
+NUDGE = 1e-5  # relative change of δ̇⁻ for the slope of forces, which depend on 1/δ̇⁻
 ROOT = np.sqrt(15.0)
-NODES = np.array([0.5 - ROOT / 10, 0.5, 0.5 + ROOT / 10])  # E. Hairer, G. Wanner, Solving ODEs II, table IV.5.2
+# nodes of Gauss's method of order 6: E. Hairer, G. Wanner, Solving ODEs II, table IV.5.2
+NODES = np.array([0.5 - ROOT / 10, 0.5, 0.5 + ROOT / 10])
 BUTCHER = np.array(
     [
         [5 / 36, 2 / 9 - ROOT / 15, 5 / 36 - ROOT / 30],
@@ -47,17 +46,20 @@ BUTCHER = np.array(
     ]
 )
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
-FIRST, DEEPEST = 2, 16  # panels of a stretch; how often one is halved
-CLOSE = 1e-8  # change of a panel's propagator by that
-CARRIED = 1e-4  # share of its rates by which the motion's own direction may be missed
-INSIDE = 1e-6  # of a stretch: how far from its ends rates are those within it
-BESIDE = 1e-9  # of the clearance: how far from the surface f⁻ and f⁺ are taken
-SMALL = 1e-4  # of the clearance: differences of gaps and their rates
-LARGEST = 30.0  # ln of the growth over one interval: beyond it the interval is taken again, shorter
+FIRST, DEEPEST = 2, 16  # initial panels between two contacts, and largest number of halvings
+CLOSE = 1e-8  # largest change of a panel's propagator by halving it
+CARRIED = 1e-4  # of the rates: allowed error of the carried direction of motion
+INSIDE = 1e-6  # of the time between two contacts: distance from its ends at which rates are evaluated
+BESIDE = 1e-9  # of the clearance: distance from the surface at which f⁻ and f⁺ are evaluated
+SMALL = 1e-4  # of the clearance: difference for derivatives of gaps
+LARGEST = 30.0  # ln of the growth over one interval: if it is larger, the interval is repeated with half its length
 
 
 class Flow:
-    """y (2m,) holds m coordinates and their rates; `chain` what drives determine through loops, found from y alone."""
+    """Evaluate the flow of the integrated state y (2m,): m coordinates and their rates, their Jacobian, and gaps.
+
+    `chain` holds the coordinates that drives determine through loops; they follow from y alone.
+    """
 
     def __init__(self, compiled: CompiledModel, run: Result) -> None:
         source = compiled.source
@@ -70,11 +72,12 @@ class Flow:
         self.play = [float(self.p[joint.clearance]) for joint in source.clearances]
         self.depths = [contour_of(source, self.p, joint.name) for joint in source.clearances]
         first = (joint.first for joint in source.clearances)
-        self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]  # of x in q
-        self._lasting()
+        # index into q of the x coordinate of each bearing; −1: ground
+        self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]
+        self._allocate_buffers()
 
-    def _lasting(self) -> None:
-        """Arrays that C reads and fills again and again, tens of thousands of times a run, with its views of them."""
+    def _allocate_buffers(self) -> None:
+        """Allocate the arrays that C reads and fills in tens of thousands of calls, and the pointers to them."""
         compiled, m, size, p = self.compiled, self.m, self.m + self.chained, self.pointers(self.p)
         self._full = np.zeros(compiled.n), np.zeros(compiled.n)
         self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
@@ -89,7 +92,7 @@ class Flow:
         self._node, self._others = of_node[0], others  # C's views alone would not keep them
 
     def reduced(self, t: float, full: Array) -> tuple[Array, Array]:
-        """y (2m,), and the chain's (2, n_chain), of (q, q̇) of all bodies (2n,)."""
+        """Return y (2m,) and the dependent coordinates with rates (2, n_chain), of (q, q̇) of all bodies (2n,)."""
         if not self.tree:
             return full.copy(), np.zeros((2, 0))
         n, m, size = self.compiled.n, self.m, self.m + self.chained
@@ -99,7 +102,7 @@ class Flow:
         return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
 
     def expanded(self, t: float, y: Array, chain: Array) -> Array:
-        """(q, q̇) of all bodies, (2n,)."""
+        """Return (q, q̇) of all bodies, (2n,), of the integrated state y and the dependent coordinates."""
         if not self.tree:
             return y.copy()
         q, v = np.zeros(self.compiled.n), np.zeros(self.compiled.n)
@@ -108,11 +111,11 @@ class Flow:
         return np.concatenate([q, v])
 
     def lifted(self, t: float, y: Array, chain: Array, d: Array, h: float) -> Array:
-        """The difference (2n,) of all bodies that d (2m,) of y is, by central differences with h d."""
+        """Return the difference (2n,) of all bodies for a difference d (2m,) of y, by central differences with h d."""
         return (self.expanded(t, y + h * d, chain) - self.expanded(t, y - h * d, chain)) / (2.0 * h)
 
     def rates(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
-        """ẏ, (2m,). Raises SingularError."""
+        """Return ẏ (2m,) of the integrated state. Raise SingularError."""
         if not self.tree:
             return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.m]
         m, size, (q, v, held) = self.m, self.m + self.chained, self._state
@@ -123,7 +126,7 @@ class Flow:
         return np.concatenate([y[m:], self._a[:m]])
 
     def slopes(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
-        """Slopes of the rates of (y, δ̇⁻, t) along these, (2m + n_clearances + 1) square; δ̇⁻ stays as it is."""
+        """Return the Jacobian of the rates of (y, δ̇⁻, t), (2m + n_clearances + 1) square; the rows of δ̇⁻ are 0."""
         m, node, J = self.m, self._node, self._J
         A = np.zeros((2 * m + self.joints + 1,) * 2)
         node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, chain[0], memory
@@ -140,7 +143,7 @@ class Flow:
         return A
 
     def chain_at(self, t: float, chain: Array) -> Array:
-        """The chain (2, n_chain) at a time near that at which it was this one: drives alone determine it."""
+        """Return the dependent coordinates (2, n_chain) at a time near that of `chain`; drives determine them."""
         if not self.chained:
             return chain
         q, rates = chain[0].copy(), np.zeros(3 * self.chained)
@@ -150,7 +153,7 @@ class Flow:
         return np.stack([q, rates[: self.chained]])
 
     def gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
-        """Penetration δ (m) and δ̇ (m/s) of a joint with play: its rows, were it closed, are ±e."""
+        """Return penetration δ (m) and its rate δ̇ (m/s) of a joint with play at the integrated state."""
         full, n, rows = self.expanded(t, y, chain), self.compiled.n, self.rows[joint]
         if self.compiled.source.clearances[joint].at_wall:
             return corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
@@ -170,13 +173,13 @@ class Flow:
         return gap - worn, approach - slope * turning
 
     def pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
-        """C's views of arrays; an empty one is one number long."""
+        """Return C pointers to arrays; an empty array is replaced by one of one number."""
         return [self.compiled.pointer(array if array.size else np.zeros(1), written=written) for array in arrays]
 
 
 @dataclass(eq=False)
 class Panel:
-    """A part, s to s + width of 0 to 1, of the stretch from a to b (s), with its propagator.
+    """Hold a panel, s to s + width of 0 to 1, of the time from a to b (s) between contacts, with its propagator P.
 
     t = a + (b − a) s² (3 − 2 s): forces begin and end with roots of the penetration, which are smooth in s.
     """
@@ -187,32 +190,32 @@ class Panel:
     width: float
     depth: int = 0
     P: Array | None = None
-    missed: float = 0.0  # share of the motion's own direction
-    change: float = 0.0  # by the last halving
+    missed: float = 0.0  # relative error of the carried direction of motion
+    change: float = 0.0  # of the propagator by the last halving
     halves: tuple[Panel, ...] = ()
 
     @property
     def nodes(self) -> list[tuple[float, float]]:
-        """Times (s) of the three nodes, with dt/ds times the width."""
+        """Return the times (s) of the three nodes, with dt/ds times the width."""
         s = self.s + self.width * NODES
         times, rates = self.a + (self.b - self.a) * s * s * (3.0 - 2.0 * s), 6.0 * (self.b - self.a) * s * (1.0 - s)
         return list(zip(times.tolist(), (self.width * rates).tolist(), strict=True))
 
     @property
     def ends(self) -> list[float]:
-        """Times (s) of both ends, beside those of the stretch."""
+        """Return the times (s) of both ends, kept slightly within the contacts' times."""
         s, length = np.array([self.s, self.s + self.width]), self.b - self.a
         return np.clip(
             self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length, self.b - INSIDE * length
         ).tolist()
 
     def halved(self) -> tuple[Panel, Panel]:
-        """Its two halves, without propagators."""
+        """Return the two halves of the panel, without propagators."""
         h, one = 0.5 * self.width, (self.a, self.b)
         return Panel(*one, self.s, h, self.depth + 1), Panel(*one, self.s + h, h, self.depth + 1)
 
     def whole(self) -> tuple[Array, float]:
-        """Its propagator, of its halves' where there are any, and the changes that are left."""
+        """Return the propagator of the panel, from its halves if there are any, and the remaining change."""
         if not self.halves:
             assert self.P is not None
             return self.P, self.change
@@ -222,7 +225,7 @@ class Panel:
 
 @dataclass(eq=False)
 class Tangent:
-    """`state` of the run, and a difference z of what is integrated, of δ̇⁻ and of t (0), (2m + n_clearances + 1,)."""
+    """Follow a tangent vector z of the integrated state, of δ̇⁻ and of t (0), (2m + n_clearances + 1,), along a run."""
 
     simulation: Simulation
     measure: Neighbours
@@ -230,32 +233,36 @@ class Tangent:
     state: State
     transverse: bool
     flow: Flow
-    merged: int = 0  # differences of the tangent do not end
-    unresolved: float = 0.0  # sum of changes of ln of the growth
+    merged: int = 0  # always 0: tangent vectors do not vanish
+    unresolved: float = 0.0  # sum of the errors of ln of the growth
     z: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        """Take the first tangent vector from a randomly drawn neighbour."""
         t, y = self.state.t, flat(self.state)
         own, _ = self.flow.reduced(t, y)
         other, _ = self.flow.reduced(t, self.measure.drawn(t, y))
         self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints + 1))
-        self.distance = self._apart(self.state, self.z)
+        self.distance = self._tangent_norm(self.state, self.z)
 
     def advance(self, t: float, shortest: bool) -> tuple[Result, float] | None:
-        """To t (s): the run there and the logarithm of the growth; None: the interval is too long."""
+        """Advance the run to t (s); return it and ln of the growth of the tangent vector.
+
+        Return None if the interval is too long, unless it is the `shortest`.
+        """
         run = self._run([t])
-        changes = self._changes(run)
+        changes = self._contact_changes(run)
         places = {t_on for t_on, *_ in changes}
         at = self._samples(sorted(places)) if places else {}
         z, left = self.z, 0.0
-        for panel in self._propagated(sorted({self.state.t, t, *places})):
+        for panel in self._compute_panels(sorted({self.state.t, t, *places})):
             P, change = panel.whole()
             z, left = P @ z, left + change
             for when, joint, onset, deltadot in changes:
                 if when == panel.b and panel.s + panel.width == 1.0:
-                    z = self._through(z, when, joint, onset, deltadot, at[when])
-        z = self._onto(run, z)
-        distance = self._apart(run.final, z)
+                    z = self._pass_contact(z, when, joint, onset, deltadot, at[when])
+        z = self._project_tangent(run, z)
+        distance = self._tangent_norm(run.final, z)
         grown = math.log(distance / self.distance)
         if abs(grown) > LARGEST and not shortest:
             return None
@@ -263,13 +270,14 @@ class Tangent:
         return run, grown
 
     def _run(self, times: list[float] | Array) -> Result:
+        """Return the run from the present state at these times (s)."""
         run = self.simulation.simulate(output=times, start=self.state, stop=False, peaks=(), **self.settings)
         if run.diagnostics.interrupted:
             raise KeyboardInterrupt
         return run
 
-    def _changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
-        """Onsets and ends of contacts within the run: time, joint, whether it begins, δ̇⁻; by time."""
+    def _contact_changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
+        """Return the onsets and ends of contacts within the run, by time: time, joint, is an onset, δ̇⁻."""
         begin, end = self.state.t, float(run.t[-1])
         found = []
         for impact in run.impacts:
@@ -282,30 +290,30 @@ class Tangent:
         return sorted(found)
 
     def _samples(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
-        """(q, q̇) and memory at these times."""
+        """Return (q, q̇) and discrete states at these times (s)."""
         run = with_start(self._run([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
         return {
             t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy()) for t, k in zip(times, rows, strict=True)
         }
 
-    def _propagated(self, places: list[float]) -> list[Panel]:
-        """Panels from the first to the last of these times, whose propagators stand still."""
+    def _compute_panels(self, places: list[float]) -> list[Panel]:
+        """Return panels from the first to the last of these times, halved until their propagators converge."""
         panels = [
             Panel(a, b, k / FIRST, 1.0 / FIRST) for a, b in zip(places, places[1:], strict=False) for k in range(FIRST)
         ]
-        self._fill(panels)
+        self._compute_propagators(panels)
         open_ones = panels
         while open_ones:
             for one in open_ones:
                 one.halves = one.halved()
             halves = [half for one in open_ones for half in one.halves]
-            self._fill(halves)
+            self._compute_propagators(halves)
             further: list[Panel] = []
             for one in open_ones:
                 first, second = one.halves
                 assert first.P is not None and second.P is not None and one.P is not None
-                change = self._difference(second.P @ first.P, one.P)
+                change = self._propagator_difference(second.P @ first.P, one.P)
                 missed = max(first.missed, second.missed)
                 if (change > CLOSE or missed > CARRIED) and first.depth < DEEPEST:
                     further += one.halves
@@ -314,8 +322,8 @@ class Tangent:
             open_ones = further
         return panels
 
-    def _fill(self, panels: list[Panel]) -> None:
-        """Propagators by Gauss's method, K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width."""
+    def _compute_propagators(self, panels: list[Panel]) -> None:
+        """Compute the propagators of panels: K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width."""
         nodes = [panel.nodes for panel in panels]
         known = self._samples(sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends}))
         A = np.array([[rate * self._slopes(t, *known[t]) for t, rate in panel] for panel in nodes])
@@ -325,43 +333,47 @@ class Tangent:
         )
         K = np.linalg.solve(matrix, A.reshape(count, 3 * size, size)).reshape(count, 3, size, size)
         for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
-            panel.P, panel.missed = P, self._missed(P, *(self._rates(t, *known[t]) for t in panel.ends))
+            panel.P, panel.missed = P, self._carry_error(P, *(self._rates(t, *known[t]) for t in panel.ends))
 
     def _rates(self, t: float, full: Array, memory: Array) -> Array:
+        """Return ẏ (2m,) at the state (q, q̇) of all bodies."""
         y, chain = self.flow.reduced(t, full)
         return self.flow.rates(t, y, chain, memory)
 
-    def _missed(self, P: Array, first: Array, last: Array) -> float:
-        """How far P does not lead the rates at a panel's begin to those at its end, as a share of these."""
+    def _carry_error(self, P: Array, first: Array, last: Array) -> float:
+        """Return the relative error with which P carries the rates at a panel's begin to those at its end."""
         w, size = self._weights(), len(first)
         carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
         most = max(float(np.linalg.norm(one / w[:size])) for one in (first, last))
         return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(most, 1e-9 / self.measure.crossing)
 
     def _slopes(self, t: float, full: Array, memory: Array) -> Array:
+        """Return the Jacobian at the state (q, q̇) of all bodies; see Flow.slopes."""
         y, chain = self.flow.reduced(t, full)
         return self.flow.slopes(t, y, chain, memory)
 
     def _weights(self) -> Array:
-        """What counts as 1 of y and of δ̇⁻, (2m + n_clearances,)."""
+        """Return the scales of y and of δ̇⁻, (2m + n_clearances,): differences that count as 1."""
         largest, crossing = float(self.measure.weights[: self.measure.n].max()), self.measure.crossing
         q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
         return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
 
-    def _difference(self, P: Array, Q: Array) -> float:
-        """Of two propagators, in the measure of the differences."""
+    def _propagator_difference(self, P: Array, Q: Array) -> float:
+        """Return the scaled relative difference of two propagators."""
         w = self._weights()
         P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
         return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
 
-    def _through(self, z: Array, t: float, joint: int, onset: bool, deltadot: float, at: tuple[Array, Array]) -> Array:
-        """z behind the onset or the end of a contact."""
+    def _pass_contact(
+        self, z: Array, t: float, joint: int, onset: bool, deltadot: float, at: tuple[Array, Array]
+    ) -> Array:
+        """Return the tangent vector z after the onset or the end of a contact (saltation matrix)."""
         flow, size = self.flow, 2 * self.flow.m
         (y, chain), d = flow.reduced(t, at[0]), z[:size]
         closed, free = at[1].copy(), at[1].copy()
         closed[joint], free[joint] = deltadot, np.nan
         gap, rate = flow.gap(joint, t, y, chain)
-        h = SMALL / self.measure.apart(self._lifted(t, y, chain, d))
+        h = SMALL / self.measure.apart(self._lift_difference(t, y, chain, d))
         ends = [np.array(flow.gap(joint, t, y + s * h * d, chain)) for s in (1.0, -1.0)]
         along, along_rate = (ends[0] - ends[1]) / (2.0 * h)
         later = -along / rate
@@ -376,13 +388,13 @@ class Tangent:
         passed[:size] -= (f[1] - f[0]) * later
         passed[size + joint] = 0.0
         if onset and deltadot < rate * (1.0 + 1e-6):  # else the floor of δ̇⁻, which does not move
-            passed[size + joint] = along_rate + self._turning(joint, t, y, chain, f[0]) * later
+            passed[size + joint] = along_rate + self._gap_acceleration(joint, t, y, chain, f[0]) * later
         return passed
 
-    def _turning(self, joint: int, t: float, y: Array, chain: Array, f: Array) -> float:
-        """g̈ along f, m/s²."""
+    def _gap_acceleration(self, joint: int, t: float, y: Array, chain: Array, f: Array) -> float:
+        """Return the second derivative g̈ (m/s²) of a gap along the rates f."""
         flow, n = self.flow, len(y) // 2
-        lifted = self._lifted(t, y, chain, f)
+        lifted = self._lift_difference(t, y, chain, f)
         lifted[self.measure.n :] = 0.0
         h = SMALL / max(self.measure.apart(lifted), 1.0 / self.measure.crossing)
         rates = [
@@ -393,28 +405,29 @@ class Tangent:
         ]
         return (rates[0] - rates[1]) / (2.0 * h)
 
-    def _onto(self, run: Result, z: Array) -> Array:
-        """z led back into the constraints' tangent, and across the motion where that is wanted."""
+    def _project_tangent(self, run: Result, z: Array) -> Array:
+        """Return z projected onto the constraints' tangent and, if requested, transverse to the motion."""
         t, full, size = float(run.t[-1]), flat(run.final), 2 * self.flow.m
         y, chain = self.flow.reduced(t, full)
         d = z[:size]
         if self.transverse:
             f = self.flow.rates(t, y, chain, run.memory[-1])
-            d = d - f * self.measure.along(self._lifted(t, y, chain, d), self._lifted(t, y, chain, f))
-        h = NEAR / self.measure.apart(self._lifted(t, y, chain, d))
+            d = d - f * self.measure.along(self._lift_difference(t, y, chain, d), self._lift_difference(t, y, chain, f))
+        h = NEAR / self.measure.apart(self._lift_difference(t, y, chain, d))
         ends = [
             self.flow.reduced(t, self.measure.onto(t, self.flow.expanded(t, y + s * h * d, chain)))[0]
             for s in (1.0, -1.0)
         ]
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
 
-    def _lifted(self, t: float, y: Array, chain: Array, d: Array) -> Array:
-        """The difference of all bodies that d is."""
+    def _lift_difference(self, t: float, y: Array, chain: Array, d: Array) -> Array:
+        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state."""
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:
             return np.zeros(2 * self.measure.n)
         return self.flow.lifted(t, y, chain, d, 1e-6 / largest)
 
-    def _apart(self, state: State, z: Array) -> float:
+    def _tangent_norm(self, state: State, z: Array) -> float:
+        """Return the scaled norm of the tangent vector z at a state."""
         y, chain = self.flow.reduced(state.t, flat(state))
-        return self.measure.apart(self._lifted(state.t, y, chain, z[: 2 * self.flow.m]))
+        return self.measure.apart(self._lift_difference(state.t, y, chain, z[: 2 * self.flow.m]))

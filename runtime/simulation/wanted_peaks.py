@@ -1,6 +1,6 @@
-"""Whose peaks a run is asked for, and what it is told of them; they are sought by peaks.py, what rubs by wear.py.
+"""Choose the step observers of a run: peaks of series (peaks.py), wear (wear.py), errors against another scene.
 
-Both are imported where they are. Errors over all steps are taken from another scene at the very times of these steps.
+Errors over all steps are computed from the other scene at the times of these steps.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
-LIST = "a list of names of series"
+LIST = "a list of names of series"  # expected type of the argument `peaks`, for messages
 
 
 class Looker(Protocol):
-    """Who is shown the states of all steps of one run."""
+    """Observe the states of all steps of one run."""
 
     def __call__(self, steps: Steps) -> None:
-        """The next ones."""
+        """Process the next states of the run."""
 
     def told(self) -> Told:
-        """What came of it."""
+        """Return the findings."""
 
 
 def wanted_peaks(source: KernelSource, peaks: Iterable[str | Rubbing] | None) -> tuple[str | Rubbing, ...]:
-    """Names of series whose peaks are wanted: those given, else the scene's, and what rubs.
+    """Return the requested peaks: the given names of series, else those of the scene, and requests for wear.
 
     Raises UnknownNameError, BadValueError.
     """
@@ -61,14 +61,14 @@ def wanted_peaks(source: KernelSource, peaks: Iterable[str | Rubbing] | None) ->
 
 @dataclass(frozen=True)
 class Told:
-    """Of one run: peaks and errors, and what its notes say of them."""
+    """Hold the findings of the observers of one run: extremes, notes and wear."""
 
     extremes: tuple[Extremes, ...] = ()
     notes: tuple[str, ...] = ()
     rubbed: tuple[Rubbed, ...] = ()
 
     def to(self, run: Result) -> None:
-        """They become a part of what a run says of itself."""
+        """Store the findings in the diagnostics of a run."""
         notes = (*run.diagnostics.notes, *self.notes)
         run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes, rubbed=self.rubbed)
 
@@ -80,7 +80,9 @@ def search_of(
     wanted: tuple[str | Rubbing, ...],
     against: Simulation | None,
 ) -> Looker | None:
-    """For a run with these numbers, p, given and is_given; None where nothing is wanted."""
+    """Return the observer of a run with parameter arrays `numbers` (p, given, is_given); None if nothing is
+    requested.
+    """
     found, series = list[Looker](), tuple(one for one in wanted if isinstance(one, str))
     if series:
         from gudgeon.simulation.peaks import Search
@@ -95,24 +97,26 @@ def search_of(
 
 
 class Several:
-    """Who look at one run."""
+    """Combine several observers of one run."""
 
     def __init__(self, lookers: Sequence[Looker]) -> None:
         self.lookers = lookers
 
     def __call__(self, steps: Steps) -> None:
-        """The next states, for each."""
+        """Pass the next states to each observer."""
         for looker in self.lookers:
             looker(steps)
 
     def told(self) -> Told:
-        """What came of all."""
+        """Return the findings of all observers."""
         told = [looker.told() for looker in self.lookers]
         return Told(*(tuple(one for each in told for one in getattr(each, name.name)) for name in fields(Told)))
 
 
 class Beside:
-    """A scene that begins at t = 0 as its file says, with the numbers of the run where it has them too."""
+    """Follow another scene from t = 0, as its file describes, with the parameter values of the run where it has
+    them.
+    """
 
     def __init__(self, simulation: Simulation, source: KernelSource, p: Array, rtol: float) -> None:
         self.compiled = simulation.compiled
@@ -120,22 +124,23 @@ class Beside:
         own = {slot.address for slot in self.compiled.source.slots}
         values = {slot.address: said(slot, float(p[k])) for k, slot in enumerate(source.slots) if slot.address in own}
         self.numbers = prepare(self.compiled, values)
-        self.lost = ""  # why it is followed no further
-        self.problem: Problem | None = None  # from where it goes on
+        self.lost = ""  # reason why it cannot be followed further; "" if it can
+        self.problem: Problem | None = None  # from where it resumes
         self.last: Steps | None = None  # the state there
         self.rtol = rtol
 
     def follow(self, t: Array) -> Steps | None:
-        """Its states at times t (k,), not before those of the last call; None once it cannot be followed."""
+        """Return the scene's states at times t (k,), which do not decrease from call to call; None after a failure."""
         if self.lost:
             return None
         try:
-            return self._follow(t)
+            return self._integrate_to(t)
         except GudgeonError as error:
             self.lost = str(error)
             return None
 
-    def _follow(self, t: Array) -> Steps:
+    def _integrate_to(self, t: Array) -> Steps:
+        """Integrate the scene to the times t (k,) and return its states there."""
         problem = self.problem or self._begin()
         times = np.union1d(problem.t[:1], t)
         if self.last is not None and len(times) == 1:
@@ -151,6 +156,7 @@ class Beside:
         return steps[np.searchsorted(x.t, t)]
 
     def _begin(self) -> Problem:
+        """Return the scene's problem at its start."""
         p, given, is_given = self.numbers
         assembled, method = assemble(self.compiled, p), method_of(self.compiled.source, "auto", False)
         memory = np.full(self.compiled.n_memory, np.nan)
@@ -170,7 +176,7 @@ class Beside:
 
 
 def check_beside(source: KernelSource, against: Simulation | None) -> Simulation | None:
-    """BadValueError for what is no loaded scene of the same mechanism."""
+    """Raise BadValueError unless `against` is a loaded scene of the same mechanism. Return it, or None."""
     if against is None:
         return None
     if not hasattr(against, "compiled") or not hasattr(against, "simulate"):

@@ -1,8 +1,8 @@
-"""How the surfaces of a joint with play rub, step by step: `gudgeon.wear(simulation, run, "A", k=1e-4, hardness=2e9)`.
+"""Compute the wear of a joint with play, step by step: `gudgeon.wear(simulation, run, "A", k=1e-4, hardness=2e9)`.
 
-The run once more, bit for bit. The time loop shows the states of its steps (integrators/steps.py); between neighbours
-in contact motion is the polynomial of degree five through both with their rates and accelerations, forces are those of
-the model at Gauss's points on it. What a point carries is laid on the arc that the contact sweeps about it.
+The run is repeated bit for bit. The time loop passes the states of its steps (integrators/steps.py). Between two states
+in contact, the motion is the polynomial of degree five through both with their rates and accelerations. Forces are
+evaluated at its Gauss points and distributed over the arc that the contact sweeps.
 """
 
 from __future__ import annotations
@@ -31,11 +31,14 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
+# nodes of Gauss's quadrature on 0 to 1, and weights
 NODES, WEIGHTS = 0.5 * (leggauss(4)[0] + 1.0), 0.5 * leggauss(4)[1]
-ENDS = np.concatenate([[0.0], np.cumsum(WEIGHTS)])  # each point's own part lies between two of them
-TO_ENDS = np.vander(ENDS, 4) @ np.linalg.inv(np.vander(NODES, 4))  # times values at the nodes: the polynomial's there
+ENDS = np.concatenate([[0.0], np.cumsum(WEIGHTS)])  # bounds of each node's part of the interval
+# matrix from values at the nodes to those at the bounds
+TO_ENDS = np.vander(ENDS, 4) @ np.linalg.inv(np.vander(NODES, 4))
 MOST_POINTS = 1_000_000
-NOTHING, PRESSURE, SPECIFIC = (0, 0, 0), (-1, 1, -2), (1, -1, 2)  # exponents of m, kg, s: k, H, and k/H in m³/(N·m)
+# exponents of m, kg, s of k, of H, and of k/H in m³/(N·m)
+NOTHING, PRESSURE, SPECIFIC = (0, 0, 0), (-1, 1, -2), (1, -1, 2)
 CONTACT = ("point", "overlap")
 NOT_AGAIN = "the run could not be repeated bit for bit: what rubbed in it is not known"
 
@@ -56,7 +59,7 @@ def wear(
     until: float | None = None,
     progress: Progress | None = None,
 ) -> Wear:
-    """What a joint with dry contact wears off in a run, over the circumferences of bearing and journal.
+    """Return the wear depths of a joint with dry contact in a run, over the circumferences of bearing and journal.
 
     Where it has a film too, by what the touching surfaces bear: what the oil carries wears nothing.
 
@@ -70,7 +73,7 @@ def wear(
     the run of another scene, GudgeonError where the run cannot be repeated. Ctrl-C is passed on.
     """
     check_own(simulation, run, "wear")
-    asked = _asked(run, joint, points, since, until, contact)
+    asked = _check_request(run, joint, points, since, until, contact)
     rates = (
         rate_of(k, hardness, "k", "hardness"),
         rate_of(
@@ -85,10 +88,11 @@ def wear(
     again = as_it_was(simulation, run, run.t, progress, (asked,))
     if again is None:
         raise GudgeonError(NOT_AGAIN)
-    return _of(run, again.diagnostics.rubbed[0], rates, law)
+    return _build_wear(run, again.diagnostics.rubbed[0], rates, law)
 
 
-def _asked(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> Rubbing:
+def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> Rubbing:
+    """Return the checked request for the wear of a joint between `since` and `until` (s)."""
     check_rubs(run.source, joint)
     if text(contact, "contact") not in CONTACT:
         refuse("contact", contact, " or ".join(CONTACT))
@@ -102,7 +106,7 @@ def _asked(run: Result, joint: Any, points: Any, since: Any, until: Any, contact
 
 
 def check_rubs(source: KernelSource, joint: Any) -> None:
-    """UnknownNameError unless the joint has play, BadValueError unless it is known how its surfaces touch."""
+    """Raise UnknownNameError unless the joint has play, BadValueError unless its contact force is known."""
     own = [one for one in source.clearances if isinstance(joint, str) and one.name == joint]
     if not own:
         hint = f"its joints with play: {', '.join(one.name for one in source.clearances) or 'none'}"
@@ -118,7 +122,7 @@ def check_rubs(source: KernelSource, joint: Any) -> None:
 
 
 def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
-    """k/H (1/Pa) of what `wear` is given."""
+    """Return the wear rate k/H (1/Pa) from the arguments of `wear`."""
 
     def number(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
         return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
@@ -128,7 +132,8 @@ def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
     return number(k, k_name, NOTHING) / number(hardness, name, PRESSURE)
 
 
-def _of(run: Result, rubbed: Rubbed, rates: tuple[float, float], law: str) -> Wear:
+def _build_wear(run: Result, rubbed: Rubbed, rates: tuple[float, float], law: str) -> Wear:
+    """Return the Wear of a run from its friction histories."""
     hours = (rubbed.end - rubbed.begin) / HOUR
     bearing, journal = (
         Surface(rubbed.depth(side, law, rate), rubbed.radii[side], rubbed.length, hours)
@@ -140,7 +145,9 @@ def _of(run: Result, rubbed: Rubbed, rates: tuple[float, float], law: str) -> We
 
 
 class Rubs:
-    """Whoever looks at the contacts of a joint over all steps of one run; `told` says what came of it."""
+    """Observe the contacts of a joint over all steps of one run, and add up load and friction over its
+    circumference.
+    """
 
     def __init__(self, compiled: CompiledModel, asked: Rubbing, numbers: tuple[Array, Array, Array]) -> None:
         self.path, self.compiled, self.asked = Path(compiled, numbers, ()), compiled, asked
@@ -152,7 +159,7 @@ class Rubs:
         self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
 
     def __call__(self, steps: Steps) -> None:
-        """The next states of the run."""
+        """Process the next states of the run."""
         path, before = self.path, min(self.seen, 2)
         path.take(steps)
         self.seen += len(steps)
@@ -163,22 +170,22 @@ class Rubs:
         begin, end = (np.clip(x.t[rows], self.asked.begin, self.asked.end) for rows in (k, k + 1))
         kept = path.inner[k] & (x.state[k, self.number] > 0) & known[k] & known[k + 1] & (end > begin)
         if kept.any():
-            self._rub(k[kept], begin[kept], end[kept])
+            self._add_loads(k[kept], begin[kept], end[kept])
 
     def told(self) -> Told:
-        """What was found, as a result has it."""
+        """Return the loads of the circumference and notes as a Result stores them."""
         begin, end = max(self.first, self.asked.begin), min(self.last, self.asked.end)
         lost = (f"wear: {self.path.lost} states of steps have no accelerations and are left out",)
         R_i, R_j, L = (float(self.path.p[k]) for k in bearing_of(self.compiled.source, self.asked.joint))
         found = Rubbed(self.asked, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
         return Told(notes=lost if self.path.lost else (), rubbed=(found,))
 
-    def _rub(self, k: Array, begin: Array, end: Array) -> None:
-        """Between states k and k + 1, from `begin` to `end` (K,) s."""
+    def _add_loads(self, k: Array, begin: Array, end: Array) -> None:
+        """Add the loads between states k and k + 1 (K,), from times `begin` to `end` (K,) in s."""
         x, h = self.path.steps, (end - begin)[:, None]
         t = begin[:, None] + h * NODES
         s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
-        q, v = self._motion(k, s)
+        q, v = self._interpolate_motion(k, s)
         memory = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
         states = slice(memory.shape[2] - len(self.compiled.source.states), None)
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
@@ -196,18 +203,18 @@ class Rubs:
         for side, body in enumerate((self.joint.first, self.joint.second)):
             index = self.compiled.source.bodies[body].index if body >= 0 else -1
             angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)
-            self._lay(side, angle, half, loads)
+            self._distribute(side, angle, half, loads)
 
-    def _lay(self, side: int, angle: Array, half: Array | None, loads: Array) -> None:
-        """Each point's loads on its own part of the arc that the contact sweeps."""
+    def _distribute(self, side: int, angle: Array, half: Array | None, loads: Array) -> None:
+        """Distribute each point's loads over its part of the arc that the contact sweeps."""
         ends = angle @ TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
         worn = spread(self.asked.points, low.ravel(), high.ravel(), loads, half)
         self.load[side] += worn[0]
         self.friction[side] += worn[1]
 
-    def _motion(self, k: Array, s: Array) -> tuple[Array, Array]:
-        """q and q̇ (K, points, n) at shares s of the parts: Hermite's polynomials of degree five."""
+    def _interpolate_motion(self, k: Array, s: Array) -> tuple[Array, Array]:
+        """Return q and q̇ (K, points, n) at fractions s of the intervals: Hermite polynomials of degree five."""
         x, a = self.path.steps, self.path.run.a[1:]
         h = (x.t[k + 1] - x.t[k])[:, None, None]
         q0, q1, v0, v1, a0, a1 = (array[rows][:, None] for array in (x.q, x.v, a) for rows in (k, k + 1))

@@ -1,11 +1,11 @@
-"""Wear as a loop, `gudgeon.wear_loop(simulation, "A", 1.0, k=1e-4, hardness=2e9, rounds=5)`: run, deepen, run again.
+"""Simulate wear in rounds: `gudgeon.wear_loop(simulation, "A", 1.0, k=1e-4, hardness=2e9, rounds=5)`.
 
-Each round runs the scene with the contours that the rounds before have left, and deepens the bearing where it was
-rubbed: Archard's depth over the cells of its circumference, or Reye's, times what a run stands for, is laid on the
-contour's slots. Sums stay those of the cells, so that what the contour is deeper is k/H ∫ F_n ds. The journal's wear is
-told round by round, in its own frame, and changes no contour: at the angle φ of the bearing the gap would be wider by
-w(φ) + w_journal(φ − ψ), ψ the journal's angle in the bearing, which is one contour of the bearing only where ψ stands
-still or the journal is worn evenly. Laws keep the numbers of the file.
+Each round runs the scene with the bearing contours that the previous rounds left, and deepens them by the wear depth of
+Archard or Reye over the circumference. Sums over the cells are preserved, so that the contour deepens by k/H ∫ F_n ds.
+
+The journal's wear is reported per round, in its own frame, and changes no contour. At the angle φ of the bearing the
+gap would be wider by w(φ) + w_journal(φ − ψ), with the journal's angle ψ. This is a contour of the bearing only if ψ is
+constant or the journal wears evenly. Laws keep the parameter values of the file.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ MOST_ROUNDS, MOST_PASSES = 10_000, 100
 
 @dataclass(frozen=True)
 class Wearing:
-    """How bearings wear: of which joints, by which law and k/H (1/Pa), what a run stands for, how it is looked at."""
+    """Hold how bearings wear: joints, law, wear rate k/H (1/Pa), number of runs that a run stands for, resolution."""
 
     joints: tuple[str, ...]
     rate: float
@@ -50,11 +50,11 @@ class Wearing:
 
     @property
     def rubbing(self) -> tuple[Rubbing, ...]:
-        """What is asked of the runs."""
+        """Return the requests to observe the wear of all joints in a run."""
         return tuple(Rubbing(joint, self.points, self.begin, np.inf, self.overlap) for joint in self.joints)
 
     def deeper(self, rubbed: Rubbed, slots: int) -> tuple[Array, Array]:
-        """Depths (m) that a run wears: (points,) over the cells, (slots,) of the contour."""
+        """Return the wear depths (m) of a run: (points,) over the cells, (slots,) over the contour."""
         depth = self.scale * rubbed.depth(0, self.law, self.rate)
         return depth, smoothed(on_slots(depth, slots), self.passes)
 
@@ -78,7 +78,7 @@ def wear_loop(
     progress: Progress | None = None,
     **options: Any,
 ) -> Worn:
-    """What wear makes of bearings that have a `contour`, over so many rounds of one run or of many.
+    """Return the wear of bearings that have a `contour`, over a number of rounds of one run or of many.
 
     `k`, `hardness`, `law`, `contact`, `points`, `since`: as in `gudgeon.wear`, of the bearings. `scale`: how many runs
     each run stands for, revolutions of a round over those of a run: contours deepen by as much at once. `passes`: how
@@ -92,7 +92,7 @@ def wear_loop(
     """
     from gudgeon.simulation.simulation import Simulation
 
-    names = _joints(instance(simulation, "simulation", Simulation), joints)
+    names = _check_joints(instance(simulation, "simulation", Simulation), joints)
     if text(law, "law") not in LAWS:
         refuse("law", law, " or ".join(LAWS))
     if text(contact, "contact") not in CONTACT:
@@ -117,7 +117,7 @@ def wear_loop(
 
 
 class Loop:
-    """Rounds of the same runs, each with the contours that the last one left."""
+    """Repeat the same runs, each round with the contours that the last one left."""
 
     def __init__(self, simulation: Simulation, wearing: Wearing, contour: Mapping[str, Array]) -> None:
         self.simulation, self.wearing, self.given = simulation, wearing, dict(contour)
@@ -131,9 +131,9 @@ class Loop:
         self.failures: dict[int, str] = {}
 
     def round(self, parameters: ParameterSets, t_end: Any, **options: Any) -> Batch:
-        """Runs once more; contours are deeper then."""
+        """Run all runs once with the present contours, deepen these, and return the Batch."""
         if not any(self.contours.values()):
-            self._first(parameters)
+            self._set_first_contours(parameters)
         batch = self.simulation.simulate_many(
             parameters, t_end, **{"output": 1, "keep": [], **options}, contour=self.given, peaks=self.wearing.rubbing
         )
@@ -141,10 +141,11 @@ class Loop:
             raise KeyboardInterrupt
         self.failures |= {one.run: str(one.error) for one in batch.failures if one.run not in self.failures}
         for place, joint in enumerate(self.wearing.joints):
-            self._take(batch, place, joint)
+            self._add_round(batch, place, joint)
         return batch
 
-    def _take(self, batch: Batch, place: int, joint: str) -> None:
+    def _add_round(self, batch: Batch, place: int, joint: str) -> None:
+        """Add the results of a round for one joint: depths, works, peaks and the new contour."""
         n, slots = len(batch), self.slots[joint]
         if not self.contours[joint]:
             self.contours[joint].append(np.array(np.broadcast_to(self.given[joint], (n, slots))))
@@ -165,8 +166,8 @@ class Loop:
         self.contours[joint].append(self.contours[joint][-1] + more)
         self.given[joint] = np.where(np.isnan(more), 0.0, self.contours[joint][-1])
 
-    def _first(self, parameters: ParameterSets) -> None:
-        """Contours of the first round, where none are given those of the file by the numbers of each run."""
+    def _set_first_contours(self, parameters: ParameterSets) -> None:
+        """Set the contours of the first round: those given, else those of the file for each run's parameter values."""
         compiled, source = self.simulation.compiled, self.simulation.source
         given, is_given = given_each(source, rows_of(parameters)[0])
         for joint in self.wearing.joints:
@@ -175,7 +176,7 @@ class Loop:
                 self.given.setdefault(joint, own if len(own) > 1 else own[0])
 
     def found(self) -> Worn:
-        """All rounds so far."""
+        """Return the results of all rounds so far."""
         source, wearing = self.simulation.source, self.wearing
         joints = {
             joint: WornJoint(
@@ -195,7 +196,7 @@ class Loop:
 
 
 def on_slots(depth: Array, slots: int) -> Array:
-    """Means of depths (points,) over the arcs around the slots' angles, (slots,): both have the same mean."""
+    """Return the means (slots,) of depths (points,) over the arcs around the slots' angles; the total mean is kept."""
     points = len(depth)
     below = np.concatenate([[0.0], np.cumsum(depth)])
     edges = (np.arange(slots + 1) - 0.5) * (points / slots)
@@ -205,13 +206,14 @@ def on_slots(depth: Array, slots: int) -> Array:
 
 
 def smoothed(depth: Array, passes: int) -> Array:
-    """Depths of slots, each mixed with a quarter of both neighbours so often; sums stay."""
+    """Return the depths of slots after `passes` averages with a quarter of both neighbours; the sum is kept."""
     for _ in range(passes):
         depth = 0.5 * depth + 0.25 * (np.roll(depth, 1) + np.roll(depth, -1))
     return depth
 
 
-def _joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, ...]:
+def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, ...]:
+    """Return the checked names of joints with a contour. Raise UnknownNameError, BadValueError."""
     able = [one.joint for one in simulation.source.contours]
     names = tuple(joint_names(joints, "joints", "a name or names"))
     if not names:
@@ -227,7 +229,7 @@ def _joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, .
 
 
 def share(progress: Progress | None, k: int, rounds: int) -> Progress | None:
-    """Of round k among all."""
+    """Return the progress function of round k of `rounds`, or None without one."""
     if progress is None:
         return None
     return lambda fraction, words: progress((k + fraction) / rounds, f"round {k + 1} of {rounds}: {words}")

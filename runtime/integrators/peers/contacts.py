@@ -1,8 +1,8 @@
-"""Joints with play in a run that Python drives: latches, events on a step's interpolant, peaks.
+"""Treat joints with play in a run that Python drives: contact states, events on a step's interpolant, peaks.
 
-Written anew, not after engine/watch/events.c: a cross-check must not share what it checks. The root is
-sought on the method's own dense output and not by its built-in event search, since SciPy's and CVODE's see changes
-of sign between ends of steps only and so lose a contact that begins and ends within one step.
+This module is independent of engine/watch/events.c, since a cross-check must not share the code that it checks. Events
+are located on the method's dense output, not by its built-in search. SciPy's and CVODE's searches see only sign changes
+between ends of steps, and so miss a contact that begins and ends within one step.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ from gudgeon.contract.boundary import (
 )
 from gudgeon.model.compiled import Array, CompiledModel
 
-NODES = np.linspace(0.0, 1.0, 9)  # shares of a step at which it is looked at
-CLOSE = 0.5e-12  # of the part of a step in which an event is sought; 2 ulp of its time where these are more
-KEPT = 0.9  # share of the known peak above which a step's own one is sought
+NODES = np.linspace(0.0, 1.0, 9)  # fractions of a step at which it is sampled
+CLOSE = 0.5e-12  # tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
+KEPT = 0.9  # fraction of the known peak from which on a step's own peak is refined
 LOST = 1e-3  # of c: a free journal further outside its bearing was lost
-ROUNDED = 1e-7  # of the bearing's radius, beside it
+ROUNDED = 1e-7  # of the bearing's radius, in addition
 
 
 @dataclass(frozen=True)
 class Piece:
-    """One accepted step: the interpolant as the method has it, and projected."""
+    """Hold one accepted step: the method's interpolant `at`, and the same projected onto the constraints."""
 
     t0: float
     t1: float
@@ -46,7 +46,7 @@ class Piece:
     projected: Callable[[float], Array]
 
     def nodes(self) -> Array:
-        """Times at which the step is looked at, both ends among them."""
+        """Return the times (s) at which the step is sampled, including both ends."""
         t = self.t0 + NODES * (self.t1 - self.t0)
         t[-1] = self.t1
         return t
@@ -54,7 +54,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class View:
-    """Joints with play at N states, (N, n_clearances) each."""
+    """Hold the quantities of joints with play at N states, (N, n_clearances) each."""
 
     delta: Array  # m
     deltadot: Array  # m/s
@@ -63,7 +63,7 @@ class View:
 
 
 class Contacts:
-    """What a run remembers of its joints with play. `memory` (n_clearances,): δ̇⁻, NaN while free."""
+    """Track the contact states of the joints with play in a run. `memory` (n_clearances,): δ̇⁻, NaN while free."""
 
     def __init__(self, compiled: CompiledModel, p: Array, memory: Array, state: NDArray[np.int8] | None) -> None:
         self.compiled, self.p = compiled, p
@@ -71,10 +71,10 @@ class Contacts:
         self.count = len(joints)
         self.c = p[[joint.clearance for joint in joints]]
         self.R = p[[joint.constants["R_i"] for joint in joints]]
-        self.floor = _floor(compiled, p)
+        self.floor = _velocity_floor(compiled, p)
         self.memory = np.array(memory[: self.count], dtype=np.float64)
         self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == CODE_IMPACT
-        self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force, its time
+        self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force and its time of the present contact
         self.impacts: list[tuple[int, float, float, float, float, float]] = []
         self.peaks = np.zeros((self.count, N_PEAK))
         self.peaks[:, PEAK_e_max] = -np.inf
@@ -83,7 +83,7 @@ class Contacts:
 
     @property
     def closed(self) -> NDArray[np.bool_]:
-        """(n_clearances,)."""
+        """Return a mask (n_clearances,) of the closed contacts."""
         return ~np.isnan(self.memory)
 
     @property
@@ -93,7 +93,7 @@ class Contacts:
         return np.where(self.closed, touching, CODE_FREE).astype(np.int8)
 
     def view(self, t: Array, y: Array) -> View:
-        """At times (N,) and states (N, 2n or more)."""
+        """Return the quantities of joints with play at times (N,) and states (N, 2n or more)."""
         n = self.compiled.n
         memory = np.broadcast_to(self.memory, (len(t), self.count))
         found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
@@ -101,52 +101,55 @@ class Contacts:
         return View(found[..., CLEARANCE_delta], found[..., CLEARANCE_deltadot], force, found[..., CLEARANCE_e])
 
     def begin(self, t: float, y: Array, onsets: Callable[[], Array]) -> None:
-        """A start inside contact is in contact; contacts of an earlier run go on. `onsets` gives their δ̇⁻."""
+        """Close contacts that the start lies in, and resume those of an earlier run. `onsets` returns their δ̇⁻."""
         now = self.view(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         began = np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)).tolist()
         known = onsets() if began else self.memory
         for k in began:
-            self._close(k, t, float(known[k]))
+            self._close_contact(k, t, float(known[k]))
 
     def change(self, t: float, y: Array, event: int) -> None:
-        """Joint `event` changes between free and contact, and with it every other one that is over its edge."""
+        """Switch joint `event` between free and contact, and every other joint that is past its switching point."""
         now = self.view(np.array([t]), y[None])
         sign = np.where(self.closed, 1.0, -1.0)
         over = (sign * now.delta[0] < 0.0) & (sign * now.deltadot[0] < 0.0)
         over[event] = True
         for k in np.flatnonzero(over):
             if self.closed[k]:
-                self._open(int(k), t)
+                self._open_contact(int(k), t)
             else:
-                self._close(int(k), t, float(now.deltadot[0, k]))
+                self._close_contact(int(k), t, float(now.deltadot[0, k]))
 
-    def _close(self, k: int, t: float, deltadot: float) -> None:
+    def _close_contact(self, k: int, t: float, deltadot: float) -> None:
+        """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s)."""
         self.memory[k] = max(deltadot, self.floor)
         self.compressing[k] = True
         self.onsets += 1
         self.open[k] = (t, 0.0, t)
 
-    def _open(self, k: int, t: float) -> None:
+    def _open_contact(self, k: int, t: float) -> None:
+        """Open the contact of joint k at t (s), and add it to the list of impacts."""
         onset, F, t_peak = self.open[k]
         self.impacts.append((k, onset, t, float(self.memory[k]), F, t_peak))
         self.memory[k] = np.nan
 
     def note(self, t: Array, view: View) -> None:
-        """Peaks of accepted states."""
+        """Update the peaks by accepted states."""
         for k in range(self.count):
             i = int(np.argmax(view.F[:, k]))
-            self._peak(k, float(t[i]), float(view.F[i, k]))
+            self._update_peak(k, float(t[i]), float(view.F[i, k]))
             self.peaks[k, PEAK_e_max] = max(self.peaks[k, PEAK_e_max], view.e[:, k].max())
 
-    def _peak(self, k: int, t: float, F: float) -> None:
+    def _update_peak(self, k: int, t: float, F: float) -> None:
+        """Update the largest force of joint k, and of its present contact, by F (N) at t (s)."""
         if self.peaks[k, PEAK_F] < F:
             self.peaks[k, [PEAK_F, PEAK_t]] = F, t
         if self.closed[k] and self.open[k][1] < F:
             self.open[k] = (self.open[k][0], F, t)
 
     def end_of_step(self, t: float, y: Array) -> int | None:
-        """Ratios and peaks at an accepted state; the index of a joint whose contact was lost."""
+        """Update ratios and peaks at an accepted state; return a joint whose contact was lost, or None."""
         now = self.view(np.array([t]), y[None])
         self.note(np.array([t]), now)
         closed = self.closed
@@ -158,7 +161,7 @@ class Contacts:
         return int(lost[0]) if len(lost) else None
 
     def inner_peaks(self, piece: Piece, t: Array, view: View) -> None:
-        """Peaks inside a step, from its nodes t before what ended it."""
+        """Refine the peaks of forces inside a step, from its samples at times t before the step's end."""
         from scipy.optimize import minimize_scalar
 
         for k in range(self.count):
@@ -167,28 +170,32 @@ class Contacts:
             bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
             if bounds[0] < bounds[1] and view.F[i, k] > KEPT * known:
                 top = minimize_scalar(
-                    lambda x, k=k: -self._at(piece.at, x).F[0, k],
+                    lambda x, k=k: -self._view_at(piece.at, x).F[0, k],
                     bounds=bounds,
                     method="bounded",
                     options={"xatol": 1e-5 * (bounds[1] - bounds[0])},
                 )
-                self._peak(k, float(top.x), -float(top.fun))
+                self._update_peak(k, float(top.x), -float(top.fun))
 
-    def _at(self, state: Callable[[float], Array], t: float) -> View:
+    def _view_at(self, state: Callable[[float], Array], t: float) -> View:
+        """Return the quantities of joints with play at time t, for the state given by a function of time."""
         return self.view(np.array([t]), state(t)[None])
 
     def first_event(self, piece: Piece, t: Array, view: View) -> tuple[float, int] | None:
-        """When and where the first contact begins or ends inside a step, from its nodes."""
+        """Return time (s) and joint of the first contact that begins or ends inside a step; None without one."""
         sign = np.where(self.closed, 1.0, -1.0)
         found = [
-            (self._crossing(piece, k, t, sign[k] * view.delta[:, k], sign[k] * view.deltadot[:, k]), k)
+            (self._first_zero(piece, k, t, sign[k] * view.delta[:, k], sign[k] * view.deltadot[:, k]), k)
             for k in range(self.count)
         ]
         times = [(at, k) for at, k in found if at is not None]
         return min(times) if times else None
 
-    def _crossing(self, piece: Piece, k: int, t: Array, margin: Array, rate: Array) -> float | None:
-        """The first time at which joint k's margin (not negative while nothing changes) is used up."""
+    def _first_zero(self, piece: Piece, k: int, t: Array, margin: Array, rate: Array) -> float | None:
+        """Return the first time at which joint k's event function becomes negative, or None.
+
+        `margin` and `rate` are the samples of the function and its rate at times t.
+        """
         for i in range(1, len(t)):
             low, high = float(t[i - 1]), float(t[i])
             if margin[i - 1] < 0.0:  # begun on the wrong side: over, unless it is coming back
@@ -198,18 +205,18 @@ class Contacts:
             if margin[i] >= 0.0:
                 if not rate[i - 1] < 0.0 < rate[i]:
                     continue
-                high = self._root(piece, k, low, high, rate=True) or high  # where the margin is least
-            at = self._root(piece, k, low, high)
+                high = self._locate_zero(piece, k, low, high, rate=True) or high  # where the margin is least
+            at = self._locate_zero(piece, k, low, high)
             if at is not None:
                 return at
         return None
 
-    def _root(self, piece: Piece, k: int, low: float, high: float, rate: bool = False) -> float | None:
-        """Where the projected margin of joint k (or its rate) changes its sign; None: it does not."""
+    def _locate_zero(self, piece: Piece, k: int, low: float, high: float, rate: bool = False) -> float | None:
+        """Return the time at which the projected event function of joint k (or its rate) changes sign, or None."""
         from scipy.optimize import brentq
 
         def value(t: float) -> float:
-            view = self._at(piece.projected, t)
+            view = self._view_at(piece.projected, t)
             number = view.deltadot[0, k] if rate else view.delta[0, k]
             return float(number if self.closed[k] else -number)
 
@@ -222,7 +229,7 @@ class Contacts:
         return float(brentq(value, low, high, xtol=close, rtol=1e-15))
 
 
-def _floor(compiled: CompiledModel, p: Array) -> float:
-    """The least δ̇⁻ that an onset stores (m/s): the smallest of the scene's contacts, which rarely differ."""
+def _velocity_floor(compiled: CompiledModel, p: Array) -> float:
+    """Return the smallest δ̇⁻ (m/s) that an onset stores: the smallest of the scene's contacts, which rarely differ."""
     slots = enumerate(compiled.source.slots)
     return min((float(p[k]) for k, slot in slots if slot.address.endswith(".velocity_floor")), default=0.0)

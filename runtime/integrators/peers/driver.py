@@ -1,12 +1,13 @@
-"""Integrators of others on the compiled right-hand side and Jacobian: cross-checks, slow and independent.
+"""Integrate a scene with reference solvers (SciPy, SUNDIALS) on the compiled right-hand side: slow, independent
+checks.
 
-- `scipy:DOP853`, `scipy:RK45`, `scipy:Radau`, `scipy:BDF`, `scipy:LSODA` (integrators/scipy_backend.py)
-- `sundials:cvode` (BDF), `sundials:cvode_adams` (integrators/sundials_backend.py), of the extra `bench`
+- `scipy:DOP853`, `scipy:RK45`, `scipy:Radau`, `scipy:BDF`, `scipy:LSODA` (integrators/peers/scipy_steppers.py)
+- `sundials:cvode` (BDF), `sundials:cvode_adams` (integrators/peers/sundials_steppers.py), of the extra `bench`
 
-The loop is the same for all: a step of theirs, events on their dense output, projection onto Φ = 0 and Φ̇ = 0,
-restart after a contact begins or ends. Tolerances mean what they mean in integrators/adaptive.py. What the C methods
-do and these do not: hold the sides of laws' corners during a step (here the error control finds them), and
-dry_friction elements, whose modes C owns.
+The loop is the same for all: a step of the solver, events on its dense output, projection onto Φ = 0 and Φ̇ = 0, and a
+restart after a contact begins or ends. Tolerances mean the same as in integrators/adaptive.py. Unlike the C methods,
+these do not freeze the branches of laws during a step; the error control finds switching points. dry_friction elements
+are not supported.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ from gudgeon.model.compiled import Array
 SUNDIALS = ("sundials:cvode", "sundials:cvode_adams")
 NAMES = SCIPY + SUNDIALS
 UNCONTROLLED = 1e20  # tolerance of the works, which do not act on the motion
-MAX_STUCK = 200  # events at one time
-GROWN = 2.0  # times the speed for which the tolerances were made: they are made anew
+MAX_STUCK = 200  # largest number of successive events at one time
+GROWN = 2.0  # growth of the speed after which the tolerances are set anew
 
 
 def unfit(source: KernelSource) -> str:
-    """Why these methods do not fit a scene; "" if they do."""
+    """Return why the reference solvers do not fit a scene; "" if they do."""
     if source.degrees_of_freedom == 0:
         return "nothing is integrated"
     if source.frictions:
@@ -69,7 +70,8 @@ def run(problem: Problem) -> Trajectory:
     return _Driver(problem).run()
 
 
-def _stepper(equations: Equations, problem: Problem) -> Stepper:
+def _make_stepper(equations: Equations, problem: Problem) -> Stepper:
+    """Return the solver that problem.method names."""
     package, _, name = problem.method.partition(":")
     t_end = float(problem.t[-1])
     if package == "scipy":
@@ -82,14 +84,14 @@ def _stepper(equations: Equations, problem: Problem) -> Stepper:
 
 
 class _Driver:
-    """One run: the present state, and the samples so far."""
+    """Hold one run: the present state and the samples so far."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.n = problem, problem.compiled.n
         self.contacts = Contacts(problem.compiled, problem.p, problem.memory, problem.state)
         self.equations = Equations(problem, self.contacts)
         self.stepper: Stepper
-        self.began = math.nan  # s, when the packages were there
+        self.began = math.nan  # s, time after the packages were imported
         duration = float(problem.t[-1] - problem.t[0])
         self.scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
         self.speed_floor = least / max(duration, 1e-300)
@@ -98,17 +100,20 @@ class _Driver:
         self.speed, self.controlled = np.zeros(2), np.zeros(2)
         self.steps = self.stuck = 0
         self.shown = Shown(problem.compiled, problem.look)
-        self.began_anew = True  # or something changed at the end of the last step
-        self.worst = np.zeros(2)  # |Φ|, |Φ̇|
+        self.began_anew = True  # whether this is the first step, or something changed at the end of the last one
+        self.worst = np.zeros(2)  # largest |Φ|, |Φ̇|
         self.times: list[float] = []
         self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
 
     def run(self) -> Trajectory:
-        """As far as it goes; the start is stored before packages are imported, which Ctrl-C may cut short."""
+        """Integrate to the end, and return the Trajectory; after Ctrl-C or an error, what was reached.
+
+        The start is stored before packages are imported, so that Ctrl-C may interrupt the import.
+        """
         interrupted, stopped = False, None
         self._begin()
         try:
-            self.stepper = _stepper(self.equations, self.problem)
+            self.stepper = _make_stepper(self.equations, self.problem)
             self.began = perf_counter()
             self._restart()
             while len(self.samples) < len(self.problem.t):
@@ -116,67 +121,69 @@ class _Driver:
                 self.problem.take()
         except KeyboardInterrupt:
             interrupted = True
-            self._close()
+            self._store_last()
         except SolverError as error:
             stopped = error
         return self._trajectory(interrupted, stopped)
 
-    def _close(self) -> None:
-        """The present state as the last sample, in place of those that are as late."""
+    def _store_last(self) -> None:
+        """Store the present state as the last sample; samples at later times are removed."""
         while self.times and self.times[-1] >= self.t:
             self.times.pop()
             self.samples.pop()
         self._sample(self.t, self.y)
 
-    def _onsets(self) -> Array:
-        """δ̇⁻ (n_memory,) of contacts that the run begins in: an assumption of the C loops, not what is checked here."""
+    def _approach_speeds(self) -> Array:
+        """Return δ̇⁻ (n_memory,) of contacts that the run begins in, from the C loop; this is not cross-checked."""
         start = replace(self.problem, method="rk4", t=self.problem.t[:1], step=1.0, progress=None)
         return np.asarray(integrate(start).memory[0])
 
     def _begin(self) -> None:
-        self.contacts.begin(self.t, self.y, self._onsets)
-        self._watch()
+        """Set the contacts of the start, and store it if it is a sample."""
+        self.contacts.begin(self.t, self.y, self._approach_speeds)
+        self._update_state()
         self._sample_present()
 
-    def _atol(self) -> Array:
-        """Tolerances for the largest speeds so far, (2n + 3,)."""
+    def _absolute_tolerances(self) -> Array:
+        """Return the absolute tolerances (2n + 3,) for the largest speeds so far."""
         self.controlled = self.speed.copy()
         speed = (self.speed + self.speed_floor)[self.angle.astype(int)]
         return np.concatenate([self.scale[: self.n], self.scale[self.n :] * speed, np.full(N_WORK, UNCONTROLLED)])
 
     def _restart(self) -> None:
-        self.atol = self._atol()
+        """Restart the solver at the present state with new tolerances."""
+        self.atol = self._absolute_tolerances()
         self.stepper.restart(self.t, self.y, self.atol)
 
     def _step(self) -> None:
-        """One step of the integrator, or its part up to an event."""
+        """Advance by one step of the solver, or by its part up to an event."""
         t1 = self.stepper.step()
         piece = Piece(self.t, t1, self.stepper.at, lambda t: self.equations.project(t, self.stepper.at(t)))
         end = self.stepper.at(t1)
         if not np.isfinite(end).all():
             raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
-        event = self._look(piece)
+        event = self._find_event(piece)
         t_new = t1 if event is None else event[0]
         self._sample_before(piece, t_new)
-        self._show(piece, t_new)
+        self._show_step(piece, t_new)
         y = piece.projected(t_new)
         self.stuck = self.stuck + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
         self.t, self.y = t_new, y
         self.steps += 1
-        self._watch()
+        self._update_state()
         if event is not None:
             if self.stuck > MAX_STUCK:
                 raise SolverError(f"contacts change without end near t = {t_new:.9g} s", t_new)
             self.contacts.change(t_new, y, event[1])
             self.began_anew = True
-        self._go_on(event is not None, end)
+        self._continue_solver(event is not None, end)
         self._sample_present()
         if self.problem.progress:
             t = self.problem.t
             self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
 
-    def _show(self, piece: Piece, t_new: float) -> None:
-        """To whom looks at all steps: the nodes of this one, with the contacts that it began with."""
+    def _show_step(self, piece: Piece, t_new: float) -> None:
+        """Pass the sampled states of this step to the observer, with the contacts that it began with."""
         if self.problem.look:
             nodes = piece.nodes()
             nodes = nodes if self.began_anew else nodes[1:]
@@ -185,8 +192,8 @@ class _Driver:
             self.shown.add(times, np.array(states), self.contacts.memory, self.contacts.codes, self.began_anew)
         self.began_anew = False
 
-    def _look(self, piece: Piece) -> tuple[float, int] | None:
-        """The event that ends the step, and peaks before it."""
+    def _find_event(self, piece: Piece) -> tuple[float, int] | None:
+        """Return the event that ends the step, or None, and update the peaks before it."""
         if not self.contacts.count:
             return None
         t = piece.nodes()
@@ -198,8 +205,8 @@ class _Driver:
             self.contacts.inner_peaks(piece, t[before], part)
         return event
 
-    def _watch(self) -> None:
-        """Speeds, residuals and contacts of an accepted state."""
+    def _update_state(self) -> None:
+        """Update speeds, residuals and contacts by an accepted state. Raise SolverError if a contact was lost."""
         v = np.abs(self.y[self.n : 2 * self.n])
         kinds = [v[~self.angle].max(initial=0.0), v[self.angle].max(initial=0.0)]
         self.speed = np.maximum(self.speed, kinds)
@@ -210,8 +217,8 @@ class _Driver:
             name = self.problem.compiled.source.clearances[lost].name
             raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, free, is beyond its wall", self.t)
 
-    def _go_on(self, event: bool, end: Array) -> None:
-        """Restart, move the integrator onto the constraints, or leave it as it is."""
+    def _continue_solver(self, event: bool, end: Array) -> None:
+        """Restart the solver, move it onto the constraints, or leave it as it is."""
         if self.t >= self.problem.t[-1]:
             return
         moved = float((np.abs(self.y - end) / self.atol).max())
@@ -221,22 +228,24 @@ class _Driver:
             self.stepper.move(self.t, self.y, self.atol)
 
     def _sample_before(self, piece: Piece, t_new: float) -> None:
-        """Samples inside the step, projected, with the contacts that it began with."""
+        """Store the samples inside the step, projected, with the contacts that it began with."""
         times = self.problem.t
         while len(self.samples) < len(times) and times[len(self.samples)] < t_new:
             self._sample(float(times[len(self.samples)]), piece.projected(float(times[len(self.samples)])))
 
     def _sample_present(self) -> None:
+        """Store the present state if it is a sample."""
         if len(self.samples) < len(self.problem.t) and self.problem.t[len(self.samples)] <= self.t:
             self._sample(self.t, self.y)
 
     def _sample(self, t: float, y: Array) -> None:
-        """A sample is output, not integration: its right-hand side is not counted."""
+        """Store a sample. Its right-hand side is output and is not counted."""
         dy = self.problem.compiled.rhs(t, y, self.equations.p, self.contacts.memory)
         self.times.append(t)
         self.samples.append((y, dy[self.n : 2 * self.n], self.contacts.memory.copy(), self.contacts.codes))
 
     def _trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
+        """Return the samples and counts as a Trajectory."""
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         contacts, equations, n = self.contacts, self.equations, self.n

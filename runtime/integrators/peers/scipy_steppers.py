@@ -1,7 +1,7 @@
-"""SciPy's integrators step by step (P. Virtanen et al., Nature Methods 17 (2020) 261-272; scipy.integrate).
+"""Run SciPy's integrators step by step (P. Virtanen et al., Nature Methods 17 (2020) 261-272; scipy.integrate).
 
-DOP853 (order 8) and RK45 (5) are explicit; Radau (5) and BDF (1 to 5) take the exact Jacobian; LSODA (A. Hindmarsh,
-L. Petzold) chooses between Adams and BDF.
+DOP853 (order 8) and RK45 (5) are explicit; Radau (5) and BDF (1 to 5) use the exact Jacobian; LSODA (A. Hindmarsh, L.
+Petzold) switches between Adams and BDF.
 """
 
 from __future__ import annotations
@@ -18,11 +18,12 @@ from gudgeon.model.compiled import Array
 ONE_STEP = ("DOP853", "RK45", "Radau")
 EXPLICIT = ("DOP853", "RK45")
 # of SciPy's rtol · |y|, which our tolerances have no place for: the least that it takes without a warning
+# smallest rtol (times |y|) that SciPy accepts without a warning; gudgeon's tolerances are absolute
 RELATIVE = 100.0 * np.finfo(float).eps
 
 
 class ScipyStepper(Stepper):
-    """`name` is a solver class of scipy.integrate."""
+    """Run a solver class of scipy.integrate, called `name`."""
 
     def __init__(self, equations: Equations, t_end: float, name: str) -> None:
         super().__init__(equations, t_end)
@@ -34,14 +35,18 @@ class ScipyStepper(Stepper):
         self.dense: Any = None
 
     def restart(self, t: float, y: Array, atol: Array) -> None:
-        """SciPy controls a root mean square over all components (LSODA the largest): no one of them may be larger."""
+        """Begin at (t, y) with absolute tolerances.
+
+        SciPy controls the root mean square over all components (LSODA the largest). The tolerances are divided
+        accordingly, so that no component exceeds its own.
+        """
         mean = 1.0 if self.name == "LSODA" else math.sqrt(len(y))
         options = {} if self.name in EXPLICIT else {"jac": self.equations.jacobian}
         controlled = {"rtol": RELATIVE, "atol": atol / mean}
         self.solver = self.kind(self.equations.rates, t, y.copy(), self.t_end, **controlled, **options)
 
     def step(self) -> float:
-        """One step; SciPy's own words where there is none small enough."""
+        """Make one step and return its end (s). Raise SolverError with SciPy's message if no step is small enough."""
         self.equations.failure = None
         with np.errstate(invalid="ignore", over="ignore"):  # a step far too long is tried, and rejected
             message = self.solver.step()
@@ -52,11 +57,11 @@ class ScipyStepper(Stepper):
         return float(self.solver.t)
 
     def at(self, t: float) -> Array:
-        """The end as it is: the interpolant meets it to rounding only."""
+        """Return the state at t inside the last step; at its end exactly, since the interpolant is rounded there."""
         return np.array(self.solver.y if t == self.solver.t else self.dense(t), dtype=np.float64)
 
     def move(self, t: float, y: Array, atol: Array) -> None:
-        """A method of one step needs no more than the new state and its rates."""
+        """Continue from y. A one-step method only needs the new state and its rates; others restart."""
         if self.name not in ONE_STEP:
             self.restart(t, y, atol)
             return

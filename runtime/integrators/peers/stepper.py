@@ -1,4 +1,4 @@
-"""What a cross-check's integrator is given, and what it must do."""
+"""Define the interface of reference solvers: the equations they are given, and the steps they must make."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ SCIPY = ("scipy:DOP853", "scipy:RK45", "scipy:Radau", "scipy:BDF", "scipy:LSODA"
 
 
 class Equations:
-    """ẏ = f(t, y), y = (q, q̇, works) (2n + 3,), contacts as `memory` has them; counts its calls."""
+    """Evaluate ẏ = f(t, y) with y = (q, q̇, works), (2n + 3,), for the present contacts, and count the calls."""
 
     def __init__(self, problem: Problem, contacts: Contacts) -> None:
         self.compiled, self.contacts = problem.compiled, contacts
         self.p = problem.p if problem.p_free is None else problem.p_free
         self.size = 2 * self.compiled.n + N_WORK
         self.calls = self.jacobians = 0
-        self.failure: SolverError | None = None  # of a call inside the integrator, which may swallow it
+        self.failure: SolverError | None = None  # error of a call inside the solver, which may swallow it
         self.take = problem.take if problem.method in SCIPY else None  # Ctrl-C: through C of others no exception goes
         exact = hasattr(self.compiled.lib, "gudgeon_jacobian")
         self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 
     def rates(self, t: float, y: Array) -> Array:
-        """(2n + 3,); NaN where the equations cannot be solved, so that a smaller step is tried."""
+        """Return ẏ (2n + 3,); NaN where the equations cannot be solved, so that a smaller step is tried."""
         self.calls += 1
         if self.take:
             self.take()
@@ -42,18 +42,19 @@ class Equations:
             return np.full(self.size, np.nan)
 
     def _jacobian(self, t: float, y: Array) -> Array:
+        """Return the exact Jacobian ∂ẏ/∂y, and count the call."""
         self.jacobians += 1
         return self.compiled.jacobian(t, y, self.p, self.contacts.memory)[0]
 
     def project(self, t: float, y: Array) -> Array:
-        """The nearest consistent state; the works stay."""
+        """Return the state projected onto the constraints; the works stay."""
         n = self.compiled.n
         q, v = project(self.compiled, t, y[:n], y[n : 2 * n], self.p)
         return np.concatenate([q, v, y[2 * n :]])
 
 
 class Stepper(ABC):
-    """One integrator: `patience` is how far a step may end from the constraints, in tolerances, before it is moved."""
+    """Define one solver. `patience`: distance from the constraints, in tolerances, above which it is moved."""
 
     patience = 0.0
 
@@ -66,12 +67,12 @@ class Stepper(ABC):
 
     @abstractmethod
     def step(self) -> float:
-        """One accepted step towards t_end; where it ends. Raises SolverError."""
+        """Make one accepted step towards t_end and return the time of its end. Raise SolverError."""
 
     @abstractmethod
     def at(self, t: float) -> Array:
-        """The state inside the last step, from the method's own interpolant."""
+        """Return the state at t inside the last step, from the method's own interpolant."""
 
     @abstractmethod
     def move(self, t: float, y: Array, atol: Array) -> None:
-        """Go on from y, the projected end of the last step."""
+        """Continue from y, the projected end of the last step."""

@@ -1,4 +1,4 @@
-"""CVODE of SUNDIALS through scikit-sundae, step by step (A. C. Hindmarsh et al., ACM TOMS 31 (2005) 363-396).
+"""Run CVODE of SUNDIALS step by step through scikit-sundae (A. C. Hindmarsh et al., ACM TOMS 31 (2005) 363-396).
 
 `cvode`: BDF, orders 1 to 5, Newton with the exact Jacobian; `cvode_adams`: Adams–Moulton, orders 1 to 12.
 """
@@ -16,23 +16,27 @@ from gudgeon.model.compiled import Array
 
 METHODS = {"cvode": "BDF", "cvode_adams": "Adams"}
 INSTALL = "make peers in a clone, else pip install scikit-sundae"
-RELATIVE = 1e-15  # of rtol · |y|, which our tolerances have no place for
+RELATIVE = 1e-15  # rtol (times |y|); gudgeon's tolerances are absolute
 
 
 class CvodeStepper(Stepper):
-    """`name`: cvode or cvode_adams."""
+    """Run the method `name` of CVODE: cvode or cvode_adams."""
 
     patience = 10.0  # tolerances: to move a method of several steps is to begin anew
 
     def __init__(self, equations: Equations, t_end: float, name: str) -> None:
         super().__init__(equations, t_end)
         self.kind = METHODS[name]
-        self.cvode = _cvode()
+        self.cvode = _import_cvode()
         self.solver: Any = None
         self.t, self.y = math.nan, np.zeros(0)
 
     def restart(self, t: float, y: Array, atol: Array) -> None:
-        """CVODE controls a root mean square over all components: no one of them may be larger than its tolerance."""
+        """Begin at (t, y) with absolute tolerances.
+
+        CVODE controls the root mean square over all components. The tolerances are divided accordingly, so that no
+        component exceeds its own.
+        """
         options: dict[str, Any] = {"method": self.kind, "rtol": RELATIVE, "atol": atol / math.sqrt(len(y))}
         if self.equations.jacobian is not None:
             options["jacfn"] = self._jacobian
@@ -41,37 +45,39 @@ class CvodeStepper(Stepper):
         self.t, self.y = t, y.copy()
 
     def _rates(self, t: float, y: Array, out: Array) -> None:
+        """Write ẏ into `out`, as CVODE calls it."""
         out[:] = self.equations.rates(t, y)
 
     def _jacobian(self, t: float, y: Array, rates: Array, out: Array) -> None:
+        """Write the Jacobian into `out`, as CVODE calls it."""
         assert self.equations.jacobian is not None
         out[:] = self.equations.jacobian(t, y)
 
     def step(self) -> float:
-        """One internal step; after a look into the last one CVODE first hands out its end again."""
+        """Make one internal step and return its end (s). After an interpolation, CVODE first returns the old end."""
         self.equations.failure = None
         before = self.t
         for _ in range(2):
-            found = self._call(self.t_end, "onestep")
+            found = self._call_solver(self.t_end, "onestep")
             if self.t > before:
                 return self.t
         raise SolverError(f"CVODE made no step at t = {before:.9g} s: {found.message}", before)
 
     def at(self, t: float) -> Array:
-        """The method's own polynomial inside the last step."""
+        """Return the state at t inside the last step, from the method's own polynomial."""
         if t == self.t:
             return self.y.copy()
         end, y = self.t, self.y
-        found = self._call(t, "normal")
+        found = self._call_solver(t, "normal")
         self.t, self.y = end, y
         return np.array(found.y, dtype=np.float64).reshape(-1)
 
     def move(self, t: float, y: Array, atol: Array) -> None:
-        """Begin anew."""
+        """Restart at the projected end of the last step."""
         self.restart(t, y, atol)
 
-    def _call(self, t: float, how: str) -> Any:
-        """One call of CVODE; the time and state that it came to."""
+    def _call_solver(self, t: float, how: str) -> Any:
+        """Call CVODE once and return its time and state. Raise SolverError if it fails."""
         found = self.solver.step(t, method=how, tstop=self.t_end)
         if not found.success:
             raise self.equations.failure or SolverError(f"CVODE stopped at t = {self.t:.9g} s: {found.message}", self.t)
@@ -79,7 +85,8 @@ class CvodeStepper(Stepper):
         return found
 
 
-def _cvode() -> Any:
+def _import_cvode() -> Any:
+    """Return the class CVODE of scikit-sundae. Raise GudgeonError if it is not installed."""
     try:
         from sksundae.cvode import CVODE
     except ModuleNotFoundError as error:
