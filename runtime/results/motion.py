@@ -127,23 +127,28 @@ def _principal_coordinate(points: Array) -> Array:
 
 
 def _growth_supports(rate: float, error: float, count: int) -> tuple[float, float]:
-    """How sure it is that differences grow, and that they do neither; NaN where no exponent is known.
+    """Return the probabilities that differences grow exponentially, and that they neither grow nor decay; NaN without
+    an exponent.
 
-    In regular motion differences grow by powers of time. Of t³, followed from a tenth of the time on, the slope of the
-    straight line through ln of the growth is 5.9/k over the k returns that are left: up to that none is exponential.
+    In regular motion differences grow by powers of time. For t³, followed from a tenth of the time on, the slope of the
+    straight line through ln of the growth is 5.9/k over the k remaining returns. Rates below that are not exponential
+    growth.
     """
     if not (math.isfinite(rate) and math.isfinite(error)) or count < 2:
         return math.nan, math.nan
     none = POWERS / count
 
     def above(bound: float) -> float:
+        """Return the probability that the rate exceeds `bound`, from a normal distribution."""
         return 0.5 * math.erfc((bound - rate) / (math.sqrt(2.0) * max(error, 1e-300)))
 
     return above(none), above(-none) - above(none)
 
 
 def zero_one(values: Array, seed: int = 1) -> float:
-    """K of the 0-1 test for a series (k,): the median over frequencies of corr(n, D(n)), n to k/10; NaN if k < 40."""
+    """Return K of the 0-1 test for a series (k,): the median over frequencies of corr(n, D(n)), n to k/10; NaN if k <
+    40.
+    """
     count = len(values)
     if count < FEWEST:
         return math.nan
