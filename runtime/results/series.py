@@ -133,10 +133,7 @@ def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]
 
 
 def rates(name: str) -> tuple[str, str]:
-    """Return the names of velocity and acceleration that belong to a position: "S9.y" → ("S9.vy", "S9.ay").
-
-    Both are empty for a name without rates, such as a force or an output.
-    """
+    """Return the names of velocity and acceleration of a position: "S9.y" → ("S9.vy", "S9.ay"); "" for other names."""
     owner, _, last = name.rpartition(".")
     for position, velocity, acceleration in MOTION:
         if owner and last == position:
@@ -424,9 +421,8 @@ def parameter_names(source: KernelSource) -> set[str]:
 
 
 def default_watch(reference: Result) -> tuple[str, ...]:
-    """Return the series to show by default: positions of the sliders on the ground; without sliders, the outputs.
-
-    A slider's coordinate is the one that moves further in the ideal scene: along its axis.
+    """Return the series to show by default: the coordinate of each slider on the ground that moves further; else
+    outputs.
     """
     found, source = [], reference.source
     guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
