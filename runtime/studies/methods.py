@@ -81,7 +81,9 @@ class RhsTime:
 
 
 def time_rhs(simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS) -> list[RhsTime]:
-    """At the start and, where a joint with play touches within `longest` (s), at the first peak of its force."""
+    """Return the times of a right-hand side at the start and, if a joint touches within `longest` (s), at its first
+    peak force.
+    """
     start = simulation.start()
     free = simulation.compiled.memory_array(None)
     found = [_time_state(simulation, "start", 0.0, start.q, start.v, free, batch, repeats)]
@@ -97,7 +99,7 @@ def time_rhs(simulation: Simulation, longest: float, batch: int = BATCH, repeats
 
 
 def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
-    """Of the equations of motion, every film, and the dry forces of the joints that are closed."""
+    """Count the operations of the equations of motion, of every film, and of the dry forces of the closed joints."""
     total = 0
     for kernel, count in simulation.source.operations.items():
         names = [j.name for j in simulation.source.clearances if kernel.endswith(f"_{j.name}_force")]
