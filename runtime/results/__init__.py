@@ -1,1 +1,1 @@
-"""What a run has: its data here; files, figures and reports of them in folders above."""
+"""Results of runs: their data here; files, figures and reports of results in the folders below."""

@@ -1,6 +1,7 @@
-"""The results of many runs of one scene: arrays over the runs, each run as a Result when it is asked for.
+"""Own `Batch`, the results of many runs of one scene: arrays over the runs, and a Result of each run on request.
 
-Series of a batch are those that were kept, or each run's from its states, evaluated in C and in threads.
+A series of a batch is read from the stored series. If states are stored instead, it is evaluated from them in C and in
+threads.
 """
 
 from __future__ import annotations
@@ -38,38 +39,46 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import Rubbed
 
 STATES = "states"
-BLOCK, AHEAD = 8, 4  # runs that a thread takes at once; blocks a thread that wait to be taken over
+BLOCK, AHEAD = 8, 4  # runs of a block, which one thread evaluates; blocks per thread that are evaluated in advance
 Row: TypeAlias = tuple[int, Array, dict[str, Array]]
 
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """A run that did not come to its end; equal to another one that says the same, as one does that was saved."""
+    """The error of a run that did not reach its end.
+
+    Two failures are equal if number and text are equal, so that a loaded batch equals the saved one.
+    """
 
     run: int
     error: GudgeonError
 
     def __eq__(self, other: object) -> bool:
+        """Return whether another failure has the same run number and the same text of the error."""
         return isinstance(other, Failure) and (self.run, str(self.error)) == (other.run, str(other.error))
 
     def __hash__(self) -> int:
+        """Return the hash of the run number and the text of the error."""
         return hash((self.run, str(self.error)))
 
     def __str__(self) -> str:
+        """Return "run 3: " and the text of the error."""
         return f"run {self.run}: {self.error}"
 
 
 class ResultOf(Protocol):
-    """Where a batch has its runs from."""
+    """Source of the results of a batch's runs: the simulation that made the batch, or a file."""
 
     def __call__(self, i: int, /) -> Result:
-        """The full result; raises the error of a run that failed, with what it reached."""
+        """Return the full Result of run i. Raises the error of a failed run, with the partial result as `partial`."""
 
     def notes(self) -> Mapping[int, tuple[str, ...]]:
-        """What runs say of themselves, by their number."""
+        """Return the notes of the runs by run number."""
 
     def bare(self, i: int, parts: frozenset[str], /) -> Result | None:
-        """Its samples for series that need at most these parts of an Evaluation; None where there is none."""
+        """Return the samples of run i as a Result that evaluates only `parts` of an Evaluation; None for a run without
+        samples.
+        """
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,28 +93,29 @@ class States:
 
 @dataclass(eq=False, repr=False)
 class Batch:
-    """n runs, each with at most N samples; SI. What a run did not reach is NaN.
+    """Results of n runs with at most N samples each, in SI; NaN at samples that a run did not reach.
 
-    `batch[i]` is the full Result of run i, made when it is asked for (and anew each time), the same as that of
-    the run alone; of a run that failed it raises the error, whose `partial` is the result up to there.
-    `batch["S9.y"]` is that series of all runs, (n, N), evaluated in threads. It may be pickled, as a Result may.
+    `batch[i]` is the full Result of run i, made anew at each request and equal to that of the run alone. For a failed
+    run it raises the error, whose `partial` is the result up to the failure. `batch["S9.y"]` is that series of all
+    runs, (n, N), evaluated in threads. A batch can be pickled, as a Result can.
 
-    `t` are the output times that were asked for: (N,) where they are those of all runs, which is so unless runs end
-    at different times or were given times of their own; then (n, N), NaN behind a run's last. `times` is (n, N)
-    always, and `batch["t"]` when the samples were taken: where an event or Ctrl-C ended a run, its end is the last.
+    `t` are the requested output times: (N,) if all runs have the same. Runs that end at different times or have output
+    times of their own have `t` (n, N), NaN after a run's last sample. `times` is always (n, N). `batch["t"]` holds the
+    times at which samples were taken: for a run that an event or Ctrl-C ended, the last is its end.
+
     `q`, `v` (n, N, n_q), `work` (n, N, 3; J) and `state` (n, N, n_clearances) are the states at the samples. A batch
-    of which only some series were kept has none, and no `batch[i]`: asking for them is a GudgeonError.
+    that stores only some series has no states and no `batch[i]`: a request for them raises GudgeonError.
     """
 
     source: KernelSource
     t: Array  # (N,) s, or (n, N)
     states: States | None  # None: only some series were kept
-    samples: Array  # (n,) output times that were reached; where an event or Ctrl-C ended a run, the last is its end's
+    samples: Array  # (n,) number of samples; the last is the end of a run that an event or Ctrl-C ended
     t_last: Array  # (n,) s, where each run ended
-    parameters: Mapping[str, Array]  # address -> (n,) values, or names, of what was given to any run
-    impacts: tuple[Array, ...]  # IMPACT_DTYPE, one an onset, of each run
+    parameters: Mapping[str, Array]  # address -> (n,) values, or names, of parameters that any run was given
+    impacts: tuple[Array, ...]  # IMPACT_DTYPE of each run, a record for each onset
     events: tuple[Array, ...]  # EVENT_DTYPE of each run
-    peaks: Array  # (n, n_clearances) PEAK_DTYPE: N, s, m; the first contact and its peak force, NaN: none
+    peaks: Array  # (n, n_clearances) PEAK_DTYPE: N, s, m; the first contact and its peak force, NaN: no contact
     diagnostics: Mapping[str, Array]  # (n,) each: counts and maxima, named and meant as in Diagnostics
     failures: tuple[Failure, ...]
     seconds: float  # wall time of all runs
@@ -114,12 +124,14 @@ class Batch:
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
     extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, where `peaks` asked for them
-    rubbed: tuple[tuple[Rubbed, ...], ...] = ()  # the same of what a study asked for; no file has it
+    rubbed: tuple[tuple[Rubbed, ...], ...] = ()  # loads of the surfaces for wear, where a study needs them; not saved
 
     def __len__(self) -> int:
+        """Return the number of runs."""
         return len(self.samples)
 
     def __repr__(self) -> str:
+        """Return mechanism, scene, and the numbers of runs, samples and failures in one line."""
         failed = f", {len(self.failures)} failed" if self.failures else ""
         samples = f"{counted(len(self), 'run')} of {counted(self.t.shape[-1], 'sample')}"
         kept = "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
@@ -127,7 +139,7 @@ class Batch:
 
     @property
     def times(self) -> Array:
-        """Output times that were asked for, (n, N), s; not to be written."""
+        """The requested output times, (n, N), s, read-only."""
         return np.broadcast_to(self.t, (len(self), self.t.shape[-1]))
 
     @property
@@ -137,21 +149,22 @@ class Batch:
 
     @property
     def v(self) -> Array:
-        """Their velocities, (n, N, n_q)."""
+        """Velocities q̇ of the coordinates, (n, N, n_q)."""
         return self._states.v
 
     @property
     def work(self) -> Array:
-        """Works of drives, applied forces, clearance forces, (n, N, 3), J."""
+        """Works of drives, applied forces and clearance forces, (n, N, 3), J."""
         return self._states.work
 
     @property
     def state(self) -> Array:
-        """0 free, 1 impact, 2 contact, (n, N, n_clearances)."""
+        """Contact codes, (n, N, n_clearances): 0 free, 1 impact, 2 contact."""
         return self._states.state
 
     @property
     def _states(self) -> States:
+        """The states of all runs. Raises GudgeonError if only series were stored."""
         if self.states is None:
             raise GudgeonError(f"the states of these runs were not kept: {kept_text(self)}")
         return self.states
@@ -161,6 +174,7 @@ class Batch:
     @overload
     def __getitem__(self, key: int) -> Result: ...
     def __getitem__(self, key: int | str) -> Result | Array:
+        """Return a series of all runs, (n, N), for a name, or the full Result of a run for its number."""
         if isinstance(key, str):
             return series(self, [key])[key]
         if not is_whole(key):
@@ -172,13 +186,13 @@ class Batch:
 
     @property
     def onsets(self) -> Array:
-        """How many contacts began at each joint with play, (n, n_clearances)."""
+        """Number of contacts that began at each joint with play, (n, n_clearances)."""
         joints = range(len(self.source.clearances))
         counts = [[int((impacts["joint"] == k).sum()) for k in joints] for impacts in self.impacts]
         return np.array(counts, dtype=np.int_).reshape(len(self), len(joints))
 
     def partial(self, i: int) -> Result | None:
-        """The result of run i as far as it came; None where it did not begin."""
+        """Return the result of run i up to its end or its failure; None for a run that did not begin."""
         _ = self._states
         if not is_whole(i):
             refuse("a run of a batch", i, "its number")
@@ -189,55 +203,64 @@ class Batch:
             return found if isinstance(found, Result) else None
 
     def at_events(self, name: str) -> tuple[AtEvents | None, ...]:
-        """The states at the times of an event, run by run; None for one that did not begin. See Result.at_events."""
+        """Return for each run the states at the times of an event; None for a run that did not begin. See
+        Result.at_events.
+        """
         runs = map(self.partial, range(len(self)))
         return tuple(None if run is None else run.at_events(name) for run in runs)
 
     def peak(self, name: str) -> BatchPeaks:
-        """Largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
+        """Return the largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
         return of_runs(self.source, self.extremes, name, False, lambda: self._samples_of(name))
 
     def peak_error(self, name: str) -> BatchPeaks:
-        """The same of the series less that of another scene: see Result.peak_error."""
+        """Return the extremes of the difference between a series and that of another scene, (n,) each: see
+        Result.peak_error.
+        """
         return of_runs(self.source, self.extremes, name, True, lambda: self._samples_of(name))
 
     def _samples_of(self, name: str) -> tuple[Array, Array]:
-        """Times and values, (n, N) each; N is 0 where the series was not kept."""
+        """Return sample times and values of a series, (n, N) each; N is 0 if the series is not available."""
         try:
             return np.broadcast_to(self["t"], (len(self), self.t.shape[-1])), self[name]
         except GudgeonError:
             return np.zeros((len(self), 0)), np.zeros((len(self), 0))
 
     def to_xarray(self, names: Iterable[str] | str = (), part: str = "series") -> xarray.Dataset:
-        """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
+        """Return an xarray Dataset over `run` and `time` with every series by its name in a Result, and those of
+        `names`.
 
-        Runs with times of their own have them as `t` over both; `time` then only counts. Over `run` alone: samples,
-        ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as "S9.ay.peak.max",
-        "S9.ay.error.max".
-        `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
-        table of its own: a row each, with its `run`; a text alone names such a part, as it does of a Result.
+        Runs with output times of their own have them as `t` over both; `time` is then a counter. Variables over `run`
+        alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as
+        "S9.ay.peak.max", "S9.ay.error.max". `.to_dataframe()` has a row for each run and time. part: "impacts",
+        "events" or another table of a Result, with a row for each record and its `run`; a text as the only argument
+        names such a part, as it does for a Result.
         """
         from gudgeon.results.files import netcdf_batch
 
         return netcdf_batch.dataset(self, names, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to one NetCDF file, every series of every run (those that were kept); OutputError where
-        that fails."""
+        """Write everything to one NetCDF file: every series of every run, or those that were stored.
+
+        Raises OutputError if that fails.
+        """
         from gudgeon.results.files import netcdf_batch
 
         netcdf_batch.save(self, path)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Batch:
-        """The batch that `save` wrote, bit for bit; it needs no compiled library. InputError for any other file."""
+        """Return the batch that `save` wrote, bit for bit, without a compiled library. Raises InputError for any other
+        file.
+        """
         from gudgeon.results.files import netcdf_batch
 
         return netcdf_batch.load(path)
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
-        """A long table of pandas: run, what was given to it, t, and these series, or all there are for None; a row each
-        sample reached.
+        """Return a long pandas table with a row for each reached sample: run, given parameters, t, and the series
+        `names`, or all for None.
 
         SI, units in `attrs["units"]`.
         """
@@ -246,31 +269,35 @@ class Batch:
         return export.batch_dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write the same table as CSV, run by run; every bit of a number."""
+        """Write the table of `to_dataframe` as CSV, run by run, with all digits of each number."""
         from gudgeon.results.files import export
 
         export.batch_csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write for MATLAB `t` and these series, or all, each n × N, and what was given to runs, n × 1; see Result."""
+        """Write a MATLAB file: `t` and the series `names`, or all, n × N each, and given parameters n × 1; see
+        Result.to_mat.
+        """
         from gudgeon.results.files import export
 
         export.batch_mat(self, path, names)
 
 
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
-    """{address: (n,)} of what was given to any run, from the parameters (n, n_slots + n_derived) of all."""
+    """Return {address: (n,)} of the parameters that any run was given, from the values p (n, n_slots + n_derived) of
+    all runs.
+    """
     some = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
     return {slot.address: chosen_of_runs(slot, values) for slot, values in some}
 
 
 def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
-    """By the number of the run."""
+    """Return errors by run number as Failures, sorted by run number."""
     return tuple(Failure(i, errors[i]) for i in sorted(errors))
 
 
 def wanted_names(source: KernelSource, names: str | Iterable[str], what: str = "names") -> list[str]:
-    """These names of series, each once; UnknownNameError names the nearest."""
+    """Return the names of series as a list without repetitions. Raises UnknownNameError with the nearest name."""
     found, known = list(dict.fromkeys(plain_names(names, what, "a list of names of series"))), blank(source)
     for name in found:
         known.unit(name)
@@ -278,13 +305,13 @@ def wanted_names(source: KernelSource, names: str | Iterable[str], what: str = "
 
 
 def parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
-    """Of an Evaluation, all that these series need."""
+    """Return the parts of an Evaluation that the series `names` need."""
     known = catalogue(source)
     return frozenset(part for name in names if name != "t" for part in known[name].parts)
 
 
 def reads_works(source: KernelSource, name: str) -> bool:
-    """Whether a series of a scene follows from works."""
+    """Return whether a series of a scene is computed from the works, itself or as an output's expression."""
     own = catalogue(source)[name]
     if name in source.outputs:
         used = tree.names(tree.from_json(source.outputs[name]))
@@ -293,13 +320,13 @@ def reads_works(source: KernelSource, name: str) -> bool:
 
 
 def check_kept(batch: Batch, names: Iterable[str]) -> None:
-    """GudgeonError for a series that neither was kept nor can be evaluated."""
+    """Raise GudgeonError for a series that is neither stored in the batch nor can be evaluated from states."""
     if batch.states is None and (lost := [name for name in names if name not in batch.kept]):
         raise GudgeonError(f"{lost[0]!r} was not kept in this batch: {kept_text(batch)}")
 
 
 def kept_text(batch: Batch) -> str:
-    """What there is instead of states."""
+    """Return a text that lists the stored series and how to store others, for errors of a batch without states."""
     named = [name for name in batch.kept if name != "t"]
     hint = 'simulate_many(…, keep=[…]) names what is kept; keep="states" keeps everything'
     return f"it has {', '.join(named) or 'no series'}\n  {hint}"
@@ -317,10 +344,10 @@ def given_columns(batch: Batch) -> dict[str, Array]:
 
 
 def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
-    """These series of all runs, (n, N) each, NaN where a run has no sample. Raises SingularError."""
+    """Return the named series of all runs, (n, N) each, NaN where a run has no sample. Raises SingularError."""
     names = wanted_names(batch.source, names)
     check_kept(batch, names)
-    found = {name: column for name in names if (column := _at_hand(batch, name)) is not None}
+    found = {name: column for name in names if (column := _stored_column(batch, name)) is not None}
     left = [name for name in names if name not in found]
     found |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in left}
     for i, t, own in rows(batch, left) if left else ():
@@ -329,8 +356,8 @@ def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     return {name: found[name] for name in names}
 
 
-def _at_hand(batch: Batch, name: str) -> Array | None:
-    """A series that is a column of what is stored, (n, N); a copy."""
+def _stored_column(batch: Batch, name: str) -> Array | None:
+    """Return a copy of a series that is a column of the stored arrays, (n, N); None if it must be evaluated."""
     if name in batch.kept:
         return batch.kept[name].copy()
     stored = None if name == "t" else catalogue(batch.source)[name].stored
@@ -344,19 +371,26 @@ def _at_hand(batch: Batch, name: str) -> Array | None:
 
 
 def rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
-    """Number, sample times and these series of each run that began, in order; evaluated a few runs ahead."""
+    """Yield run number, sample times and the named series of each run that began, in order of the runs.
+
+    Threads evaluate a few blocks of runs in advance.
+    """
     check_kept(batch, names)
-    one = _kept_row if batch.states is None else _evaluated_row
+    make_row = _stored_row if batch.states is None else _evaluated_row
     parts = parts_of(batch.source, names)
 
     def block(first: int) -> list[Row]:
-        each = (one(batch, i, names, parts) for i in range(first, min(first + BLOCK, len(batch))))
+        """Return the rows of BLOCK runs from `first` on."""
+        each = (make_row(batch, i, names, parts) for i in range(first, min(first + BLOCK, len(batch))))
         return [row for row in each if row is not None]
 
-    yield from _in_order(block, range(0, len(batch), BLOCK), min(batch.threads, available_threads()))
+    yield from _evaluate_in_order(block, range(0, len(batch), BLOCK), min(batch.threads, available_threads()))
 
 
-def _in_order(make: Callable[[int], list[Row]], pieces: range, threads: int) -> Iterator[Row]:
+def _evaluate_in_order(make: Callable[[int], list[Row]], pieces: range, threads: int) -> Iterator[Row]:
+    """Yield the results of `make` for all pieces in their order, computed in `threads` threads, at most AHEAD pieces a
+    thread in advance.
+    """
     waiting: deque[Future[list[Row]]] = deque()
     left = iter(pieces)
     with ThreadPoolExecutor(max(1, min(threads, len(pieces))), thread_name_prefix="gudgeon") as pool:
@@ -372,10 +406,12 @@ def _in_order(make: Callable[[int], list[Row]], pieces: range, threads: int) -> 
 
 
 def _evaluated_row(batch: Batch, i: int, names: Sequence[str], parts: frozenset[str]) -> Row | None:
+    """Return number, times and series of run i, evaluated from its states; None if it has no samples."""
     run: Result | None = batch.result.bare(i, parts)
     return None if run is None else (i, run.t, {name: run[name] for name in names})
 
 
-def _kept_row(batch: Batch, i: int, names: Sequence[str], _: frozenset[str]) -> Row | None:
+def _stored_row(batch: Batch, i: int, names: Sequence[str], _: frozenset[str]) -> Row | None:
+    """Return number, times and series of run i from the stored series; None if it has no samples."""
     done = int(batch.samples[i])
     return (i, batch.kept["t"][i, :done], {name: batch.kept[name][i, :done] for name in names}) if done else None

@@ -35,7 +35,7 @@ PEAK_TOL_FIXED = 0.1  # the same of rk4, whose contacts have the largest force a
 
 @dataclass(frozen=True)
 class Fault:
-    """What contradicts the contacts of a run, in one joint over neighbouring samples.
+    """A contradiction between the samples of a run and its list of contacts, at one joint over neighbouring samples.
 
     kind: "penetration" or "force" outside every listed contact, "pull" of a rigid contact, "peak" above the largest
     force of the contacts.
@@ -48,6 +48,7 @@ class Fault:
     force: float  # N, the largest force there; NaN: not known
 
     def __str__(self) -> str:
+        """Return kind, joint, depth or force, and time of the fault as a sentence."""
         where = f"at t = {self.t:.9g} s"
         if self.kind == "penetration":
             return f"joint {self.joint} penetrates {self.depth:.3g} m outside every listed contact {where}"
@@ -60,34 +61,45 @@ class Fault:
 
 @dataclass(frozen=True)
 class ContactCheck:
-    """The faults that were found, by time; `samples` tells at how many times the run was looked at."""
+    """Result of a check: faults sorted by time, the number of checked samples, and notes."""
 
     samples: int
     faults: tuple[Fault, ...]
     notes: tuple[str, ...] = ()
 
     def __bool__(self) -> bool:
-        """True where nothing was found."""
+        """Return True if there is no fault."""
         return not self.faults
 
     def __str__(self) -> str:
+        """Return the number of samples and faults, then notes and faults, one a line."""
         head = f"contacts checked at {self.samples} samples: {len(self.faults) or 'no'} faults"
         return "\n".join([head, *self.notes, *map(str, self.faults)])
 
     def raise_faults(self) -> None:
-        """Raise SolverError with joint, time and depth of every fault, if there is one."""
+        """Raise SolverError with joint, time and depth of every fault; return without an effect if there is none."""
         if self.faults:
             raise SolverError(str(self), self.faults[0].t)
 
 
 def penetrations(run: Result) -> Array:
-    """Penetration (N, n_clearances) at all samples, m, from positions of the bodies; negative: no contact."""
-    columns = [_at_wall(run, joint) if joint.at_wall else _in_bearing(run, joint) for joint in run.source.clearances]
+    """Return the penetration of each joint with play at all samples, (N, n_clearances), m, from the positions of the
+    bodies.
+
+    Negative values mean that the surfaces are apart.
+    """
+    columns = [
+        _wall_penetration(run, joint) if joint.at_wall else _bearing_penetration(run, joint)
+        for joint in run.source.clearances
+    ]
     return np.stack(columns, axis=1) if columns else np.zeros((len(run.t), 0))
 
 
 def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
-    """Check the samples of a run against its contacts; `peaks`: the run whose peaks were asked for, None: the same."""
+    """Compare the samples of a run with its list of contacts and return the faults.
+
+    `peaks` is the run whose diagnostics have the peaks over all steps; None: the same run.
+    """
     found: list[Fault] = []
     delta = penetrations(run)
     for k, joint in enumerate(run.source.clearances):
@@ -96,20 +108,20 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
         force = np.full(len(run.t), np.nan) if run.compiled is None or joint.film else run[f"{joint.name}.F"]
         free = ~_in_contact(run, k)
         limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
-        found += _excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
+        found += _find_excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
         touches = free & (np.abs(delta[:, k]) <= SHALLOW)
         bears = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & ~touches
-        found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & bears, delta[:, k], force)
+        found += _find_excursions(run, joint, "force", free & (delta[:, k] <= limit) & bears, delta[:, k], force)
         if joint.name in run.source.rigid and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             wrong = ~free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
-            found += _excursions(run, joint, "pull", wrong, delta[:, k], force)
-        found += _peaks(peaks or run, k, joint, float(np.nanmax(force[touches], initial=0.0)))
+            found += _find_excursions(run, joint, "pull", wrong, delta[:, k], force)
+        found += _find_peak_faults(peaks or run, k, joint, float(np.nanmax(force[touches], initial=0.0)))
     return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
 
 
 def _in_contact(run: Result, k: int) -> NDArray[np.bool_]:
-    """Whether each sample lies in a listed contact of joint k."""
+    """Return for each sample whether it lies in a listed contact of joint k, (N,)."""
     own = run.impacts[run.impacts["joint"] == k]
     slack = TIME_TOL * float(run.t[-1] - run.t[0])
     inside = np.zeros(len(run.t) + 1, int)
@@ -119,10 +131,10 @@ def _in_contact(run: Result, k: int) -> NDArray[np.bool_]:
     return np.cumsum(inside)[:-1] > 0
 
 
-def _excursions(
+def _find_excursions(
     run: Result, joint: ClearanceInfo, kind: str, wrong: NDArray[np.bool_], delta: Array, force: Array
 ) -> Iterator[Fault]:
-    """One fault for each series of neighbouring samples that are wrong."""
+    """Yield one fault for each series of neighbouring samples that `wrong` marks."""
     at = np.flatnonzero(wrong)
     for part in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
         if len(part):
@@ -131,8 +143,11 @@ def _excursions(
             yield Fault(kind, joint.name, float(run.t[deepest]), float(delta[part].max()), largest)
 
 
-def _peaks(run: Result, k: int, joint: ClearanceInfo, touches: float) -> Iterator[Fault]:
-    """A peak over all steps that no listed contact has; joints with a film have forces outside contacts."""
+def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touches: float) -> Iterator[Fault]:
+    """Yield a fault for each peak over all steps that exceeds the force of every listed contact.
+
+    Joints with a film are skipped, since they have forces outside contacts.
+    """
     if joint.film or (joint.at_wall and joint.joint in run.source.rigid):
         return
     own = run.impacts[run.impacts["joint"] == k]
@@ -148,49 +163,56 @@ def _peaks(run: Result, k: int, joint: ClearanceInfo, touches: float) -> Iterato
             yield Fault("peak", joint.name, t, float("nan"), F)
 
 
-def _in_bearing(run: Result, joint: ClearanceInfo) -> Array:
-    """‖e‖ − c of a journal, of a bearing with a contour less its depth in the direction of e."""
-    first, second = _ends(run, joint)
-    ex, ey = (_points(run, second) - _points(run, first)).T
+def _bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
+    """Return the penetration of a journal at all samples, (N,), m: ‖e‖ − c, less the contour's depth in the direction
+    of e.
+    """
+    first, second = _end_points(run, joint)
+    ex, ey = (_point_positions(run, second) - _point_positions(run, first)).T
     delta = np.hypot(ex, ey) - float(run.p[joint.clearance])
     if (depths := contour_of(run.source, run.p, joint.name)) is not None:
-        delta -= depth_at(depths, np.arctan2(ey, ex) - _angle(run, joint.first))
+        delta -= depth_at(depths, np.arctan2(ey, ex) - _body_angle(run, joint.first))
     return delta
 
 
-def _at_wall(run: Result, joint: ClearanceInfo) -> Array:
-    """Penetration of a slider's corner, m: how far it is nearer to its wall than in mid-guide, less the gap."""
-    first, second = _ends(run, joint)
+def _wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
+    """Return the penetration of a slider's corner at all samples, (N,), m.
+
+    It is the displacement of the corner towards its wall from the middle of the guide, less the gap.
+    """
+    first, second = _end_points(run, joint)
     place = run.source.place
     numbers = {
         key: float(run.p[place[at]]) if (at := f"joints.{joint.joint}.{key}") in place else 0.0
         for key in ("axis.x", "axis.y", "angle")
     }
-    direction = np.arctan2(numbers["axis.y"], numbers["axis.x"]) + _angle(run, joint.first)
-    turned = numbers["angle"] if f"joints.{joint.joint}.angle" in place or _written(run, joint) else None
+    direction = np.arctan2(numbers["axis.y"], numbers["axis.x"]) + _body_angle(run, joint.first)
+    turned = numbers["angle"] if f"joints.{joint.joint}.angle" in place or _has_mounting_angle(run, joint) else None
     mounted = np.arctan2(numbers["axis.y"], numbers["axis.x"]) if turned is None else turned
-    tilt = _angle(run, joint.second) - _angle(run, joint.first) - mounted
-    apart = _points(run, second) - _points(run, first)
-    offset = apart[:, 1] * np.cos(direction) - apart[:, 0] * np.sin(direction)
+    tilt = _body_angle(run, joint.second) - _body_angle(run, joint.first) - mounted
+    distance = _point_positions(run, second) - _point_positions(run, first)
+    offset = distance[:, 1] * np.cos(direction) - distance[:, 0] * np.sin(direction)
     return np.asarray(corner_at(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
 
 
-def _written(run: Result, joint: ClearanceInfo) -> bool:
+def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:
+    """Return whether the mechanism file specifies the mounting angle of the joint."""
     return any(one.address == f"joints.{joint.joint}.angle" for one in run.source.written)
 
 
-def _ends(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
-    """The bearing's and the journal's points."""
+def _end_points(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
+    """Return the names of the two points that a joint connects: that of the bearing, then that of the journal."""
     part = next(one for one in run.source.parts if one.section == "joints" and one.name == joint.joint)
     return part.ends[0], part.ends[1]
 
 
-def _angle(run: Result, body: int) -> Array:
+def _body_angle(run: Result, body: int) -> Array:
+    """Return the angle of a body at all samples, (N,), rad; 0 for the ground (body < 0)."""
     return run.q[:, run.source.bodies[body].index + 2] if body >= 0 else np.zeros(len(run.t))
 
 
-def _points(run: Result, name: str) -> Array:
-    """Positions (N, 2) of a point, m; the origin for the ground's own."""
+def _point_positions(run: Result, name: str) -> Array:
+    """Return the positions of a point at all samples, (N, 2), m; the origin for the ground itself."""
     info = next((one for one in run.source.points if one.name == name), None)
     if info is None:
         return np.zeros((len(run.t), 2))

@@ -1,4 +1,4 @@
-"""What a run says about itself: its size, its cost, how far it may be trusted, and where it comes from."""
+"""Own `Diagnostics`: size and cost of a run, peaks, measures of its accuracy, and its provenance."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PROVENANCE = ("version", "platform", "compiler", "date", "mechanism")
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest force at one joint with play, over all accepted steps (not only the stored samples)."""
+    """The largest force at one joint with play over all accepted steps, not only over the samples."""
 
     joint: str
     F: float  # N
@@ -35,7 +35,7 @@ class Peak:
 
 @dataclass(frozen=True)
 class Extremes:
-    """The largest and the smallest value of a series over all steps of a run; NaN where it never was a number."""
+    """The largest and the smallest value of a series over all steps of a run; NaN if it never was a number."""
 
     name: str
     unit: str
@@ -48,31 +48,35 @@ class Extremes:
     @property
     def abs(self) -> float:
         """The largest magnitude."""
-        return abs(self._furthest[0])
+        return abs(self._largest_magnitude[0])
 
     @property
     def t_abs(self) -> float:
-        """Its time, s."""
-        return self._furthest[1]
+        """Time of the largest magnitude, s."""
+        return self._largest_magnitude[1]
 
     @property
-    def _furthest(self) -> tuple[float, float]:
+    def _largest_magnitude(self) -> tuple[float, float]:
+        """Value and time (s) of the largest magnitude."""
         return (self.min, self.t_min) if -self.min > self.max else (self.max, self.t_max)
 
 
 @dataclass(frozen=True)
 class JointExamined:
-    """What a second pass through a joint's contacts found (simulation/examine.py); NaN: there was nothing of it."""
+    """Statistics of a joint's contacts from a second pass through the run (simulation/examine.py).
+
+    NaN: the joint has no such contacts.
+    """
 
     joint: str
-    impacting: float  # share of the time from an onset until the penetration first stops growing
+    impacting: float  # fraction of the time that lies between an onset and the first maximum of the penetration
     F_rms: float  # N, over all of the time
-    taken: float  # J, by normal contact forces while the surfaces approached; NaN of surfaces that do not give
-    returned: float  # J, by these while they parted; what is missing was damped
-    friction: float  # J, taken by tangential contact forces
-    film: float  # J, taken by the film
+    taken: float  # J, absorbed by normal contact forces during approach; NaN for rigid surfaces
+    returned: float  # J, returned by normal contact forces during separation; the rest was damped
+    friction: float  # J, dissipated by tangential contact forces
+    film: float  # J, dissipated by the film
     separations: int
-    restitution_min: float  # rate of parting over rate of approach, of contacts that ended
+    restitution_min: float  # separation speed over approach speed, of contacts that ended
     restitution_q1: float
     restitution_median: float
     restitution_q3: float
@@ -81,7 +85,7 @@ class JointExamined:
 
 @dataclass(frozen=True)
 class IdealForce:
-    """The reaction at a joint of the ideal scene, at the samples of the run."""
+    """Peak and rms of the reaction at a joint of the ideal scene, at the samples of the run."""
 
     joint: str
     peak: float  # N
@@ -91,7 +95,10 @@ class IdealForce:
 
 @dataclass(frozen=True)
 class Difference:
-    """How far a run is from one with smaller steps, over the samples up to `until`, the horizon if it is known."""
+    """The largest difference of a series between a run and one with smaller steps.
+
+    It is taken over the samples up to `until`, the predictability horizon if that is known.
+    """
 
     name: str
     unit: str
@@ -102,7 +109,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class Examined:
-    """What other runs beside this one tell of it; empty: it could not be had, and `notes` say why."""
+    """Results of additional runs for a report; empty where they failed, with the reason in `notes`."""
 
     joints: tuple[JointExamined, ...] = ()
     ideal: tuple[IdealForce, ...] = ()
@@ -113,7 +120,9 @@ class Examined:
 
 @dataclass(frozen=True)
 class Diagnostics:
-    """Of one run; NaN stands for what the method does not have (the step of a kinematic scene)."""
+    """Counts, maxima, accuracy and cost of one run; NaN where the method has no such quantity, such as the step of a
+    kinematic scene.
+    """
 
     method: str
     step: float  # s, of a fixed step; NaN: the method chose it
@@ -123,8 +132,8 @@ class Diagnostics:
     phi_max: float  # max |Φ| over all accepted steps, m or rad
     phi_dot_max: float  # max |Φ̇|, m/s or rad/s
     energy_residual: float  # max |T + V − T0 − V0 − (W − W0)| over the stored samples, J
-    energy_turned_over: float  # J, what the residual is to be compared with
-    ratio_min: float  # of δ̇/δ̇⁻ while latched
+    energy_turned_over: float  # J, energy throughput, the scale of the residual
+    ratio_min: float  # smallest δ̇/δ̇⁻ in contacts
     ratio_max: float
     ratio_outside: int  # steps with the ratio outside [−1, 1]
     peaks: tuple[Peak, ...]  # in the order of the clearances
@@ -132,20 +141,20 @@ class Diagnostics:
     seconds_per_simulated_second: float
     interrupted: bool = False
     notes: tuple[str, ...] = ()
-    rtol: float = float("nan")  # of a method that chose its step
-    rejected: int = 0  # steps tried and not taken
-    stiff_steps: int = 0  # of the steps, those of the stiff method
+    rtol: float = float("nan")  # relative tolerance of a method with step-size control
+    rejected: int = 0  # rejected steps
+    stiff_steps: int = 0  # steps of the stiff method, which `steps` includes
     jacobians: int = 0
-    last_step: float = float("nan")  # s, of a fixed step, where the last one up to t_end is shorter; NaN: it is not
-    t_end: float = float("nan")  # s, up to which a run was to go that ended before; NaN: it went there
-    horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
-    extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
-    examined: Examined | None = None  # by other runs, for a report; None: nobody asked
+    last_step: float = float("nan")  # s, last step of a fixed-step run if it is shorter; NaN: it is not
+    t_end: float = float("nan")  # s, requested end of a run that ended before; NaN: it reached its end
+    horizon: float = float("nan")  # s, predictability horizon; inf: beyond the end, NaN: not requested
+    extremes: tuple[Extremes, ...] = ()  # over all steps, of the series in `peaks`
+    examined: Examined | None = None  # results of additional runs, for a report; None: not requested
     audit: tuple[Finding, ...] = ()  # largest value of each check, as a multiple of its limit; empty: switched off
-    rubbed: tuple[Rubbed, ...] = ()  # by all steps, of joints whose wear was asked for; no file has it
+    rubbed: tuple[Rubbed, ...] = ()  # over all steps, of joints whose wear was requested; not saved
 
     def peak(self, joint: str) -> Peak:
-        """The peak at a joint with play; UnknownNameError for any other."""
+        """Return the peak at a joint with play. Raises UnknownNameError for any other name."""
         for peak in self.peaks:
             if isinstance(joint, str) and peak.joint == joint:
                 return peak
@@ -153,29 +162,31 @@ class Diagnostics:
         raise UnknownNameError(f"no peak of {told(joint)}: expected a joint with play", hint=f"there are: {known}")
 
     def to_json(self) -> str:
-        """JSON without NaN or infinity (RFC 8259 has neither): they are the words "nan", "inf", "-inf".
+        """Return the diagnostics as JSON without NaN or infinity, which RFC 8259 lacks: they are the words "nan",
+        "inf", "-inf".
 
-        A float is written with as many digits as reading it back exactly needs.
+        A float has as many digits as an exact reading needs.
         """
         data = asdict(replace(self, rubbed=()))
         for name in ("extremes", "examined", "audit", "rubbed"):
             if not data[name]:
                 del data[name]
-        return json.dumps(_words(data), ensure_ascii=False, allow_nan=False)
+        return json.dumps(_to_json_values(data), ensure_ascii=False, allow_nan=False)
 
     @staticmethod
     def from_json(text: str) -> Diagnostics:
-        """The diagnostics that `to_json` wrote, bit for bit."""
+        """Return the diagnostics from the text that `to_json` wrote, bit for bit."""
         data = json.loads(text)
-        data.pop("grazes", None)  # of files from when rk4 looked at the ends of its steps alone
-        data["peaks"] = tuple(Peak(**_numbers(peak, Peak)) for peak in data["peaks"])
-        data["extremes"] = tuple(Extremes(**_numbers(one, Extremes)) for one in data.get("extremes", ()))
-        data["audit"] = tuple(Finding(**_numbers(one, Finding)) for one in data.get("audit", ()))
+        data.pop("grazes", None)  # in older files, whose rk4 evaluated contacts at the ends of steps only
+        data["peaks"] = tuple(Peak(**_to_floats(peak, Peak)) for peak in data["peaks"])
+        data["extremes"] = tuple(Extremes(**_to_floats(one, Extremes)) for one in data.get("extremes", ()))
+        data["audit"] = tuple(Finding(**_to_floats(one, Finding)) for one in data.get("audit", ()))
         data["notes"] = tuple(data["notes"])
-        data["examined"] = _examined(data["examined"]) if data.get("examined") else None
-        return Diagnostics(**_numbers(data, Diagnostics))
+        data["examined"] = _examined_from_json(data["examined"]) if data.get("examined") else None
+        return Diagnostics(**_to_floats(data, Diagnostics))
 
     def __str__(self) -> str:
+        """Return the diagnostics as aligned lines, one for each quantity, peak, series and note."""
         lists = ("peaks", "notes", "extremes", "examined", "audit", "rubbed")
         rows = [f"{name:>30}  {value}" for name, value in asdict(replace(self, rubbed=())).items() if name not in lists]
         rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
@@ -189,42 +200,44 @@ class Diagnostics:
 
 
 def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
-    """Those of one run alone, as `Diagnostics.to_json` has them."""
-    return json.dumps(_words([asdict(one) for one in extremes]), ensure_ascii=False, allow_nan=False)
+    """Return the extremes of one run as JSON, in the form of `Diagnostics.to_json`."""
+    return json.dumps(_to_json_values([asdict(one) for one in extremes]), ensure_ascii=False, allow_nan=False)
 
 
 def extremes_from_json(text: str) -> tuple[Extremes, ...]:
-    """What `extremes_to_json` wrote, bit for bit."""
-    return tuple(Extremes(**_numbers(one, Extremes)) for one in json.loads(text))
+    """Return the extremes from the text that `extremes_to_json` wrote, bit for bit."""
+    return tuple(Extremes(**_to_floats(one, Extremes)) for one in json.loads(text))
 
 
-def _examined(data: dict[str, Any]) -> Examined:
+def _examined_from_json(data: dict[str, Any]) -> Examined:
+    """Return the Examined of parsed JSON."""
     kinds = {"joints": JointExamined, "ideal": IdealForce, "differences": Difference}
-    lists = {name: tuple(kind(**_numbers(one, kind)) for one in data[name]) for name, kind in kinds.items()}
+    lists = {name: tuple(kind(**_to_floats(one, kind)) for one in data[name]) for name, kind in kinds.items()}
     return Examined(**data | lists | {"notes": tuple(data["notes"])})
 
 
-def _words(value: Any) -> Any:
-    """Numbers that JSON lacks as words, at any depth."""
+def _to_json_values(value: Any) -> Any:
+    """Replace the numbers that JSON lacks by words, at any depth of lists and dicts."""
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
     if isinstance(value, dict):
-        return {key: _words(item) for key, item in value.items()}
+        return {key: _to_json_values(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_words(item) for item in value]
+        return [_to_json_values(item) for item in value]
     return value.item() if hasattr(value, "item") else value  # a NumPy scalar
 
 
-def _numbers(data: dict[str, Any], kind: type) -> dict[str, Any]:
-    """The words of `_words` back to floats, where the field of `kind` is one."""
+def _to_floats(data: dict[str, Any], kind: type) -> dict[str, Any]:
+    """Convert words of `_to_json_values` back to floats for the fields of the dataclass `kind` that are floats."""
     floats = {name for name, annotation in kind.__annotations__.items() if annotation == "float"}
     return {key: float(value) if key in floats else value for key, value in data.items()}
 
 
 def provenance_of(compiled: CompiledModel) -> dict[str, str]:
-    """Return where a run that ends now comes from, by PROVENANCE; nothing is computed from it, no comparison reads it.
+    """Return where and when a run was made, by the keys of PROVENANCE.
 
-    `SOURCE_DATE_EPOCH` (s since 1970) in the environment replaces the date, so that runs repeat byte for byte.
+    Nothing is computed from it, and no comparison reads it. `SOURCE_DATE_EPOCH` (s since 1970) in the environment
+    replaces the date, so that runs repeat byte for byte.
     """
     from gudgeon import __version__
 
@@ -234,6 +247,7 @@ def provenance_of(compiled: CompiledModel) -> dict[str, str]:
 
 
 def _date() -> str:
+    """Return the date and time in UTC to the second, or that of SOURCE_DATE_EPOCH."""
     given = os.environ.get("SOURCE_DATE_EPOCH", "")
     now = datetime.fromtimestamp(int(given), UTC) if given.isdecimal() else datetime.now(UTC)
     return now.isoformat(timespec="seconds")

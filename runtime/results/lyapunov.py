@@ -1,8 +1,9 @@
-"""The largest Lyapunov exponent of a run as it was found: growth by intervals, uncertainty, returns to a section.
+"""Own `Lyapunov`, the result of an estimate of the largest exponent: growth by intervals, uncertainty, returns to a
+section.
 
-What is measured is the rate at which neighbours part, λ = lim ln(d(t)/d(0))/t (G. Benettin, L. Galgani, A. Giorgilli,
-J.-M. Strelcyn, Meccanica 15:9, 1980). Of an exponent per return, 1/return, it is λ times the mean time between returns
-(L. M. Abramov, Dokl. Akad. Nauk SSSR 128:873, 1959).
+The measured rate is that at which neighbouring motions separate, λ = lim ln(d(t)/d(0))/t (G. Benettin, L. Galgani, A.
+Giorgilli, J.-M. Strelcyn, Meccanica 15:9, 1980). The exponent per return, 1/return, is λ times the mean time between
+returns (L. M. Abramov, Dokl. Akad. Nauk SSSR 128:873, 1959).
 """
 
 from __future__ import annotations
@@ -21,14 +22,14 @@ from gudgeon.results.motion import Motion, classify
 if TYPE_CHECKING:
     from gudgeon.results.state import Array, State
 
-SETTLED = 0.1  # share of the time in which the difference turns into the direction that grows most
-BLOCKS = 10  # whose means tell the uncertainty
-APART = 0.25  # of the clearance (or size, or 1 rad): as simulate(..., horizon=True) has it
+SETTLED = 0.1  # fraction of the time in which the difference turns to the direction of largest growth
+BLOCKS = 10  # blocks of time, from whose means the uncertainty is estimated
+APART = 0.25  # fraction of the clearance (or size, or 1 rad) at which runs disagree, as in simulate(..., horizon=True)
 
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """Where a motion returns to: states at an event of the file, or once a period."""
+    """A Poincaré section of a motion: its states at an event of the file, or once a period."""
 
     name: str  # of the event, or "every 0.5 s"
     t: Array  # (k,) s
@@ -38,43 +39,48 @@ class Section:
 
 @dataclass(frozen=True, eq=False)
 class Lyapunov:
-    """`exponent` ± `uncertainty` in 1/s: positive where small differences grow, that is, in chaos.
+    """The largest Lyapunov exponent, `exponent` ± `uncertainty` in 1/s: positive where small differences grow, that is,
+    in chaos.
 
-    The uncertainty is one standard error: of the means of ten blocks of time, with what the mesh of the tangent
-    leaves open. `believable` tells until when a run may be believed.
+    The uncertainty is one standard error, from the means of ten blocks of time and from the mesh of the tangent.
+    `believable` returns the predictability horizon.
     """
 
     by: str  # "tangent" or "twin"
-    why: str  # why not by the tangent; "" where it is, or where nobody asked for it
+    why: str  # why the tangent was not used; "" where it was, or where "twin" was requested
     t: Array  # (k + 1,) s: begin, and the end of each interval
-    growth: Array  # (k,) ln of what the difference grew by in each
+    growth: Array  # (k,) ln of the growth of the difference in each interval
     unresolved: float  # 1/s: change of the tangent's growth with the last halving of its mesh
-    merged: int  # how often a twin became one with the run, as where friction sticks: λ is a bound from above then
-    transverse: bool  # differences along the motion itself were taken away: of a section without a clock
+    merged: int  # times at which both trajectories merged, as in stick; λ is then an upper bound
+    transverse: bool  # whether differences along the motion were removed, as for a section at an event
     section: Section | None
-    final: State = field(repr=False)  # to go on from
+    final: State = field(repr=False)  # to resume from
 
     @cached_property
     def series(self) -> Array:
-        """(k,) the exponent (1/s) as it was known at t[1:]; NaN while the difference turns."""
+        """Exponent (1/s) as estimated up to t[1:], (k,); NaN while the difference turns to the direction of largest
+        growth.
+        """
         found = np.full(len(self.growth), np.nan)
         found[self._first :] = _slopes(self.t[self._first :], self._logs[self._first :])
         return found
 
     @property
     def exponent(self) -> float:
-        """1/s: the slope of ln of the growth over time by least squares, to which swings within a period do no harm."""
+        """Exponent, 1/s: the least-squares slope of ln of the growth over time, which oscillations within a period do
+        not bias.
+        """
         return float(self.series[-1])
 
     @cached_property
     def uncertainty(self) -> float:
-        """One standard error, 1/s; NaN of a run with too few intervals to tell."""
+        """One standard error of the exponent, 1/s; NaN for too few intervals."""
         error = _standard_error(self.t[self._first :], self._logs[self._first :])
         return math.hypot(error, self.unresolved)
 
     @property
     def per_return(self) -> float:
-        """Exponent per return to the section; NaN without one, or with fewer than two returns."""
+        """Exponent per return to the section; NaN without a section, or with fewer than two returns."""
         logs = self._returns[1]
         return float(_slopes(np.arange(len(logs)), logs)[-1]) if len(logs) > 1 else math.nan
 
@@ -89,15 +95,15 @@ class Lyapunov:
 
     @property
     def sign(self) -> int:
-        """1 where differences grow by more than two uncertainties, −1 where they die out, 0: neither is known."""
+        """Sign of the exponent: 1 if it exceeds two uncertainties, −1 if it is below minus two, 0 if neither."""
         return int(np.sign(self.exponent)) if abs(self.exponent) > 2.0 * self.uncertainty else 0
 
     def believable(self, error: float = 1e-8, apart: float = APART) -> float:
-        """Time (s) for which a run may be believed: ln(apart/error)/λ; inf where λ ≤ 0, NaN where it is not known.
+        """Return the predictability horizon, s: ln(apart/error)/λ; inf where λ ≤ 0, NaN where λ is unknown.
 
-        `error` is what the run errs by at its start, as rtol of the same measure in which `apart` is: the clearance,
-        or the mechanism's size or 1 rad. `simulate(..., horizon=True)` repeats a run instead: it is that run's own,
-        with the good and bad luck of its first contacts; this one is that of the mean of all runs.
+        `error` is the error of the run at its start, in the measure of `apart`: fractions of the clearance, or of the
+        mechanism's size or 1 rad. `simulate(..., horizon=True)` repeats a run instead: its horizon is that of one run
+        and depends on its first contacts; this one is a mean over all runs.
         """
         error, apart = positive(error, "error"), positive(apart, "apart")
         if error >= apart:
@@ -108,7 +114,7 @@ class Lyapunov:
 
     @cached_property
     def motion(self) -> Motion:
-        """What kind of motion returns to the section. Raises BadValueError where there is no section."""
+        """Kind of the motion that returns to the section. Raises BadValueError without a section."""
         if self.section is None:
             raise BadValueError("no section was asked for", hint='lyapunov(..., section="an event", or a period in s)')
         late = self.section.t >= self.t[self._first]
@@ -117,22 +123,23 @@ class Lyapunov:
 
     @property
     def _first(self) -> int:
-        """The first interval that counts."""
+        """Index of the first interval after the difference has turned to the direction of largest growth."""
         return int(np.searchsorted(self.t, self.t[0] + SETTLED * (self.t[-1] - self.t[0]), side="left"))
 
     @cached_property
     def _logs(self) -> Array:
-        """(k + 1,) ln of the growth up to each of t."""
+        """The ln of the growth up to each of t, (k + 1,)."""
         return np.concatenate([[0.0], np.cumsum(self.growth)])
 
     @cached_property
     def _returns(self) -> tuple[Array, Array]:
-        """Times of the returns that count, (r,), and ln of the growth up to them."""
+        """Times of the returns after the turning interval, (r,), and ln of the growth up to them."""
         times = self.section.t if self.section is not None else np.zeros(0)
         times = times[times >= self.t[self._first]]
         return times, np.interp(times, self.t, self._logs)
 
     def __repr__(self) -> str:
+        """Return exponent, uncertainty, method and time span in one line."""
         found = f"{self.exponent:.4g} ± {self.uncertainty:.2g} 1/s"
         if self.section is not None:
             found += f", {self.per_return:.4g} ± {self.per_return_uncertainty:.2g} a return ({self.section.name})"
@@ -141,7 +148,10 @@ class Lyapunov:
 
 
 def _slopes(x: Array, logs: Array) -> Array:
-    """(k,) slopes of the straight line through the first 2, 3, … k + 1 points, each weighted by the interval before."""
+    """Return the slopes of the straight lines through the first 2, 3, … k + 1 points, (k,).
+
+    Each point is weighted by the interval before it.
+    """
     weight = np.diff(x)
     u, y = x[1:] - x[0], logs[1:] - logs[0]
     s0, s1, s2, r0, r1 = (np.cumsum(weight * part) for part in (u**0, u, u * u, y, u * y))
@@ -151,7 +161,9 @@ def _slopes(x: Array, logs: Array) -> Array:
 
 
 def _standard_error(x: Array, logs: Array) -> float:
-    """Of the slopes of blocks of the same length; NaN where there are not three intervals for each."""
+    """Return the standard error of the slope from blocks of equal length; NaN with fewer than three intervals a
+    block.
+    """
     if len(x) < 3 * BLOCKS + 1:
         return math.nan
     edges = np.linspace(x[0], x[-1], BLOCKS + 1)

@@ -1,11 +1,11 @@
-"""What kind of motion returns to a section: periodic, quasi-periodic or chaotic, and the numbers that say so.
+"""Classify the motion that returns to a section: periodic, quasi-periodic or chaotic, with the numbers that support it.
 
-Three things are asked of the points, one after the other in time:
-- recurrence: the smallest n for which each point lies near the one n returns before it;
-- the sign of the exponent per return, with its uncertainty;
-- the 0-1 test, the growth of a sum that the points drive: K near 1 in chaos, near 0 in regular motion (G. A. Gottwald,
-  I. Melbourne, SIAM J. Appl. Dyn. Syst. 8:129, 2009, with the modified mean square displacement and the correlation).
-What they do not agree on is undecided.
+Three properties of the points, in the order of time, are used: recurrence, the smallest n for which each point lies
+near the one n returns earlier; the sign of the exponent per return, with its uncertainty; and the 0-1 test.
+
+The 0-1 test measures the growth of a sum that the points drive: K is near 1 in chaos, near 0 in regular motion (G. A.
+Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8:129, 2009, with the modified mean square displacement and the
+correlation). If the three disagree, the motion is undecided.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 NEAR = 1e-3  # of the motion's extent: how near a point recurs
 MOST_PERIOD = 32
-FEWEST = 40  # points; a period must be seen this often: REPEATED
+FEWEST = 40  # smallest number of points; a period must occur REPEATED times
 REPEATED = 4
-ENOUGH = 0.8  # confidence below which nothing is said
+ENOUGH = 0.8  # confidence below which the kind is "undecided"
 POWERS = 6.0  # over so many returns: an exponent of differences that grow by a power of time
 DRAWS = 100  # frequencies of the 0-1 test
 PERIODIC, QUASI, CHAOTIC, UNDECIDED = "periodic", "quasi-periodic", "chaotic", "undecided"
@@ -32,10 +32,10 @@ PERIODIC, QUASI, CHAOTIC, UNDECIDED = "periodic", "quasi-periodic", "chaotic", "
 
 @dataclass(frozen=True)
 class Motion:
-    """`kind` with its `confidence`, and what it was judged by.
+    """The kind of a motion with its `confidence`, and the measures behind it.
 
-    The confidence is the least of the supports that its signs give, 0 to 1; it is no probability. A kind that has
-    less than .8 is not named: it is "undecided", and `supports` tells what each would have had.
+    The confidence is the least support among the measures, 0 to 1; it is not a probability. A kind with less than 0.8
+    is reported as "undecided", and `supports` has the support of each kind.
     """
 
     kind: str  # "periodic", "quasi-periodic", "chaotic" or "undecided"
@@ -51,6 +51,7 @@ class Motion:
     per_return_uncertainty: float
 
     def __repr__(self) -> str:
+        """Return kind, confidence and measures in one line."""
         kind = f"{self.kind} {self.period}" if self.period else self.kind
         return (
             f"<Motion {kind}, confidence {self.confidence:.2f}: {self.points} points, {self.recurrence:.0%} recur after"
@@ -62,15 +63,19 @@ class Motion:
 def classify(
     points: Array, extent: float, per_return: float = math.nan, uncertainty: float = math.nan, near: float = NEAR
 ) -> Motion:
-    """Of points (k, d) of a section in the order of time, in one measure; `extent` of the whole motion in the same."""
+    """Return the kind of motion of the points (k, d) of a section in the order of time.
+
+    `extent` is the rms size of the whole motion in the same measure; `near` is the distance of recurrence as a fraction
+    of it. `per_return` ± `uncertainty` is the exponent per return.
+    """
     n, share, distance = _recurrence(points, near * extent)
-    k = zero_one(_widest(points)) if _spread(points) > near * extent else math.nan
-    growing, neutral = _sign(per_return, uncertainty, len(points))
+    k = zero_one(_principal_coordinate(points)) if _max_deviation(points) > near * extent else math.nan
+    growing, neutral = _growth_supports(per_return, uncertainty, len(points))
     regular = 1.0 - abs(k) if math.isfinite(k) else math.nan
     supports = {
-        PERIODIC: _least(share, 1.0 - growing),
-        QUASI: _least(1.0 - share, neutral, regular),
-        CHAOTIC: _least(1.0 - share, growing, k),
+        PERIODIC: _min_support(share, 1.0 - growing),
+        QUASI: _min_support(1.0 - share, neutral, regular),
+        CHAOTIC: _min_support(1.0 - share, growing, k),
     }
     kind = max(supports, key=lambda name: supports[name])
     if len(points) < FEWEST or supports[kind] < ENOUGH:
@@ -91,14 +96,16 @@ def classify(
     )
 
 
-def _least(*signs: float) -> float:
-    """The least of the signs that are known."""
+def _min_support(*signs: float) -> float:
+    """Return the smallest of the supports that are not NaN, at least 0; 0 if there is none."""
     known = [sign for sign in signs if math.isfinite(sign)]
     return max(min(known), 0.0) if known else 0.0
 
 
 def _recurrence(points: Array, near: float) -> tuple[int, float, float]:
-    """The smallest n at which the largest share of points recurs, that share, and the median distance."""
+    """Return the smallest n after which the largest fraction of points recurs within `near`, that fraction, and the
+    median distance.
+    """
     best = (0, 0.0, math.inf)
     for n in range(1, min(MOST_PERIOD, len(points) // REPEATED) + 1):
         gaps = np.linalg.norm(points[n:] - points[:-n], axis=1)
@@ -108,34 +115,40 @@ def _recurrence(points: Array, near: float) -> tuple[int, float, float]:
     return best
 
 
-def _spread(points: Array) -> float:
+def _max_deviation(points: Array) -> float:
+    """Return the largest distance of a point (k, d) from the mean."""
     return float(np.linalg.norm(points - points.mean(axis=0), axis=1).max(initial=0.0)) if len(points) else 0.0
 
 
-def _widest(points: Array) -> Array:
-    """(k,) the points along the direction in which they spread most."""
+def _principal_coordinate(points: Array) -> Array:
+    """Return the coordinates (k,) of the points along the direction of their largest spread."""
     centred = points - points.mean(axis=0)
     return np.asarray(centred @ np.linalg.svd(centred, full_matrices=False)[2][0])
 
 
-def _sign(rate: float, error: float, count: int) -> tuple[float, float]:
-    """How sure it is that differences grow, and that they do neither; NaN where no exponent is known.
+def _growth_supports(rate: float, error: float, count: int) -> tuple[float, float]:
+    """Return the probabilities that differences grow exponentially, and that they neither grow nor decay; NaN without
+    an exponent.
 
-    In regular motion differences grow by powers of time. Of t³, followed from a tenth of the time on, the slope of the
-    straight line through ln of the growth is 5.9/k over the k returns that are left: up to that none is exponential.
+    In regular motion differences grow by powers of time. For t³, followed from a tenth of the time on, the slope of the
+    straight line through ln of the growth is 5.9/k over the k remaining returns. Rates below that are not exponential
+    growth.
     """
     if not (math.isfinite(rate) and math.isfinite(error)) or count < 2:
         return math.nan, math.nan
     none = POWERS / count
 
     def above(bound: float) -> float:
+        """Return the probability that the rate exceeds `bound`, from a normal distribution."""
         return 0.5 * math.erfc((bound - rate) / (math.sqrt(2.0) * max(error, 1e-300)))
 
     return above(none), above(-none) - above(none)
 
 
 def zero_one(values: Array, seed: int = 1) -> float:
-    """K of the 0-1 test for a series (k,): the median over frequencies of corr(n, D(n)), n to k/10; NaN if k < 40."""
+    """Return K of the 0-1 test for a series (k,): the median over frequencies of corr(n, D(n)), n to k/10; NaN if k <
+    40.
+    """
     count = len(values)
     if count < FEWEST:
         return math.nan

@@ -1,7 +1,7 @@
-"""Peaks of series: over all steps of a run, where they were asked for, `run.peak("S9.ay")`; over its samples.
+"""Own peaks of series: over all steps of a run where they were requested, `run.peak("S9.ay")`, and over its samples.
 
-Also as rows of a table, and the largest forces in joints with play of many runs. Blows between surfaces that do not
-give are rows of a run's impacts without a length, whose F_peak is an impulse.
+Also peaks as rows of a table, and the largest forces in joints with play of many runs. An impact of rigid surfaces is a
+record of a run's impacts with zero duration, whose F_peak is an impulse.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 ENDS = ("max", "t_max", "min", "t_min")
-FEW, TOLD = 3, 3  # blows that pile up; times at which they do, that are told one by one
+FEW, TOLD = 3, 3  # smallest number of impacts of a Zeno point; Zeno points that are reported one by one
 
 
 @dataclass(frozen=True)
 class Extreme:
-    """A series over the samples of a run: its least and largest value, and the value of largest magnitude, its time."""
+    """Smallest and largest value of a series over the samples of a run, and value and time of the largest magnitude."""
 
     name: str
     unit: str
@@ -42,7 +42,7 @@ class Extreme:
 
 
 def of_samples(name: str, unit: str, t: Array, values: Array) -> Extreme:
-    """NaN where nothing is known."""
+    """Return the extremes of a series over its samples (N,); NaN if no value is finite."""
     if not np.isfinite(values).any():
         return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
     at = int(np.nanargmax(np.abs(values)))
@@ -50,33 +50,41 @@ def of_samples(name: str, unit: str, t: Array, values: Array) -> Extreme:
 
 
 def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
-    """The extremes of a series of a run, or of its error against another scene.
+    """Return the extremes of a series of a run, or of its error against another scene, over all steps.
 
-    Raises UnknownNameError for what the run does not have, BadValueError for what was not asked for.
+    Raises UnknownNameError for a series that the run does not have, BadValueError for one whose peaks were not
+    requested.
     """
     if not isinstance(name, str) or name not in run.names:
         raise run.unknown(name)
     for one in run.diagnostics.extremes:
         if one.name == name and bool(one.against) == error:
             return one if error else _with_samples(one, run)
-    raise _not_asked(name, error)
+    raise _not_requested(name, error)
 
 
 def _with_samples(one: Extremes, run: Result) -> Extremes:
-    """No sample lies beyond: what a step's polynomial says between its ends is as good as the tolerance only."""
+    """Extend the extremes over all steps so that no sample lies beyond them.
+
+    Between the ends of a step its polynomial is only as accurate as the tolerance.
+    """
     try:
         values = run[one.name]
     except GudgeonError:  # a sample has none
         return one
     ends = ((one.max, one.t_max), (one.min, one.t_min))
     (high, at_high), (low, at_low) = (
-        _farther(end, run.t[None], values[None], sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)
+        _extend_extremes(end, run.t[None], values[None], sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)
     )
     return replace(one, max=float(high[0]), t_max=float(at_high[0]), min=float(low[0]), t_min=float(at_low[0]))
 
 
-def _farther(end: tuple[Array | float, Array | float], t: Array, values: Array, sign: float) -> tuple[Array, Array]:
-    """Extremes (n,) and their times, or those of samples (n, N) at times (n, N) that lie beyond; sign −1: minima."""
+def _extend_extremes(
+    end: tuple[Array | float, Array | float], t: Array, values: Array, sign: float
+) -> tuple[Array, Array]:
+    """Return extremes (n,) and their times, replaced by samples (n, N) at times (n, N) that lie beyond; sign −1 for
+    minima.
+    """
     found, at = (np.atleast_1d(np.asarray(x, dtype=float)) for x in end)
     if not values.shape[1]:
         return found, at
@@ -86,7 +94,8 @@ def _farther(end: tuple[Array | float, Array | float], t: Array, values: Array, 
     return np.where(beyond, values[runs, best], found), np.where(beyond, t[runs, best], at)
 
 
-def _not_asked(name: str, error: bool) -> BadValueError:
+def _not_requested(name: str, error: bool) -> BadValueError:
+    """Return the error for a peak that was not requested, with the call that requests it."""
     if error:
         told = f"the error of {name} over all steps is not known"
         return BadValueError(told, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene')
@@ -97,20 +106,23 @@ def _not_asked(name: str, error: bool) -> BadValueError:
 def table_rows(
     scenes: Sequence[Sequence[Extremes]], cells: Sequence[Callable[[float, str, float], str]], errors: bool
 ) -> list[tuple[str, list[str]]]:
-    """(name, a cell a scene), as its function writes value, unit and time: of errors the largest magnitude, else the
-    largest value and the smallest one."""
+    """Return rows (name, one cell a scene) of a table of extremes.
+
+    `cells` format value, unit and time of each scene. A row of errors has the largest magnitude; other series have a
+    row for the largest and one for the smallest value.
+    """
     found = [{one.name: one for one in extremes if bool(one.against) == errors} for extremes in scenes]
     rows = []
     for name in dict.fromkeys(name for one in found for name in one):
         for end in ("",) if errors else ("max", "min"):
-            ends = [_end(one[name], end) if name in one else None for one in found]
+            ends = [_extreme_cell(one[name], end) if name in one else None for one in found]
             told = [cell(*at) if at else "–" for cell, at in zip(cells, ends, strict=True)]
             rows.append((f"{name} {end}".strip(), told))
     return rows
 
 
-def _end(one: Extremes, end: str) -> tuple[float, str, float]:
-    """Value, unit and time; "": of the largest magnitude."""
+def _extreme_cell(one: Extremes, end: str) -> tuple[float, str, float]:
+    """Return value, unit and time of an extreme: "max", "min", or "" for the largest magnitude."""
     end = end or ("min" if -one.min > one.max else "max")
     return (one.max, one.unit, one.t_max) if end == "max" else (one.min, one.unit, one.t_min)
 
@@ -129,12 +141,12 @@ class BatchPeaks:
 
     @property
     def abs(self) -> Array:
-        """The largest magnitude."""
+        """The largest magnitude of each run, (n,)."""
         return np.maximum(self.max, -self.min)
 
     @property
     def t_abs(self) -> Array:
-        """Its time, s."""
+        """Time of the largest magnitude of each run, (n,), s."""
         return np.where(-self.min > self.max, self.t_min, self.t_max)
 
 
@@ -145,25 +157,26 @@ def of_runs(
     error: bool,
     samples: Callable[[], tuple[Array, Array]],
 ) -> BatchPeaks:
-    """The extremes of a series of all runs; no sample lies beyond, times and values (n, N) each.
+    """Return the extremes of a series over all steps of each run.
 
-    Raises UnknownNameError, BadValueError.
+    `samples` returns times and values (n, N); the extremes are extended so that no sample lies beyond. Raises
+    UnknownNameError, BadValueError.
     """
     check_series(source, [name])
     found = [next((x for x in own if x.name == name and bool(x.against) == error), None) for own in runs]
     known = next(filter(None, found), None)
     if known is None:
-        raise _not_asked(name, error)
+        raise _not_requested(name, error)
     values = {key: np.array([getattr(x, key) if x else np.nan for x in found]) for key in ENDS}
     if not error:
         t, sampled = samples()
         for end, sign in (("max", 1.0), ("min", -1.0)):
-            values[end], values[f"t_{end}"] = _farther((values[end], values[f"t_{end}"]), t, sampled, sign)
+            values[end], values[f"t_{end}"] = _extend_extremes((values[end], values[f"t_{end}"]), t, sampled, sign)
     return BatchPeaks(name, known.unit, **values, against=known.against)
 
 
 def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
-    """Name, unit and values (n,): "S9.ay.peak.max", "S9.ay.error.max" and so on."""
+    """Yield name, unit and values (n,) of each extreme for tables: "S9.ay.peak.max", "S9.ay.error.max" and so on."""
     for one in dict.fromkeys((x.name, x.unit, x.against) for own in runs for x in own):
         found = [next((x for x in own if (x.name, x.unit, x.against) == one), None) for own in runs]
         for key in ENDS:
@@ -172,7 +185,11 @@ def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, 
 
 
 def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> NDArray[Any]:
-    """PEAK_DTYPE from F, t, e_max (n, n_clearances, N_PEAK) and the contacts of all runs, so many of each."""
+    """Return the peak forces of all runs as PEAK_DTYPE (n, n_clearances).
+
+    `peaks` holds F, t, e_max (n, n_clearances, N_PEAK); `contacts` those of all runs one after the other, `count` how
+    many each run has.
+    """
     out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
     for k, name in ((PEAK_F, "F"), (PEAK_t, "t"), (PEAK_e_max, "e_max")):
         out[name] = peaks[:, :, k]
@@ -187,18 +204,20 @@ def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> N
 
 
 def is_blow(impacts: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which of the impacts took no time, (k,)."""
+    """Return which of the impacts (k,) have zero duration: impacts of rigid surfaces."""
     found: NDArray[np.bool_] = impacts["t_off"] == impacts["t_on"]
     return found
 
 
 def first_force(own: NDArray[Any]) -> float:
-    """The largest force of a joint's first contact, N; NaN of a blow, which has none."""
+    """Return the largest force of a joint's first contact, N; NaN for an impact of rigid surfaces, which has an impulse
+    instead.
+    """
     return math.nan if is_blow(own[:1])[0] else float(own["F_peak"][0])
 
 
 def piled_up(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
-    """Where bounces came ever faster until a contact was closed: Zeno's points, in words."""
+    """Yield a sentence for each Zeno point: impacts in ever shorter intervals until the contact closes."""
     for k, name in enumerate(joints):
         own = impacts[impacts["joint"] == k]
         closings = [(n, float(own["t_on"][i])) for i in range(len(own)) if (n := _bounces_before(own, i)) >= FEW]
@@ -212,7 +231,9 @@ def piled_up(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
 
 
 def _bounces_before(own: NDArray[Any], i: int) -> int:
-    """How many blows of a joint, each slower than the one before, end in its lasting contact i."""
+    """Return how many impacts of a joint, each slower than the one before, end in its lasting contact i; 0 for an
+    impact.
+    """
     if bool(is_blow(own[i : i + 1])[0]):
         return 0
     count, slower = 0, 0.0

@@ -1,7 +1,8 @@
-"""The result of one run: what the integrator stored, and by name everything that follows from it.
+"""Own `Result`, the result of one run: the arrays that the integrator stored, and by name every series that follows
+from them.
 
-Stored are t, q, q̇, q̈, contact state, latched rates and work; all other series are computed on
-first access, exactly, from these (one pass of the compiled model over the samples).
+Stored are t, q, q̇, q̈, contact states, approach speeds and works. All other series are computed exactly from these on
+first access, by one pass of the compiled model over the samples.
 """
 
 from __future__ import annotations
@@ -43,16 +44,17 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class Result(Shown):
-    """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
+    """Result of one run with N samples: `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
 
-    It may be pickled: what is stored and computed goes with it, other series are computed there by the scene's library.
+    A Result can be pickled: stored and computed series go with it, the scene's library computes the others after
+    loading.
     """
 
     compiled: CompiledModel | None  # None: read from a file, where every series is stored
     source: KernelSource
     p: Array  # (n_slots + n_derived,)
     given: Array  # (n_slots,) values of the slots that were overridden
-    is_given: Array  # (n_slots,) bool
+    is_given: Array  # (n_slots,) bool, whether a parameter was overridden
     t: Array  # (N,) s
     q: Array  # (N, n)
     v: Array
@@ -60,18 +62,18 @@ class Result(Shown):
     state: Array  # (N, n_clearances) int8
     memory: Array  # (N, n_clearances)
     work: Array  # (N, 3) J: drives, applied forces, joints with play
-    impacts: Array  # IMPACT_DTYPE, one an onset
+    impacts: Array  # IMPACT_DTYPE, a record for each onset
     diagnostics: Diagnostics
-    events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: zero crossings of the file's `events`
     event_states: Array | None = None  # event_dtype, the same with the states there; None: see samples.py
-    trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
+    trace: Trace | None = None  # envelope of forces and paths over the steps; None: there are only samples
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
     start_row: Result | None = field(default=None, repr=False)  # the start (N = 1), where it was not requested
     begun: State | None = field(default=None, repr=False)  # given as `start`, which samples round; None: not known
 
     def __getitem__(self, name: str) -> Array:
-        """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""
+        """Return the series of that name, (N,), in SI, read-only. Raises UnknownNameError with the nearest name."""
         if not isinstance(name, str):
             raise self.unknown(name)
         if name == "t":
@@ -83,46 +85,52 @@ class Result(Shown):
         return self.stored[name]
 
     def __iter__(self) -> Iterator[str]:
-        """The names of all series, as of a mapping."""
+        """Iterate over the names of all series, as a mapping does."""
         return iter(self.names)
 
     def __contains__(self, name: str) -> bool:
+        """Return whether the result has a series of that name."""
         return isinstance(name, str) and (name == "t" or name in self._catalogue)
 
     def __repr__(self) -> str:
+        """Return mechanism, scene, number of samples and time span in one line."""
         span = f"{self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "empty"
         return f"<Result {self.source.mechanism}/{self.source.scene}: {counted(len(self.t), 'sample')}, {span}>"
 
     @cached_property
     def names(self) -> Mapping[str, str]:
-        """Every name with its unit, in the order in which a file stores them."""
+        """Units of all series by name, in the order in which a file stores them."""
         return MappingProxyType({name: series.unit for name, series in self._catalogue.items()})
 
     def unit(self, name: str) -> str:
-        """SI unit of a series, "" for a pure number."""
+        """Return the SI unit of a series, "" for a pure number."""
         return "s" if text(name, "the name of a series") == "t" else self._series(name).unit
 
     def meaning(self, name: str) -> str:
-        """One line on what a series is."""
+        """Return the meaning of a series in one line."""
         return "time" if text(name, "the name of a series") == "t" else self._series(name).meaning
 
     @cached_property
     def parameters(self) -> Mapping[str, Any]:
-        """Values of all run-time numbers, and names that are chosen, by address; parameters by their short name too."""
+        """Values of all run-time parameters and names of choices, by address; `parameters` of the file also by short
+        name.
+        """
         values = {slot.address: said(slot, float(x)) for slot, x in zip(self.source.slots, self.p, strict=False)}
         short = {key.removeprefix("parameters."): v for key, v in values.items() if key.startswith("parameters.")}
         return MappingProxyType(values | short)
 
     @cached_property
     def constants(self) -> Mapping[str, float]:
-        """What is worth printing of each joint with play: "A.c", and as the laws have them "A.K", "A.S" …"""
+        """Main constants of each joint with play by name: the clearance "A.c", and those of its laws, "A.K", "A.S" …"""
         found = {f"{joint.name}.c": float(self.p[joint.clearance]) for joint in self.source.clearances}
         for joint in self.source.clearances:
             found |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
         return MappingProxyType(found)
 
     def events_of(self, name: str) -> Array:
-        """Times at which an event of the file happened, (k,), s. UnknownNameError names the nearest event."""
+        """Return the times at which an event of the file happened, (k,), s. Raises UnknownNameError with the nearest
+        event.
+        """
         names = [event.name for event in self.source.events]
         if text(name, "the name of an event") not in names:
             from gudgeon.language.names import nearest
@@ -134,30 +142,32 @@ class Result(Shown):
         return times
 
     def at_events(self, name: str) -> AtEvents:
-        """The states at the located times of an event: `run.at_events("top")["S9.ay"]` is (k,); see AtEvents."""
+        """Return the states at the located times of an event: `run.at_events("top")["S9.ay"]` is (k,); see AtEvents."""
         from gudgeon.results.samples import at_events
 
         return at_events(self, name)
 
     def peak(self, name: str) -> Extremes:
-        """Largest and smallest value of a series over all steps of this run, with their times (s); SI.
+        """Return the largest and smallest value of a series over all steps of this run, with their times (s); SI.
 
-        Of a series that was asked for by `simulate(peaks=["S9.ay"])` or `peaks:` of the scene, and of this run's part
-        where it goes on from another one. Raises UnknownNameError, BadValueError.
+        The series must be requested by `simulate(peaks=["S9.ay"])` or `peaks:` of the scene. A run that restarts from
+        another one has the peaks of its own part. Raises UnknownNameError, BadValueError.
         """
         from gudgeon.results.peaks import over_all_steps
 
         return over_all_steps(self, name, False)
 
     def peak_error(self, name: str) -> Extremes:
-        """The same of the series less that of another scene at the same times: `simulate(peaks=…, against=ideal)`."""
+        """Return the extremes of a series less that of another scene at the same times: `simulate(peaks=…,
+        against=ideal)`.
+        """
         from gudgeon.results.peaks import over_all_steps
 
         return over_all_steps(self, name, True)
 
     @cached_property
     def states_at_events(self) -> Result:
-        """A result whose samples are the start and then all events, by time."""
+        """The result whose samples are the start and then all events, by time."""
         from gudgeon.results.samples import everything
 
         return everything(self)
@@ -184,18 +194,19 @@ class Result(Shown):
         )
 
     def __getstate__(self) -> dict[str, Any]:
-        """The fields, and the evaluation if it is at hand; what else is cached is made again in no time."""
+        """Return the fields for pickle, with the evaluation if it exists; other cached values are cheap to compute."""
         kept = {*(each.name for each in fields(self)), "evaluation", "a", "states_at_events"}
         return {name: value for name, value in self.__dict__.items() if name in kept}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
+        """Restore the fields from pickle, with read-only series."""
         self.__dict__.update(state)
         for values in self.stored.values():
             values.flags.writeable = False
 
     @cached_property
     def a(self) -> Array:
-        """q̈, (N, n); NaN where a sample has none."""
+        """Accelerations q̈, (N, n); NaN at a sample without a solution."""
         try:
             return self.evaluation.a if self.accelerations is None else self.accelerations
         except SolverError:
@@ -226,13 +237,15 @@ class Result(Shown):
         forces: bool = False,
         progress: Progress | None = None,
     ) -> Animation | None:
-        """The run as a moving picture: x.gif, x.mp4 (where ffmpeg is) or x.html, a page of its own that plays.
+        """Write an animation of the run: x.gif, x.mp4 (needs ffmpeg) or x.html, a self-contained page that plays.
 
-        `seconds` it lasts (None: as long as the run, but 6 where that is under 2 or over 20), with `rate` pictures a
-        second (each is painted, so a GIF or film of fewer `seconds` or at a lower `rate` is written sooner); `points`
-        whose paths are drawn, `velocities` and `forces` as in `plot.mechanism`. Joints with play are magnified beside
-        it, red in pictures before which their surfaces met. Of a page, or without a path, what a notebook shows.
-        `progress(share, text)` hears of each picture. BadValueError, UnknownNameError; without ffmpeg GudgeonError.
+        `seconds` is its duration; None: that of the run, but 6 s if the run is shorter than 2 s or longer than 20 s.
+        `rate` is in pictures a second; each is painted, so a GIF or film of fewer `seconds` or at a lower `rate` is
+        written sooner. The paths of `points` are drawn; `velocities` and `forces` are as in `plot.mechanism`. Joints
+        with play are magnified next to it, and red in pictures before which their surfaces met.
+
+        Returns what a notebook displays for a page or without a path. `progress(share, text)` is called for each
+        picture. Raises BadValueError, UnknownNameError; without ffmpeg GudgeonError.
         """
         from gudgeon.results.figures import animation
 
@@ -240,7 +253,7 @@ class Result(Shown):
         return animation.animate(self, path, wanted)
 
     def report(self) -> RunReport:
-        """What joints with play did, where energy went, how far to believe it: `print`, `.to_html()`, `.to_dict()`."""
+        """Return a report on forces in joints with play, energies and accuracy: `print`, `.to_html()`, `.to_dict()`."""
         from gudgeon.results.reports.run_report import RunReport
 
         return RunReport(self)
@@ -249,16 +262,20 @@ class Result(Shown):
         """Check the contacts of this run independently of the code that located them.
 
         The run is repeated bit for bit with `samples` equal intervals. The penetration of every joint with play is
-        computed from positions of the bodies. Returns what is found outside the contacts of `impacts`, by time: a
-        ContactCheck, true where nothing is; `str` tells joint, time (s) and depth (m) of each fault, `raise_faults()`
-        raises them as a SolverError. Raises BadValueError unless `samples` is a whole number, 2 or more.
+        computed from positions of the bodies. Returns the faults outside the contacts of `impacts`, by time, as a
+        ContactCheck, which is true if there are none. `str` lists joint, time (s) and depth (m) of each fault;
+        `raise_faults()` raises them as a SolverError. Raises BadValueError unless `samples` is a whole number, 2 or
+        more.
         """
         from gudgeon.simulation.examine import check_contacts
 
         return check_contacts(self, samples)
 
     def value_of(self, name: str) -> Any:
-        """What a name in an output's expression stands for: a parameter (an output may share its name), t, a series."""
+        """Return the value of a name in an output's expression: a parameter, t or a series.
+
+        A parameter takes precedence over an output of the same name.
+        """
         if text(name, "a name of a result") in self.parameters:
             return self.parameters[name]
         if name in self:
@@ -266,65 +283,77 @@ class Result(Shown):
         raise self.unknown(name)
 
     def to_xarray(self, part: str = "series") -> xarray.Dataset:
-        """All series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row a sample.
+        """Return all series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row for each
+        sample.
 
-        part: "impacts", "events" or "parameters" for these, a row each.
+        part: "impacts", "events" or "parameters" for these, with a row for each record.
         """
         from gudgeon.results.files import netcdf
 
         return netcdf.dataset(self, part)
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
-        """Series as columns of a table of pandas over t (s): these, or all for None; SI, units in `attrs["units"]`."""
+        """Return series as columns of a pandas table over t (s): `names`, or all for None; SI, units in
+        `attrs["units"]`.
+        """
         from gudgeon.results.files import export
 
         return export.dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write t and these series, or all, as CSV in SI: a line of names, then every bit of a sample a line."""
+        """Write t and the series `names`, or all, as CSV in SI: a line of names, then a line for each sample with all
+        digits.
+        """
         from gudgeon.results.files import export
 
         export.csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write t and these series, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and `units`."""
+        """Write t and the series `names`, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and
+        `units`.
+        """
         from gudgeon.results.files import export
 
         export.mat(self, path, names)
 
     def save(self, path: str | os.PathLike[str], attributes: Mapping[str, str] = MappingProxyType({})) -> None:
-        """Write everything to a NetCDF file, with more attributes {name: text}, aside first and then moved into place;
-        OutputError where that fails, BadValueError for attributes that are none."""
+        """Write everything to a NetCDF file, with more attributes {name: text}.
+
+        The file is written under a temporary name, then moved into place. Raises OutputError if that fails,
+        BadValueError for invalid attributes.
+        """
         from gudgeon.results.files import netcdf
 
         netcdf.save(self, path, attributes)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Result:
-        """The result that `save` wrote, bit for bit; it needs no compiled library."""
+        """Return the result that `save` wrote, bit for bit, without a compiled library."""
         return read(path)
 
     @cached_property
     def _catalogue(self) -> Mapping[str, Series]:
+        """All series of the scene by name."""
         from gudgeon.results.series import catalogue
 
         return catalogue(self.source)
 
     def _series(self, name: str) -> Series:
+        """Return the series of that name. Raises UnknownNameError with the nearest name."""
         try:
             return self._catalogue[name]
         except KeyError:
             raise self.unknown(name) from None
 
     def unknown(self, name: str) -> UnknownNameError:
-        """The error for a name that this result does not have; it names the nearest."""
+        """Return the error for a name that this result does not have, with the nearest name."""
         from gudgeon.results.series import parameter_names, unknown_series
 
         return unknown_series(self.source, self._catalogue, name, parameter_names(self.source))
 
 
 def read(path: str | os.PathLike[str]) -> Result:
-    """Read a file that `Result.save` wrote. InputError if it is none."""
+    """Read a file that `Result.save` wrote. Raises InputError for any other file."""
     from gudgeon.results.files import netcdf
 
     return netcdf.read(path)
@@ -332,13 +361,13 @@ def read(path: str | os.PathLike[str]) -> Result:
 
 @dataclass(eq=False)
 class Bare(Result):
-    """A Result whose series are computed from `parts` of an Evaluation, and no more; it has no diagnostics."""
+    """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics."""
 
     parts: frozenset[str] = PARTS
 
     @cached_property
     def evaluation(self) -> Evaluation:
-        """These parts, the others without a row. Raises SingularError."""
+        """The parts of the Evaluation in `parts`; the others have no row. Raises SingularError."""
         if self.compiled is None:
             raise GudgeonError("there is no library to evaluate samples with")
         times = evaluation_times_of(self, self.compiled)
@@ -357,7 +386,7 @@ def bare(
     state: Array,
     parts: frozenset[str],
 ) -> Bare:
-    """From samples as C stores them; works that no masses tell are NaN."""
+    """Return a Bare of samples as C stores them; works are NaN in a scene without masses."""
     slots = len(source.slots)
     return Bare(
         compiled=compiled,
@@ -379,7 +408,7 @@ def bare(
 
 
 def blank(source: KernelSource) -> Bare:
-    """No samples at all: it knows names and units."""
+    """Return a result without samples, which has the names and units of a scene's series."""
     n, joints = len(source.coordinates), len(source.clearances)
     p = np.full(len(source.slots) + len(source.derived), np.nan)
     empty = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))

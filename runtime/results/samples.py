@@ -1,11 +1,11 @@
-"""Samples of a run in addition to those that were requested: its start, and its states at events.
+"""Own the samples of a run in addition to the requested ones: its start, and its states at events.
 
 A Result contains exactly the times that `simulate(output=[…])` requests. Where these begin after the start,
 `Result.start_row` is a result of one sample with the state at the start: works and energy.residual count from there.
 
-C keeps the state at each event as it does of samples; they are a Result of their own here, whose first sample is the
-run's start, for what is counted from there (energy.residual). A scene without a degree of freedom keeps none: its
-motion is followed again to these times, when somebody asks.
+C stores the state at each event in the same form as samples. They are a separate Result here, whose first sample is the
+start of the run, because energy.residual counts from there. A kinematically driven scene stores none: its motion is
+computed again at these times on request.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 ROWS = ("t", "q", "v", "accelerations", "state", "memory", "work")  # arrays of a Result with a row for each sample
 Run = TypeVar("Run", bound="Result")
-FEW = 6  # times that are told
+FEW = 6  # times that repr shows
 OLDER = "the file was written before states at events were kept: run the scene again"
 
 
@@ -34,8 +34,8 @@ def without_start(run: Run) -> Run:
     """Return the run without its first sample, which becomes its `start_row`; the run itself if there is no other."""
     if len(run.t) < 2:
         return run
-    first = replace(_rows(run, lambda x: x[:1].copy()), trace=None, event_states=None)
-    others = _rows(run, lambda x: x[1:])
+    first = replace(_select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
+    others = _select_samples(run, lambda x: x[1:])
     others.start_row = first
     return others
 
@@ -45,19 +45,20 @@ def with_start(run: Run) -> Run:
     first = run.start_row
     if first is None:
         return run
-    rows: dict[str, Any] = {name: _joined(getattr(first, name), getattr(run, name)) for name in ROWS}
+    rows: dict[str, Any] = {name: _concatenate(getattr(first, name), getattr(run, name)) for name in ROWS}
     both = run.stored.keys() & first.stored.keys()
     stored = {name: np.concatenate([first.stored[name], run.stored[name]]) for name in both}
     return replace(run, **rows, stored=stored, start_row=None)
 
 
-def _joined(*parts: Array | None) -> Array | None:
+def _concatenate(*parts: Array | None) -> Array | None:
+    """Return the concatenated arrays; None if one of them is None."""
     known = [part for part in parts if part is not None]
     return np.concatenate(known) if len(known) == len(parts) else None
 
 
-def _rows(run: Run, take: Callable[[Array], Array]) -> Run:
-    """Return a run with the samples that `take` selects, and what was evaluated of them so far."""
+def _select_samples(run: Run, take: Callable[[Array], Array]) -> Run:
+    """Return a run with the samples that `take` selects, and with the evaluation of these samples if it exists."""
     arrays = ((name, getattr(run, name)) for name in ROWS)
     rows: dict[str, Any] = {name: None if x is None else take(x) for name, x in arrays}
     found = replace(run, **rows, stored={})
@@ -68,7 +69,9 @@ def _rows(run: Run, take: Callable[[Array], Array]) -> Run:
 
 @dataclass(frozen=True, eq=False)
 class AtEvents:
-    """k states: `at["S9.y"]` is (k,), `at.t` their times (s), `at.q` and `at.v` (k, n); all names of a result."""
+    """The k states at an event: `at["S9.y"]` is (k,), `at.t` their times (s), `at.q` and `at.v` (k, n); all names of a
+    result.
+    """
 
     event: str
     all: Result = field(repr=False)  # the start, then every event of the run
@@ -76,49 +79,55 @@ class AtEvents:
 
     @property
     def t(self) -> Array:
-        """(k,) s."""
+        """Times of the event, (k,), s."""
         return self["t"]
 
     @property
     def q(self) -> Array:
-        """(k, n)."""
+        """Coordinates at the event, (k, n)."""
         return self.all.q[self.rows]
 
     @property
     def v(self) -> Array:
-        """(k, n), behind the impulse where there is one."""
+        """Velocities q̇ at the event, (k, n), after the impulse if there is one."""
         return self.all.v[self.rows]
 
     def __getitem__(self, name: str) -> Array:
-        """That series at the events, (k,), SI. UnknownNameError names the nearest."""
+        """Return a series at the events, (k,), SI. Raises UnknownNameError with the nearest name."""
         values: Array = self.all[name][self.rows]
         return values
 
     def __iter__(self) -> Iterator[str]:
+        """Iterate over the names of all series."""
         return iter(self.all.names)
 
     def __contains__(self, name: str) -> bool:
+        """Return whether there is a series of that name."""
         return name in self.all
 
     def __len__(self) -> int:
+        """Return the number of states."""
         return len(self.rows)
 
     def __repr__(self) -> str:
-        """How many, and when: "3 states at 'top': t = 0.1, 0.3, 0.5 s"."""
+        """Return number and times: "3 states at 'top': t = 0.1, 0.3, 0.5 s"."""
         times = [f"{t:.6g}" for t in self.t[:FEW]] + ["…"] * (len(self) > FEW)
         states = "state" if len(self) == 1 else "states"
         return f"{len(self)} {states} at {self.event!r}" + (f": t = {', '.join(times)} s" if times else "")
 
     def unit(self, name: str) -> str:
-        """SI unit of a series."""
+        """Return the SI unit of a series."""
         return self.all.unit(name)
 
 
 def everything(run: Result) -> Result:
-    """A result whose samples are the run's start and then its events. Raises GudgeonError where they are not known."""
+    """Return a result whose samples are the start of the run and then all its events.
+
+    Raises GudgeonError where the states at the events are not known.
+    """
     run, found, n = with_start(run), run.event_states, run.q.shape[1]
     if found is None:
-        reached = _again(run)
+        reached = _repeat_motion(run)
         rows = np.searchsorted(reached.t, run.events["t"])
         parts = [array[[0, *rows]] for array in (reached.q, reached.v, reached.work, reached.memory, reached.state)]
     else:
@@ -139,7 +148,10 @@ def everything(run: Result) -> Result:
 
 
 def of_rows(run: Result, t: Array, *parts: Array) -> Result:
-    """The same of rows: the start, then one for each of the times t; q, v, works, memory, state."""
+    """Return a result like `run` with other samples: the start, then one for each of the times t.
+
+    `parts` are q, v, works, memory and contact state at these samples.
+    """
     q, v, work, memory, state = parts
     return replace(
         run,
@@ -156,8 +168,8 @@ def of_rows(run: Result, t: Array, *parts: Array) -> Result:
     )
 
 
-def _again(run: Result) -> Trajectory:
-    """The motion of a kinematic scene at its samples and its events."""
+def _repeat_motion(run: Result) -> Trajectory:
+    """Return the motion of a kinematically driven scene at the times of its samples and its events."""
     from gudgeon.integrators import kinematic
     from gudgeon.integrators.trajectory import Problem
 
@@ -176,7 +188,7 @@ def _again(run: Result) -> Trajectory:
 
 
 def at_events(run: Result, name: str) -> AtEvents:
-    """See Result.at_events."""
+    """Return the states at an event of a run. See Result.at_events."""
     run.events_of(name)  # UnknownNameError
     number: Sequence[str] = [event.name for event in run.source.events]
     return AtEvents(name, run.states_at_events, 1 + np.flatnonzero(run.events["event"] == number.index(name)))

@@ -78,7 +78,9 @@ MOST_ORDER = 16
 
 @dataclass(frozen=True)
 class Series:
-    """One name of a result; `compute` gives (N,) numbers in SI."""
+    """A named quantity of a result: its unit, meaning, and the function `compute` that returns its (N,) values in
+    SI.
+    """
 
     unit: str
     meaning: str
@@ -92,21 +94,24 @@ _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a 
 
 
 def catalogue(source: KernelSource) -> Mapping[str, Series]:
-    """All the names of a scene in the order in which they are listed and stored; made once a source."""
+    """Return all series of a scene by name, in the order in which they are listed and stored; cached for each
+    source.
+    """
     if (kept := _catalogues.get(id(source))) is None or kept[0]() is not source:
         for gone in [key for key, (lives, _) in list(_catalogues.items()) if lives() is None]:
             _catalogues.pop(gone, None)
-        kept = _catalogues[id(source)] = weakref.ref(source), MappingProxyType(_made(source))
+        kept = _catalogues[id(source)] = weakref.ref(source), MappingProxyType(_build_catalogue(source))
     return kept[1]
 
 
-def _made(source: KernelSource) -> dict[str, Series]:
+def _build_catalogue(source: KernelSource) -> dict[str, Series]:
+    """Return all series of a scene by name: those of bodies, points and, with masses, of forces; then outputs."""
     found: dict[str, Series] = {}
-    for part in (_bodies, _points, *(_MOTION_ALONE if source.massless else _PARTS)):
+    for part in (_body_series, _point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
         found.update(part(source))
     for name, tree in source.outputs.items():
         if not missing(source, tree, found):
-            found[name] = _output(source, name, tree, found)
+            found[name] = _output_series(source, name, tree, found)
     return found
 
 
@@ -114,24 +119,21 @@ MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
 
 
 def without_masses(source: KernelSource) -> str:
-    """Why nothing is known that follows from masses; "" where it is."""
+    """Return the reason why quantities that depend on masses are unknown; "" if all bodies have masses."""
     if not source.massless:
         return ""
     return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
 
 
 def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
-    """Names in an output's expression that this scene does not have (A.Fn where A has no play)."""
+    """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play."""
     parameters = {slot.address.removeprefix("parameters.") for slot in source.slots} | {"t"}
     used = [name.path for name in expression_tree.names(expression_tree.from_json(tree))]
     return [path for path in dict.fromkeys(used) if path not in known and path not in parameters]
 
 
 def rates(name: str) -> tuple[str, str]:
-    """Names of the velocity and the acceleration that belong to a position: "S9.y" → ("S9.vy", "S9.ay").
-
-    Empty strings for a name that has none (a force, an output).
-    """
+    """Return the names of velocity and acceleration of a position: "S9.y" → ("S9.vy", "S9.ay"); "" for other names."""
     owner, _, last = name.rpartition(".")
     for position, velocity, acceleration in MOTION:
         if owner and last == position:
@@ -139,35 +141,43 @@ def rates(name: str) -> tuple[str, str]:
     return "", ""
 
 
-def _bodies(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _body_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of positions, velocities and accelerations of each body's centre of mass."""
     for body in source.bodies:
         for axis in range(3):
             for order, array in enumerate(("q", "v", "a")):
                 meaning = f"{body.name}, {MOTION_WORDS[order]}{_AXES[axis]} of the centre of mass"
-                series = _stored(MOTION_UNITS[axis][order], meaning, array, body.index + axis)
+                series = _stored_series(MOTION_UNITS[axis][order], meaning, array, body.index + axis)
                 yield f"{body.name}.{MOTION[axis][order]}", series
 
 
 _AXES = ("x", "y", "angle")
 
 
-def _stored(unit: str, meaning: str, array: str, column: int) -> Series:
-    """A column of q, v, state, memory or work, or of the accelerations, which are evaluated."""
+def _stored_series(unit: str, meaning: str, array: str, column: int) -> Series:
+    """Return a series that is a column of q, v, a, state, memory or work.
+
+    Accelerations may have to be evaluated.
+    """
     parts = frozenset({"a"} if array == "a" else ())
-    return Series(unit, meaning, partial(_column, array=array, column=column), parts, (array, column))
+    return Series(unit, meaning, partial(_stored_column, array=array, column=column), parts, (array, column))
 
 
-def _of(unit: str, meaning: str, part: str, *index: int) -> Series:
-    """A column of a part of the Evaluation."""
-    return Series(unit, meaning, partial(_evaluated, part=part, index=index), frozenset({part}), None, (part, index))
+def _evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
+    """Return a series that is a column of a part of the Evaluation."""
+    return Series(
+        unit, meaning, partial(_evaluated_column, part=part, index=index), frozenset({part}), None, (part, index)
+    )
 
 
-def _column(run: Result, array: str, column: int) -> Array:
+def _stored_column(run: Result, array: str, column: int) -> Array:
+    """Return a column (N,) of a stored array of the run."""
     values: Array = getattr(run, array)
     return values[:, column]
 
 
-def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of positions, velocities and accelerations of each named point."""
     for point in source.points:
         for order in range(3 if point.body >= 0 else 1):  # a point of the ground rests
             for axis in range(2):
@@ -178,7 +188,10 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
-    """r_P = r + A(θ) s, its first and second time derivatives; s = (x, y) in the body's frame."""
+    """Return a coordinate of a point, or its first or second time derivative (order 0, 1, 2), (N,).
+
+    r_P = r + A(θ) s with s = (x, y) in the body's frame; axis 0 is x, 1 is y in ground axes.
+    """
     x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
     y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
     if point.body < 0:
@@ -194,129 +207,163 @@ def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
     return run.a[:, i + axis] + run.a[:, i + 2] * turned - run.v[:, i + 2] ** 2 * arm[axis]
 
 
-def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of the reactions at joints without play."""
     for k, joint in enumerate(source.joints):
         own = joint.point.startswith(f"{source.bodies[joint.second].name if joint.second >= 0 else 'ground'}.")
         on = f"{_body_name(source, joint.second)} at {'its point' if own else 'the pin'}"
-        yield from _reactions(joint.name, k, "reaction", f"joint {joint.name}, on {on}, ground axes")
+        yield from _reaction_series(joint.name, k, "reaction", f"joint {joint.name}, on {on}, ground axes")
 
 
-def _guides(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Of a joint that touches at corners: the sum of their forces, as a joint without play has it."""
+def _guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of the summed corner forces of each guide with play, named like the reaction of an ideal
+    joint.
+    """
     second = {joint.joint: _body_name(source, joint.second) for joint in source.clearances}
     for k, name in enumerate(source.guides, len(source.joints)):
-        yield from _reactions(name, k, "contact", f"all corners of {name}, on {second[name]} at its point, ground axes")
+        yield from _reaction_series(
+            name, k, "contact", f"all corners of {name}, on {second[name]} at its point, ground axes"
+        )
 
 
-def _reactions(name: str, row: int, kind: str, on: str) -> Iterator[tuple[str, Series]]:
+def _reaction_series(name: str, row: int, kind: str, on: str) -> Iterator[tuple[str, Series]]:
+    """Yield the series Fx, Fy, M and F of one joint or guide, from row `row` of Evaluation.reactions."""
     for column, (last, unit, what) in enumerate(REACTION):
-        yield f"{name}.{last}", _of(unit, f"{kind} {what}: {on}", "reactions", row, column)
+        yield f"{name}.{last}", _evaluated_series(unit, f"{kind} {what}: {on}", "reactions", row, column)
     magnitude = partial(_magnitude, name=name)
     yield f"{name}.F", Series("N", f"{kind} force, magnitude: {on}", magnitude, frozenset({"reactions"}))
 
 
 def _body_name(source: KernelSource, body: int) -> str:
+    """Return the name of a body; "the ground" for −1."""
     return source.bodies[body].name if body >= 0 else "the ground"
 
 
-def _evaluated(run: Result, part: str, index: tuple[int, ...]) -> Array:
+def _evaluated_column(run: Result, part: str, index: tuple[int, ...]) -> Array:
+    """Return a column (N,) of a part of the run's Evaluation."""
     values: Array = getattr(run.evaluation, part)[(slice(None), *index)]
     return values
 
 
 def _magnitude(run: Result, name: str) -> Array:
+    """Return the magnitude (N,) of the series name.Fx, name.Fy."""
     return np.hypot(run[f"{name}.Fx"], run[f"{name}.Fy"])
 
 
-def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _clearance_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of each joint with play: forces, eccentricity, penetration, contact state."""
     for k, joint in enumerate(source.clearances):
         at, parts = f": {'corner' if joint.at_wall else 'joint'} {joint.name} with play", frozenset({"clearance"})
         told = AT_WALL if joint.at_wall else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
         for name, (column, unit, meaning) in CLEARANCE.items():
-            yield f"{joint.name}.{name}", _of(unit, told.get(name, meaning) + at, "clearance", k, column)
+            yield f"{joint.name}.{name}", _evaluated_series(unit, told.get(name, meaning) + at, "clearance", k, column)
         yield f"{joint.name}.F", Series("N", told["F"] + at, partial(_magnitude, name=joint.name), parts)
-        yield f"{joint.name}.eps", Series("", told["eps"] + at, partial(_ratio, joint=joint), parts)
+        yield f"{joint.name}.eps", Series("", told["eps"] + at, partial(_eccentricity_ratio, joint=joint), parts)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
-        yield f"{joint.name}.state", _stored("", f"{states}{at}", "state", k)
-        latched = _stored("m/s", f"rate of penetration at the last onset{at}", "memory", k)
+        yield f"{joint.name}.state", _stored_series("", f"{states}{at}", "state", k)
+        latched = _stored_series("m/s", f"rate of penetration at the last onset{at}", "memory", k)
         yield f"{joint.name}.deltadot_minus", latched
 
 
-def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Inner states of laws, as samples remember them."""
+def _state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of the state variables of friction laws, such as bristle deflections."""
     first = len(source.clearances) + len(source.frictions)
     for k, name in enumerate(source.states):
         if name:
-            yield name, _stored("m", "inner state of the joint's law of friction", "memory", first + k)
+            yield name, _stored_series("m", "inner state of the joint's law of friction", "memory", first + k)
 
 
-def _ratio(run: Result, joint: ClearanceInfo) -> Array:
+def _eccentricity_ratio(run: Result, joint: ClearanceInfo) -> Array:
+    """Return the eccentricity ratio e/c, (N,), of a joint with play."""
     return run[f"{joint.name}.e"] / run.p[joint.clearance]
 
 
-def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _drive_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of the torque or force of each drive."""
     for k, drive in enumerate(source.drives):
         turns = drive.unit == "rad"
         name, unit = ("torque", "N*m") if turns else ("force", "N")
-        yield f"{drive.name}.{name}", _of(unit, f"{name} of drive {drive.name}", "torques", k)
+        yield f"{drive.name}.{name}", _evaluated_series(unit, f"{name} of drive {drive.name}", "torques", k)
 
 
 def drive_series(source: KernelSource) -> list[str]:
-    """Torques and forces of the drives by name."""
-    return [name for name, _ in _drives(source)]
+    """Return the names of the series of the drives' torques and forces."""
+    return [name for name, _ in _drive_series(source)]
 
 
-def _frictions(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _friction_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of each friction element: force, slip and mode."""
     first = len(source.clearances)
     for k, name in enumerate(source.frictions):
-        yield f"{name}.F", _of("N", "friction on the second body", "friction", k, 0)
-        yield f"{name}.v", _of("m/s", "slip", "friction", k, 1)
+        yield f"{name}.F", _evaluated_series("N", "friction on the second body", "friction", k, 0)
+        yield f"{name}.v", _evaluated_series("m/s", "slip", "friction", k, 1)
         modes = "0 stick, 2 at rest by other rows, else the sign of the slip"
-        yield f"{name}.mode", _stored("", modes, "memory", first + k)
+        yield f"{name}.mode", _stored_series("", modes, "memory", first + k)
 
 
-def _elements(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _element_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of results of force elements."""
     for k, series in enumerate(source.series):
-        yield series.name, _of(series.unit, "result of a force element", "series", k)
+        yield series.name, _evaluated_series(series.unit, "result of a force element", "series", k)
 
 
-def _multipliers(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _multiplier_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of the Lagrange multiplier of each constraint equation."""
     for k, row in enumerate(source.rows):
         unit = "N" if row.unit == "m" else "N*m"
-        yield f"lambda.{row.name}", _of(unit, f"multiplier of the constraint {row.name}", "multipliers", k)
+        yield (
+            f"lambda.{row.name}",
+            _evaluated_series(unit, f"multiplier of the constraint {row.name}", "multipliers", k),
+        )
 
 
-def _balance(source: KernelSource) -> Iterator[tuple[str, Series]]:
+def _energy_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of energies, works and the energy residual."""
     for k, name in enumerate(("kinetic", "potential")):
-        yield f"energy.{name}", _of("J", f"{name} energy", "energy", k)
+        yield f"energy.{name}", _evaluated_series("J", f"{name} energy", "energy", k)
     told = "kinetic + potential energy less their start less all work"
-    yield "energy.residual", Series("J", told, _residual, frozenset({"energy"}))
+    yield "energy.residual", Series("J", told, _energy_residual, frozenset({"energy"}))
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
-        yield f"work.{name}", _stored("J", meaning, "work", k)
+        yield f"work.{name}", _stored_series("J", meaning, "work", k)
 
 
 DRIFT = ("Phi.max", "Phi_dot.max")
 
 
-def _drift(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Lengths and angles beside each other, as in diagnostics.phi_max."""
+def _drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Yield the series of the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles are compared as
+    numbers.
+    """
     what = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
     for k, name in enumerate(DRIFT):
-        yield name, _of("", f"drift, the largest {what[k]}", "drift", k)
+        yield name, _evaluated_series("", f"drift, the largest {what[k]}", "drift", k)
 
 
-# what a scene has beside motion; without masses, what does not follow from motion
-_PARTS = (_joints, _clearances, _guides, _states, _drives, _elements, _frictions, _multipliers, _balance, _drift)
-_MOTION_ALONE = (_elements, _drift)
+# series in addition to motion, with masses and without
+_PARTS = (
+    _joint_series,
+    _clearance_series,
+    _guide_series,
+    _state_series,
+    _drive_series,
+    _element_series,
+    _friction_series,
+    _multiplier_series,
+    _energy_series,
+    _drift_series,
+)
+_MOTION_ALONE = (_element_series, _drift_series)
 
 
-def _residual(run: Result) -> Array:
+def _energy_residual(run: Result) -> Array:
+    """Return the energy residual (N,), J: kinetic plus potential energy, less their start, less all work."""
     energy, first = (one["energy.kinetic"] + one["energy.potential"] for one in (run, run.start_row or run))
     return energy - first[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
 
-def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
+def _output_series(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
+    """Return the series of an output of the mechanism file, with the unit of its expression."""
     expression = expression_tree.from_json(tree)
     wanted = {used.path for used in expression_tree.names(expression)}
     units = {"t": "s"} | {path: known[path].unit for path in wanted if path in known}
@@ -324,6 +371,7 @@ def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Seri
     units |= {slot.address: slot.unit for slot in source.slots}
 
     def compute(run: Result) -> Array:
+        """Return the values (N,) of the expression at the samples of a run."""
         values = expression_tree.evaluate(expression, run.value_of)
         return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
 
@@ -334,7 +382,9 @@ def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Seri
 def unknown_series(
     source: KernelSource, known: Mapping[str, Series], name: Any, parameters: Iterable[str]
 ) -> UnknownNameError:
-    """The error for a name that `known`, the results of a scene, does not have; it names the nearest."""
+    """Return the error for a name that is not in `known`, the series of a scene, with the nearest names and the
+    reason.
+    """
     if not isinstance(name, str):
         return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
     if name in parameters:
@@ -354,7 +404,9 @@ def unknown_series(
 
 
 def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
-    """Names of series of a scene, each once. Raises UnknownNameError."""
+    """Return names of series of a scene without repetitions. Raises UnknownNameError for a name that the scene
+    lacks.
+    """
     known, wanted = catalogue(source), list(names)
     for name in wanted:
         if not isinstance(name, str) or name not in known:
@@ -363,15 +415,14 @@ def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
 
 
 def parameter_names(source: KernelSource) -> set[str]:
-    """Addresses of a scene's numbers, of parameters their short names too."""
+    """Return the addresses of a scene's run-time parameters, and the short names of its `parameters`."""
     addresses = {slot.address for slot in source.slots}
     return addresses | {address.removeprefix("parameters.") for address in addresses}
 
 
 def default_watch(reference: Result) -> tuple[str, ...]:
-    """What a reader wants to see: where the sliders on the ground are; without any, the outputs.
-
-    A slider's coordinate is the one that moves further in the ideal scene: along its axis.
+    """Return the series to show by default: the coordinate of each slider on the ground that moves further; else
+    outputs.
     """
     found, source = [], reference.source
     guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
@@ -391,7 +442,7 @@ def rigid_guides(source: KernelSource) -> list[JointInfo]:
 
 
 def rate_of(t: Array) -> float:
-    """Samples a second, Hz. BadValueError where they are not even."""
+    """Return the sampling rate, Hz. Raises BadValueError for samples at uneven times or fewer than nine."""
     steps = np.diff(t)
     if len(steps) < 8 or not np.all(np.abs(steps - steps.mean()) <= EVEN * steps.mean()):
         told = "a spectrum or a filter takes nine samples at even times or more"
@@ -400,9 +451,10 @@ def rate_of(t: Array) -> float:
 
 
 def spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Array]:
-    """Frequencies (Hz) and amplitudes (M,), the unit of the values: a sine of amplitude A on a line of it has A.
+    """Return frequencies (Hz) and amplitudes (M,) of a series; a sine of amplitude A on a line has the amplitude A.
 
-    One-sided, of the values less their mean, under a window of scipy.signal.windows, divided by its mean.
+    The spectrum is one-sided, of the values less their mean, under a window of scipy.signal.windows divided by its
+    mean.
     """
     from scipy.signal import get_window
 
@@ -416,11 +468,11 @@ def spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Arra
 
 
 def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: bool = True) -> Array:
-    """What a low-pass of Butterworth leaves, (N,): −3 dB at `cutoff` (Hz).
+    """Return a series (N,) after a Butterworth low-pass with −3 dB at `cutoff` (Hz).
 
-    `causal`: once forwards, as an amplifier does, late by its phase; begun at rest at the first value. Else forwards
-    and back, with no phase, the cutoff placed so that both together have −3 dB there. BadValueError for a cutoff
-    beyond half the rate of the samples.
+    `causal`: one pass forwards, as in an amplifier, with its phase lag, from rest at the first value. Otherwise
+    forwards and backwards without phase, with a cutoff such that both passes together have −3 dB there. Raises
+    BadValueError for a cutoff above half the sampling rate.
     """
     from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
@@ -442,6 +494,6 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
 
 
 def finite(values: Array) -> None:
-    """BadValueError unless all are numbers."""
+    """Raise BadValueError unless all values are finite."""
     if not np.isfinite(values).all():
         raise BadValueError("a series with values that are no numbers has no spectrum")

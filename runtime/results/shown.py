@@ -1,4 +1,4 @@
-"""What notebooks show of a scene and of a run: the mechanism drawn, and a table."""
+"""Own what notebooks display for a scene and for a run: a drawing of the mechanism and a table."""
 
 from __future__ import annotations
 
@@ -16,52 +16,55 @@ from gudgeon.language.shown import one_line
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
 
-MOST = 12  # names that a table lists of a kind
+MOST = 12  # largest number of names of one kind in a table
 Rows = list[tuple[str, ...]]
 _MARKS = re.compile(r"([\\{}$&#%_^~])")
 
 
 class Shown:
-    """A scene, which has a `start`, or a run, which has series."""
+    """Base class of a scene, which has a `start`, and of a run, which has series, for display in notebooks."""
 
     source: KernelSource
 
     def _repr_html_(self) -> str:
-        """A drawing, where it can be drawn, above a table."""
+        """Return a drawing, if the mechanism can be drawn, above the table, as HTML."""
         title = one_line(self.source.title or self.source.mechanism)
         cells = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in rows_of(self))
-        return f"<p>{escape(title)}, scene {escape(self.source.scene)}</p>{_drawing(self)}<table>{cells}</table>"
+        return f"<p>{escape(title)}, scene {escape(self.source.scene)}</p>{_draw_start(self)}<table>{cells}</table>"
 
     def _repr_latex_(self) -> str:
-        """The same table."""
-        lines = r" \\ ".join(" & ".join(_roman(cell) for cell in row) for row in rows_of(self))
+        """Return the table of `rows_of` as a LaTeX array."""
+        lines = r" \\ ".join(" & ".join(_as_latex_text(cell) for cell in row) for row in rows_of(self))
         return rf"$\displaystyle\begin{{array}}{{{'l' * len(rows_of(self)[0])}}} {lines} \end{{array}}$"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """What a notebook asks for first."""
+        """Return text, HTML and LaTeX by MIME type; a notebook calls this method first."""
         return {"text/plain": repr(self), "text/html": self._repr_html_(), "text/latex": self._repr_latex_()}
 
 
 def rows_of(shown: Any) -> Rows:
-    """Of a run what a reader wants to see of its samples; of a scene what it is made of."""
-    return [*_of_run(shown)] if hasattr(shown, "names") else [*_of_scene(shown.source)]
+    """Return the rows of the table: ranges of the main series of a run, or the components of a scene."""
+    return [*_run_rows(shown)] if hasattr(shown, "names") else [*_scene_rows(shown.source)]
 
 
-def _of_scene(source: KernelSource) -> Iterator[tuple[str, ...]]:
-    yield "bodies", _listed([body.name for body in source.bodies])
-    yield "joints", _listed([joint.name for joint in source.joints])
-    yield "joints with play", _listed([joint.name for joint in source.clearances])
-    yield "drives", _listed([drive.name for drive in source.drives])
+def _scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each kind of component of a scene, with names."""
+    yield "bodies", _list_names([body.name for body in source.bodies])
+    yield "joints", _list_names([joint.name for joint in source.joints])
+    yield "joints with play", _list_names([joint.name for joint in source.clearances])
+    yield "drives", _list_names([drive.name for drive in source.drives])
     yield "coordinates, rows of Φ", f"{len(source.coordinates)}, {len(source.rows)}"
     yield "formulation", source.formulation
 
 
-def _listed(names: list[str]) -> str:
+def _list_names(names: list[str]) -> str:
+    """Return the number of names and the first MOST of them: "14: A, B … and 2 more"."""
     more = f" and {len(names) - MOST} more" if len(names) > MOST else ""
     return f"{len(names)}: {', '.join(names[:MOST])}{more}" if names else "none"
 
 
-def _of_run(run: Any) -> Iterator[tuple[str, ...]]:
+def _run_rows(run: Any) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each main series of a run: name, smallest and largest sample, unit."""
     from gudgeon.results.series import default_watch, drive_series
 
     source = run.source
@@ -75,8 +78,8 @@ def _of_run(run: Any) -> Iterator[tuple[str, ...]]:
         yield "impacts", "", str(len(run.impacts)), "1"
 
 
-def _drawing(shown: Any) -> str:
-    """At the start, as an image of its own; nothing where that is not to be had."""
+def _draw_start(shown: Any) -> str:
+    """Return an HTML image of the mechanism at its start; "" if it cannot be drawn."""
     try:
         from gudgeon.results.figures.mechanism_plots import start_picture
 
@@ -87,7 +90,7 @@ def _drawing(shown: Any) -> str:
     return f'<img alt="the mechanism at its start" src="data:image/png;base64,{data}"/>'
 
 
-def _roman(text: str) -> str:
-    """Words in a formula: letters are no variables, blanks stay."""
+def _as_latex_text(text: str) -> str:
+    """Return a text as an upright word of a LaTeX formula, with blanks kept and special characters escaped."""
     marked = _MARKS.sub(lambda found: r"\backslash " if found[1] == "\\" else f"\\{found[1]}", text)
     return rf"\mathrm{{{marked}}}".replace(" ", r"\ ").replace("Φ", r"\Phi{}")

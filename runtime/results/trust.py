@@ -1,3 +1,3 @@
-"""Former name of reports/run_report.py, which the reference named."""
+"""Former name of reports/run_report.py, kept because the reference named it."""
 
 from gudgeon.results.reports.run_report import RunReport  # noqa: F401

@@ -1,9 +1,9 @@
-"""What a joint with play wears off: Archard's volume or Reye's, as depth over both circumferences.
+"""Own the wear of a joint with play: Archard's or Reye's volume, as depth over both circumferences.
 
-J. F. Archard, J. Appl. Phys. 24 (1953) 981: V = k F_n s/H, of a normal force F_n over a sliding distance s, a
-hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume in proportion to the work of
-friction, here k/H of it. Both hold for a wear that changes no geometry: clearance and shape stay those of the file.
-`Worn` is what wear makes of bearings round by round, of many runs whose contours change (simulation/wear_loop.py).
+J. F. Archard, J. Appl. Phys. 24 (1953) 981: V = k F_n s/H, with the normal force F_n, the sliding distance s, the
+hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume proportional to the work of friction,
+here with the factor k/H. Both assume that wear changes no geometry: clearance and shape remain those of the file.
+`Worn` is the result of rounds of wear that do change the contours of bearings (simulation/wear_loop.py).
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     from gudgeon.results.state import Array
 
 POINTS = 3600  # cells of a circumference
-SHARE = 0.9  # of the volume, that lies in the worn arc
+SHARE = 0.9  # fraction of the volume that lies in the worn arc
 HOUR = 3600.0  # s
 LAWS = ("archard", "reye")
 
 
 @dataclass(frozen=True)
 class Rubbing:
-    """What is asked of a run: how the surfaces of a joint with play rub from one time (s) to another."""
+    """A request to accumulate the sliding loads of a joint with play over the interval from `begin` to `end` (s)."""
 
     joint: str
     points: int = POINTS
@@ -42,26 +42,29 @@ class Rubbing:
 
 @dataclass(frozen=True, eq=False)
 class Rubbed:
-    """What a run said to it; cells count from angle 0 of the body's own frame, counterclockwise."""
+    """The accumulated sliding loads of a joint, by cells of both circumferences.
 
-    asked: Rubbing
-    load: Array  # (2, points) ∫ F_n |v_t| dt, N·m, of the bearing's cells and of the journal's
+    Cells count counterclockwise from angle 0 of the body's own frame.
+    """
+
+    asked: Rubbing  # the request
+    load: Array  # (2, points) ∫ F_n |v_t| dt, N·m, by cells of the bearing and of the journal
     friction: Array  # (2, points) ∫ |F_t v_t| dt, J
     slip: float  # m, ∫ |v_t| dt in contact
-    begin: float  # s, of what was seen
+    begin: float  # s, accumulated interval
     end: float
     radii: tuple[float, float]  # m, of bearing and journal
     length: float  # m
 
     def depth(self, side: int, law: str = "archard", rate: float = 1.0) -> Array:
-        """(points,) m, of the bearing (0) or the journal (1), by k/H (1/Pa)."""
+        """Return the wear depth (points,), m, of the bearing (side 0) or the journal (side 1); rate is k/H in 1/Pa."""
         area = self.radii[side] * 2.0 * np.pi / self.asked.points * self.length
         return np.asarray(rate * (self.load if law == "archard" else self.friction)[side] / area)
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """One side's wear: of the bearing in the bearing's frame, of the journal in the journal's."""
+    """Wear of one surface in its own frame: the bearing's or the journal's."""
 
     depth: Array  # (points,) m, over the middles of the cells, `Wear.angle`
     radius: float  # m
@@ -70,53 +73,58 @@ class Surface:
 
     @property
     def volume(self) -> float:
-        """m³."""
+        """Worn volume, m³."""
         return float(self.depth.sum()) * self.length * self.radius * 2.0 * np.pi / len(self.depth)
 
     @property
     def deepest(self) -> float:
-        """m."""
+        """Largest wear depth, m."""
         return float(self.depth.max())
 
     @property
     def deepest_angle(self) -> float:
-        """Of the middle of the deepest cell, rad within 0 and 2π; NaN where nothing is worn."""
+        """Angle of the middle of the deepest cell, rad, within 0 and 2π; NaN without wear."""
         return float(middles(len(self.depth))[self.depth.argmax()]) if self.deepest > 0.0 else np.nan
 
     @property
     def depth_per_hour(self) -> Array:
-        """(points,) m/h, as if all hours were like the run."""
+        """Wear depth per hour of such running, (points,) m/h."""
         return self.depth / self.hours
 
     @property
     def volume_per_hour(self) -> float:
-        """m³/h."""
+        """Worn volume per hour of such running, m³/h."""
         return self.volume / self.hours
 
     def arc(self, share: float = SHARE) -> float:
-        """Of the shortest arc that holds this share of the volume, rad, whole cells; NaN where nothing is worn."""
+        """Return the length of the shortest arc of whole cells that contains this fraction of the volume, rad; NaN
+        without wear.
+        """
         return arc(self.depth, share)
 
 
 @dataclass(frozen=True, eq=False)
 class Wear:
-    """Of one joint over a run: `bearing` and `journal`, depths over `angle`, (points,) rad."""
+    """Wear of one joint over a run: `bearing` and `journal`, with depths over `angle`, (points,) rad."""
 
     joint: str
     law: str
     angle: Array
     bearing: Surface
     journal: Surface
-    slip: float  # m, that the surfaces slid on each other in contact
+    slip: float  # m, sliding distance in contact
     t: tuple[float, float]  # s, from and to
     title: str
 
     def __repr__(self) -> str:
+        """Return joint, law and the largest depths of both surfaces in one line."""
         bearing, journal = (f"{surface.depth.max():.3g} m" for surface in (self.bearing, self.journal))
         return f"<Wear of {self.joint} by {self.law}: bearing {bearing}, journal {journal} at most>"
 
     def to_xarray(self) -> xarray.Dataset:
-        """Depths of both sides (m) over the angle (rad), volumes and arcs as attributes."""
+        """Return a Dataset of the depths of both surfaces (m) over the angle (rad), with volumes and arcs as
+        attributes.
+        """
         import xarray
 
         sides = {"bearing": self.bearing, "journal": self.journal}
@@ -133,12 +141,14 @@ class Wear:
         return xarray.Dataset(columns, {"angle": ("angle", self.angle, {"units": "rad"})}, own | told)
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """A row a cell: angle (rad) as index, depth of the bearing and of the journal (m)."""
+        """Return a table with a row for each cell: angle (rad) as index, depth of the bearing and of the journal
+        (m).
+        """
         table: pandas.DataFrame = self.to_xarray().to_dataframe()
         return table
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Angle (rad) and both depths (m), a row a cell, with all digits."""
+        """Write angle (rad) and both depths (m) as CSV, with a line for each cell and all digits."""
         from gudgeon.files.writing import write_bytes
         from gudgeon.language.wanted import path as named
 
@@ -147,7 +157,7 @@ class Wear:
         write_bytes(named(path, "path"), f"angle,bearing,journal\n{text}".encode())
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Depth over the angle in each body's own frame."""
+        """Plot the depth over the angle in each body's own frame."""
         from gudgeon.results.figures.run_plots import plot_wear
 
         return plot_wear(self, ax)
@@ -155,7 +165,7 @@ class Wear:
 
 @dataclass(frozen=True, eq=False)
 class WornJoint:
-    """The bearing of one joint over r rounds of n runs; NaN from where a run failed on."""
+    """Wear of one joint over r rounds of n runs; NaN from the round on in which a run failed."""
 
     contour: Array  # (r + 1, n, slots) m: before each round, and what the last one leaves
     depth: Array  # (r, n, points) m that a round wears, times `scale`, over the middles of the cells
@@ -168,23 +178,23 @@ class WornJoint:
 
     @property
     def journal_volume(self) -> Array:
-        """(r, n) m³ that each round wore off the journal; no contour is deeper by it."""
+        """Volume that each round wore off the journal, (r, n), m³; it does not deepen the contours."""
         return np.asarray(self.journal.mean(axis=2) * 2.0 * np.pi * self.journal_radius * self.length)
 
     @property
     def volume(self) -> Array:
-        """(r, n) m³ that each round wore off the bearing."""
+        """Volume that each round wore off the bearing, (r, n), m³."""
         return np.asarray(self.depth.mean(axis=2) * 2.0 * np.pi * self.radius * self.length)
 
     @property
     def contour_volume(self) -> Array:
-        """(r + 1, n) m³ that the contours are deeper than the circle: depths keep what was worn."""
+        """Volume between each contour and the circle, (r + 1, n), m³: depths preserve the worn volume."""
         return np.asarray(self.contour.mean(axis=2) * 2.0 * np.pi * self.radius * self.length)
 
 
 @dataclass(frozen=True, eq=False)
 class Worn:
-    """What came of `gudgeon.wear_loop`: by joint, with the laws that it was worn by."""
+    """Result of `gudgeon.wear_loop` by joint, with the wear law and its factors."""
 
     joints: Mapping[str, WornJoint]
     law: str
@@ -194,11 +204,14 @@ class Worn:
     title: str
 
     def __repr__(self) -> str:
+        """Return joints, law, and the numbers of rounds and runs in one line."""
         rounds, runs = next(iter(self.joints.values())).work.shape
         return f"<Worn {', '.join(self.joints)} by {self.law}: {rounds} rounds of {runs} runs>"
 
     def to_xarray(self) -> xarray.Dataset:
-        """Contours over round, joint, run and slot; depths over the cells; volumes, works and peak forces."""
+        """Return a Dataset: contours over round, joint, run and slot; depths over the cells; volumes, works and peak
+        forces.
+        """
         import xarray
 
         names, several = list(self.joints), list(self.joints.values())
@@ -222,7 +235,7 @@ class Worn:
         return xarray.Dataset(columns, places, own)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """The dataset as NetCDF, whole or not at all; `xarray.open_dataset` reads it."""
+        """Write the Dataset of `to_xarray` as one complete NetCDF file, which `xarray.open_dataset` reads."""
         from gudgeon.files.writing import write_bytes
         from gudgeon.language.wanted import path as named
 
@@ -230,23 +243,25 @@ class Worn:
 
 
 def middles(points: int) -> Array:
-    """Of the cells of a circumference, (points,) rad."""
+    """Return the angles of the middles of `points` equal cells of a circumference, (points,), rad."""
     return (np.arange(points) + 0.5) * (2.0 * np.pi / points)
 
 
 def arc(worn: Array, share: float = SHARE) -> float:
-    """The shortest arc (rad, whole cells) around a circle that holds so much of what its cells (points,) hold."""
+    """Return the length (rad, whole cells) of the shortest arc that contains the fraction `share` of the sum of `worn`
+    (points,).
+    """
     total, n = float(worn.sum()), len(worn)
     if not total > 0.0:
         return np.nan
     before = np.concatenate([[0.0], np.cumsum(np.concatenate([worn, worn]))])
-    wanted = before[:n] + share * total * (1.0 - 1e-12)
-    ends = np.searchsorted(before, wanted, "left")
+    targets = before[:n] + share * total * (1.0 - 1e-12)
+    ends = np.searchsorted(before, targets, "left")
     return float((ends - np.arange(n)).min()) * 2.0 * np.pi / n
 
 
 def bearing_of(source: KernelSource, joint: str) -> tuple[int, int, int]:
-    """Where p has the radii of bearing and journal and the pin's length, m."""
+    """Return the indices in p of the radii of bearing and journal and of the pin's length (m)."""
     own = next(one for one in source.clearances if one.name == joint)
     radius = own.constants["R_i"]
     owner = source.slots[radius].address.rpartition(".")[0]
@@ -255,10 +270,10 @@ def bearing_of(source: KernelSource, joint: str) -> tuple[int, int, int]:
 
 
 def spread(points: int, low: Array, high: Array, loads: Array, half: Array | None = None) -> Array:
-    """Loads (r, K) laid evenly on arcs from low to high (K,) rad; (r, points).
+    """Return loads (r, K) distributed evenly over arcs from low to high (K,), rad, as sums by cell, (r, points).
 
-    `half` (K,) rad: each place of an arc is a parabola, which is 0 so far from it on both sides. Angles may be of any
-    turn; what falls into a cell is the integral over it, so that sums stay those of the loads.
+    With `half` (K,), rad, the load of each point of an arc is a parabola that vanishes at that distance on both sides.
+    Angles may be of any turn. A cell receives the integral over it, so that sums of loads are preserved.
     """
     per_cell = 2.0 * np.pi / points
     wide = np.zeros(len(low)) if half is None else half / per_cell
@@ -268,19 +283,23 @@ def spread(points: int, low: Array, high: Array, loads: Array, half: Array | Non
     count = np.floor(b + wide).astype(np.int64) - first + 1
     arcs = np.repeat(np.arange(len(a)), count)
     cell = first[arcs] + np.arange(len(arcs)) - np.repeat(np.cumsum(count) - count, count)
-    left, right = (_below(edge, a[arcs], b[arcs], None if half is None else wide[arcs]) for edge in (cell, cell + 1))
+    left, right = (
+        _fraction_below(edge, a[arcs], b[arcs], None if half is None else wide[arcs]) for edge in (cell, cell + 1)
+    )
     return np.stack([np.bincount(cell % points, load[arcs] * (right - left), points) for load in loads])
 
 
-def _below(x: Array, a: Array, b: Array, half: Array | None) -> Array:
-    """What share of an arc from a to b lies below x; with parabolas of this half width over all of its places."""
+def _fraction_below(x: Array, a: Array, b: Array, half: Array | None) -> Array:
+    """Return the fraction of the load of an arc from a to b that lies below x; with `half`, of parabolas of that half
+    width.
+    """
     if half is None:
         return np.asarray(np.clip((x - a) / (b - a), 0.0, 1.0))
     half = np.maximum(half, 1e-9)
-    return np.asarray((_parabolas((x - a) / half) - _parabolas((x - b) / half)) * half / (b - a))
+    return np.asarray((_parabola_integral((x - a) / half) - _parabola_integral((x - b) / half)) * half / (b - a))
 
 
-def _parabolas(s: Array) -> Array:
-    """Twice the integral of 3/4 (1 − s²) from −1 on, which has the area 1 within ±1."""
+def _parabola_integral(s: Array) -> Array:
+    """Return twice the integral of 3/4 (1 − s²) from −1 to s; the parabola has unit area within ±1."""
     inside = np.clip(s, -1.0, 1.0)
     return np.asarray((0.75 + inside * (2.0 + inside * (1.5 - 0.25 * inside**2))) / 4.0 + np.maximum(s - 1.0, 0.0))

@@ -1,1 +1,1 @@
-"""Many runs judged: bench, map of verdicts, box of parameters."""
+"""Studies of many runs: benchmarks of methods, maps and boxes of verdicts, ensembles of a study file."""

@@ -1,4 +1,4 @@
-"""What a map or a box of `gudgeon map` varies: a step, a tolerance, a run-time number, or several together."""
+"""Own the axes of a map or box of `gudgeon map`: a step, a tolerance, a run-time parameter, or several together."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
 
 SETTINGS = {"step": "s", "rtol": ""}  # axes of the method, not of the mechanism
-COUNT, MOST = 5, 1000  # values of a range that does not say; of any
+COUNT, MOST = 5, 1000  # values of a range: by default, at most
 _COUNT = re.compile(r"[0-9]{1,6}")
 # Axes that move every such number of the scene, each by its ratio to the first.
 GROUPS: dict[str, Callable[[str], bool]] = {
@@ -31,9 +31,9 @@ GROUPS: dict[str, Callable[[str], bool]] = {
 
 @dataclass(frozen=True)
 class Axis:
-    """A name, its values (SI, ascending), and the addresses that get them, each times its ratio.
+    """An axis with its values (SI, ascending) and the addresses that it sets, each to the value times its ratio.
 
-    `words`: of a choice, a material; its values are their places.
+    `words`: the names of a choice, such as a material; the values are indices into it.
     """
 
     name: str
@@ -44,11 +44,11 @@ class Axis:
 
     @property
     def of_method(self) -> bool:
-        """Whether it is the step or the tolerance."""
+        """Whether the axis is the step or the tolerance."""
         return self.name in SETTINGS
 
     def parameters(self, value: float) -> dict[str, float | str]:
-        """What `simulate` is given for a value; nothing for an axis of the method or of a scene without play."""
+        """Return the parameters of `simulate` for a value; empty for an axis of the method or a scene without play."""
         if self.words:
             return {address: self.words[int(value)] for address, _ in self.ratios}
         return {address: value * ratio for address, ratio in self.ratios}
@@ -57,12 +57,13 @@ class Axis:
 def axis(
     simulation: Simulation, name: str, values: Sequence[float | str], parameters: Parameters | None = None
 ) -> Axis:
-    """`name`: step, rtol, clearance, stiffness, viscosity, gains, or the address of any run-time number or choice.
+    """Return an axis by name: step, rtol, clearance, stiffness, viscosity, gains, or the address of a run-time
+    parameter or choice.
 
-    values: numbers (SI); of a choice, a material, names. Raises UnknownNameError for a name that is none,
-    BadValueError for one that the scene has no number for.
+    values: numbers (SI), or names for a choice. Raises UnknownNameError for an unknown name, BadValueError for a name
+    without a parameter in the scene.
     """
-    if (slot := _choice(simulation.source, text(name, "axis"))) is not None:
+    if (slot := _find_choice(simulation.source, text(name, "axis"))) is not None:
         names = listed(values, f"axis {name}", str, f"a list of names, of {', '.join(slot.words)}")
         places = sorted({place_of_word(one, slot) for one in names})
         return Axis(name, tuple(places), "", ((name, 1.0),), slot.words)
@@ -70,7 +71,7 @@ def axis(
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
     source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
-    slots = _in_use(source, p, _slots(source, name))
+    slots = _drop_unused_materials(source, p, _axis_parameters(source, name))
     first = float(p[slots[0]])
     if len(slots) > 1 and first == 0.0:
         raise BadValueError(f"axis {name}: {source.slots[slots[0]].address} is zero, there is no ratio to it")
@@ -79,18 +80,18 @@ def axis(
 
 
 def typed(simulation: Simulation, written: str, parameters: Parameters | None = None) -> Axis:
-    """From the command line: "c=.05mm..1mm:5" (logarithmic), "omega=3,6,9", "rtol=1e-4..1e-10:4"."""
+    """Return the axis of a command-line text: "c=.05mm..1mm:5" (logarithmic), "omega=3,6,9", "rtol=1e-4..1e-10:4"."""
     name, _, told = text(written, "axis").partition("=")
     if not told:
         raise BadValueError(f"axis {written!r}: expected name=low..high:count or name=a,b,c")
-    if (choice := _choice(simulation.source, name.strip())) is not None:
+    if (choice := _find_choice(simulation.source, name.strip())) is not None:
         if ".." in told or ":" in told:
             names = ",".join(choice.words)
             raise BadValueError(f"axis {written!r}: its values are names, there is none between: {name}={names}")
         return axis(simulation, name.strip(), told.split(","), parameters)
     ends, colon, count = told.partition(":")
-    slot = _slot(simulation.source, name.strip())
-    values = [number(_spaced(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
+    slot = _first_parameter(simulation.source, name.strip())
+    values = [number(_parse_value(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
     if ".." in ends:
         if len(values) != 2 or not 0 < values[0] < values[1]:
             raise BadValueError(f"axis {written!r}: expected 0 < low < high")
@@ -104,19 +105,19 @@ def typed(simulation: Simulation, written: str, parameters: Parameters | None = 
 
 
 def clearances(simulation: Simulation, values: Sequence[float], parameters: Parameters | None = None) -> Axis:
-    """The axis `clearance`, (NaN,) in a scene without play."""
+    """Return the axis `clearance`; its only value is NaN in a scene without play."""
     if not simulation.source.clearances:
         return Axis("clearance", (math.nan,), "m")
     return axis(simulation, "clearance", values, parameters)
 
 
-def _choice(source: KernelSource, name: str) -> Slot | None:
-    """What a run chooses by name, under its address."""
+def _find_choice(source: KernelSource, name: str) -> Slot | None:
+    """Return the parameter of an address if it is a choice by name, else None."""
     return next((slot for slot in source.slots if slot.address == name and slot.words), None)
 
 
-def _slots(source: KernelSource, name: str) -> list[int]:
-    """Which numbers an axis moves; the first gives it its values."""
+def _axis_parameters(source: KernelSource, name: str) -> list[int]:
+    """Return the indices of the parameters that an axis sets; the first has the axis's values."""
     if name == "clearance":
         found = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
@@ -128,8 +129,8 @@ def _slots(source: KernelSource, name: str) -> list[int]:
     return found
 
 
-def _in_use(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
-    """Without the stiffness of materials that a run with p might choose and does not."""
+def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
+    """Return the indices without stiffnesses of materials that runs may choose but do not with p."""
     of = [(slot, said(slot, float(x))) for slot, x in zip(source.slots, p, strict=False) if slot.words]
     of = [(slot, name) for slot, name in of if slot.address.startswith(("bearings.", "guides."))]
     offered = {f"materials.{word}.E" for slot, _ in of for word in slot.words}
@@ -137,13 +138,15 @@ def _in_use(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
     return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in offered - chosen]
 
 
-def _slot(source: KernelSource, name: str) -> Slot:
+def _first_parameter(source: KernelSource, name: str) -> Slot:
+    """Return the parameter whose values an axis has."""
     if name in SETTINGS:
         return Slot(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))
-    return source.slots[_slots(source, name)[0]]
+    return source.slots[_axis_parameters(source, name)[0]]
 
 
-def _spaced(text: str) -> float | str:
+def _parse_value(text: str) -> float | str:
+    """Return the number of a text with unit such as "1mm"."""
     from gudgeon.model.parameters import value
 
     return value(text)

@@ -1,8 +1,8 @@
-"""`gudgeon bench`: run time against error, every method, scene by scene.
+"""Measure run time against error of every method, scene by scene: `gudgeon bench`.
 
-The error of a run is taken against another method at a much tighter tolerance: two references by different
-methods, of which a run is compared with the one that it does not use. What they differ by is told; errors
-below twenty times that are not resolved. Times are the least of several runs on one thread.
+The error of a run is its difference from a reference by another method at a much tighter tolerance. There are two
+references by different methods; a run is compared with the one whose method it does not use. Their difference is
+reported, and errors below twenty times it are not resolved. Times are the minimum of several runs on one thread.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain
 REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
 FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
 REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
-SECOND = 1e-12  # where one method is both references
+SECOND = 1e-12  # tolerance of the second reference if one method is both
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
-LONG, LIMIT = 2.0, 5.0  # s: a cross-check that took so long gets no tighter tolerance, and is stopped then
+LONG, LIMIT = 2.0, 5.0  # s: run time after which a cross-check gets no tighter tolerance; after which it is stopped
 QUICK = 0.02  # s of timed runs
 TRUSTED = 20  # times the references' difference: smaller errors are not resolved
-SMALL = 1e-3  # the largest error that tells an order
-STRAIGHT = math.log(2.5)  # the deviation from a line that still tells one
+SMALL = 1e-3  # the largest error from which an order is determined
+STRAIGHT = math.log(2.5)  # the largest deviation of points from a line that determines an order
 
 
 @dataclass(frozen=True)
 class Row:
-    """One method with one step or tolerance; with the kinematic method one number of samples."""
+    """Measurements of one method with one step or tolerance, or one number of samples of the kinematic method."""
 
     setting: Setting
     seconds: float  # a simulated second; NaN if the run failed
@@ -73,22 +73,23 @@ class SceneBench:
 
     @property
     def done(self) -> tuple[int, int]:
-        """Rows that there are, rows that were asked for."""
+        """Number of measured rows, and of requested rows."""
         return len(self.rows), len(self.rows) + self.missing
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """As they were tested."""
+        """Names of the measured methods in order."""
         return tuple(dict.fromkeys(row.setting.method for row in self.rows))
 
     def of(self, method: str) -> list[Row]:
-        """Its rows."""
+        """Return the rows of a method."""
         return [row for row in self.rows if row.setting.method == method]
 
     def order(self, measure: str, method: str = "rk4") -> float:
-        """Slope of log(error) over log(step), over the errors that are neither rounding nor large.
+        """Return the order of convergence: the slope of log(error) over log(step), over errors neither rounding nor
+        large.
 
-        NaN for fewer than three, or where they lie on no line (a stiff scene at its stability limit).
+        NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability limit).
         """
         points = [(row.setting.value, getattr(row.error, measure)) for row in self.of(method) if not row.failure]
         kept = np.log([(h, e) for h, e in points if self.resolved(measure, e) and e < SMALL])
@@ -98,17 +99,17 @@ class SceneBench:
         return float(line[0]) if np.std(np.polyval(line, kept[:, 0]) - kept[:, 1]) < STRAIGHT else NAN
 
     def resolved(self, measure: str, error: float) -> bool:
-        """Whether an error is larger than what the references leave in doubt."""
+        """Return whether an error exceeds the uncertainty of the references."""
         return error > TRUSTED * getattr(self.agreement, measure)
 
     def row(self, setting: Setting) -> Row | None:
-        """The row of a setting, if it was tested."""
+        """Return the row of a setting, None if it was not measured."""
         return next((r for r in self.of(setting.method) if math.isclose(r.setting.value, setting.value)), None)
 
     def seconds_to(self, error: float, method: str) -> float:
-        """Least run time (s a simulated second) with every error at most this; NaN: no row has it, or none says so.
+        """Return the least run time (s per simulated second) with every error at most `error`; NaN if no row has it.
 
-        Where the references leave the error itself in doubt nothing can be said.
+        NaN also if the uncertainty of the references exceeds the error.
         """
         if any(TRUSTED * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
             return NAN
@@ -131,15 +132,15 @@ def bench(
 ) -> SceneBench:
     """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
 
-    `methods`: as `choice` takes them, by default all that fit. `tolerances` default to 1e-3 … 1e-11. `t_end` (s)
-    defaults to the first few contacts or, without contact, to as many of the shortest steps as are affordable.
-    `quick` takes fewer of both, a tenth of the window, shorter measurements and no cross-checks. After Ctrl-C the
-    rows until then.
+    `methods`: as in `choice`, by default all that fit. `tolerances` default to 1e-3 … 1e-11. `t_end` (s) defaults to
+    the first few contacts or, without contact, to as many of the shortest steps as are affordable. `quick` measures
+    fewer of both over a tenth of the window, for a shorter time, without cross-checks. After Ctrl-C the rows so far are
+    returned.
     """
     parameters, progress = dict(mapping(parameters, "parameters")), function(progress, "progress")
     t_end, quick = None if t_end is None else positive(t_end, "t_end"), flag(quick, "quick")
     if simulation.source.degrees_of_freedom == 0:
-        return _kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
+        return _measure_kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
     chosen, left_out = choice(simulation, methods, quick)
     usual = usual_steps(simulation, parameters, quick)
     steps = sorted(numbers(steps, "steps") or usual, reverse=True)
@@ -162,13 +163,16 @@ def bench(
 
 
 def usual_steps(simulation: Simulation, parameters: Parameters | None = None, quick: bool = False) -> tuple[float, ...]:
-    """1, 2, 5 · 10^k s around the step of a plain run."""
+    """Return steps 1, 2, 5 · 10^k s around the step of a plain run."""
     usual = natural_step(simulation, parameters)
     return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
 
 
 def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
-    """Two methods at much tighter tolerance; one, where one alone fits; where only a fixed step does shorter ones."""
+    """Return the settings of both references: two methods at much tighter tolerance, or one method at two tolerances.
+
+    In a scene that allows only fixed steps, they are the finest step divided by FINER.
+    """
     fitting = [setting for setting in REFERENCES if setting.method in simulation.source.methods]
     if fitting:
         return fitting[0], fitting[1] if len(fitting) > 1 else replace(fitting[0], value=SECOND)
@@ -176,16 +180,21 @@ def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Set
     return finest.finer(FINER[0]), finest.finer(FINER[1])
 
 
-def _measure(work: Work, settings: Sequence[Setting], wanted: Sequence[Setting], progress: Report) -> SceneBench:
-    """References first, then every setting: a run to compare and runs to time."""
-    count = len(settings) + len(wanted)
+def _measure(
+    work: Work, settings: Sequence[Setting], wanted_references: Sequence[Setting], progress: Report
+) -> SceneBench:
+    """Run the references, then every setting: once to compare and several times to measure the time."""
+    count = len(settings) + len(wanted_references)
 
     def attempt(done: int, setting: Setting) -> Attempt:
+        """Run one setting, cross-checks with a time limit."""
         text = f"{setting.method} {setting}"
         limited = replace(work, limit=LIMIT) if setting.method in python_driver.NAMES else work
         return limited.run(setting, lambda fraction, _: progress((done + fraction) / count, text))
 
-    found = [attempt(done, setting) for done, setting in enumerate(wanted)]  # without them there is nothing to say
+    found = [
+        attempt(done, setting) for done, setting in enumerate(wanted_references)
+    ]  # without them there is nothing to say
     good = [a for a in found if a.run is not None and not a.failure]
     agreement, contact = Error(math.inf, math.inf, math.inf), NAN
     if good and good[0].run is not None:
@@ -193,20 +202,29 @@ def _measure(work: Work, settings: Sequence[Setting], wanted: Sequence[Setting],
         contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
     if len(good) == 2 and good[0].run is not None and good[1].run is not None:
         agreement = difference(good[0].run, good[1].run)
-    rows, left_out, missing = _rows(work, settings, good, lambda k, one: attempt(len(wanted) + k, one))
+    rows, left_out, missing = _make_rows(work, settings, good, lambda k, one: attempt(len(wanted_references) + k, one))
     rhs = () if missing else tuple(time_rhs(work.simulation, work.t_end))
     name = work.simulation.source.scene
     return SceneBench(
-        name, work.t_end, work.why, tuple(rows), tuple(wanted), agreement, contact, rhs, tuple(left_out), missing
+        name,
+        work.t_end,
+        work.why,
+        tuple(rows),
+        tuple(wanted_references),
+        agreement,
+        contact,
+        rhs,
+        tuple(left_out),
+        missing,
     )
 
 
-def _rows(
+def _make_rows(
     work: Work, settings: Sequence[Setting], good: Sequence[Attempt], attempt: Callable[[int, Setting], Attempt]
 ) -> tuple[list[Row], list[str], int]:
-    """Row by row, loose before tight; where a cross-check took long its tighter ones are left out. (rows, why, missing)
+    """Return the rows from loose to tight, the reasons for rows left out, and the number of rows that Ctrl-C left out.
 
-    `missing`: how many Ctrl-C left out.
+    If a cross-check was slow, its tighter settings are left out.
     """
     rows: list[Row] = []
     slow: dict[str, str] = {}
@@ -218,22 +236,24 @@ def _rows(
             if found.slow:
                 slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {found.failure}"
                 continue
-            rows.append(_row(work, found, good))
+            rows.append(_make_row(work, found, good))
         except KeyboardInterrupt:
             return rows, list(slow.values()), sum(other.method not in slow for other in settings[k:])
-        if setting.method in python_driver.NAMES and _seconds(found) > LONG and k + 1 < len(settings):
+        if setting.method in python_driver.NAMES and _run_time(found) > LONG and k + 1 < len(settings):
             following = settings[k + 1]
             if following.method == setting.method:
-                took = f"{setting} took {_seconds(found):.2g} s"
+                took = f"{setting} took {_run_time(found):.2g} s"
                 slow[setting.method] = f"{setting.method}: {following} and tighter left out: {took}"
     return rows, list(slow.values()), 0
 
 
-def _seconds(found: Attempt) -> float:
+def _run_time(found: Attempt) -> float:
+    """Return the run time of an attempt, s; 0 without a result."""
     return found.run.diagnostics.seconds if found.run is not None else 0.0
 
 
-def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
+def _make_row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
+    """Return the row of an attempt, with error and timed runs."""
     if found.failure or found.run is None:
         return Row(found.setting, NAN, 0, Error(), 0, 0, None, found.failure or "no result", found.failed_at)
     diagnostics = found.run.diagnostics
@@ -254,18 +274,18 @@ def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
 
 
 def other_than(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
-    """The first reference by none of these methods; where each uses one of them, the last (the finest step)."""
+    """Return the first reference by none of these methods, else the last (the finest step); None without references."""
     return next((a for a in good if a.setting.method not in methods), good[-1] if good else None)
 
 
-def _kinematic(
+def _measure_kinematic(
     simulation: Simulation,
     parameters: Parameters,
     counts: Sequence[int],
     t_end: float | None,
     progress: Report | None,
 ) -> SceneBench:
-    """No step and no reference: the error is what Newton's method leaves open of the constraints."""
+    """Measure the kinematic method; its error is the residual of the constraints after Newton's method."""
     work = Work(simulation, t_end or plain_end(simulation.compiled, parameters), parameters)
     rows = []
     for done, count in enumerate(counts):

@@ -1,8 +1,8 @@
-"""A box of parameters: all its corners and Sobol points in it, each judged by two runs and a window.
+"""Judge a box of parameters: all its corners and Sobol points in it, by a long run and two runs over a window.
 
-Two questions are asked of a point. Does a run over the whole time stay sane (finite, closed, its energy
-accounted for, no contact lost)? And does it agree with a hundred times tighter tolerance as far as
-contacts let anything be predicted: up to half-way between the fourth onset and the next?
+Two criteria apply to a point. A run over the whole time must remain valid: finite, closed, energy accounted for, no
+contact lost. It must also agree with a hundred times tighter tolerance over the predictable window, up to half-way
+between the fourth onset and the next.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from gudgeon.studies.verdicts import Cell, Limits, Pair, judge, limits_of
 FINER = 100.0
 SEED = 20  # of Sobol's scrambling
 SAMPLES = 1000  # of the window
-DENSE = 10_000  # of the long run: what a missed contact would be seen by
+DENSE = 10_000  # samples of the long run, in which a missed contact shows
 TIGHT = 1e-10
 MARGIN = 10.0  # errors need not fall with the tolerance as exactly as that
 PATIENCE = 10.0  # the finer run may take so many times longer
@@ -34,7 +34,7 @@ PATIENCE = 10.0  # the finer run may take so many times longer
 
 @dataclass(frozen=True)
 class Range:
-    """One edge of the box, on a logarithmic scale, SI; `names` move together: the first has these values."""
+    """An edge of the box, on a logarithmic scale, SI; `names` move together, and the first has these values."""
 
     name: str
     low: float
@@ -42,32 +42,34 @@ class Range:
     unit: str = ""
 
     def __post_init__(self) -> None:
+        """Raise BadValueError unless 0 < low ≤ high."""
         if not 0.0 < number_of(self.low, f"range {self.name}") <= number_of(self.high, f"range {self.name}"):
             raise BadValueError(f"range {self.name}={self.low:g}..{self.high:g}: expected 0 < low ≤ high")
 
     def at(self, share: float) -> float:
-        """Its ends exactly at 0 and 1."""
+        """Return the value at a fraction of the edge, exactly its ends at 0 and 1."""
         if share in (0.0, 1.0):
             return (self.low, self.high)[int(share)]
         return self.low * (self.high / self.low) ** share
 
 
 def corners(ranges: Sequence[Range]) -> list[dict[str, float]]:
-    """All 2^n of them, the last range fastest."""
-    return [_point(ranges, shares) for shares in itertools.product((0.0, 1.0), repeat=len(ranges))]
+    """Return all 2^n corners of the box, the last range fastest."""
+    return [_point_at(ranges, shares) for shares in itertools.product((0.0, 1.0), repeat=len(ranges))]
 
 
 def sobol(ranges: Sequence[Range], count: int) -> list[dict[str, float]]:
-    """The first `count` scrambled Sobol points (A. B. Owen, J. Complexity 14, 1998), the same every time."""
+    """Return the first `count` scrambled Sobol points (A. B. Owen, J. Complexity 14, 1998), always the same."""
     from scipy.stats import qmc
 
     if count < 1 or not ranges:
         return []
     shares = qmc.Sobol(len(ranges), seed=SEED).random_base2(max(0, math.ceil(math.log2(count))))
-    return [_point(ranges, row) for row in shares[:count].tolist()]
+    return [_point_at(ranges, row) for row in shares[:count].tolist()]
 
 
-def _point(ranges: Sequence[Range], shares: Sequence[float]) -> dict[str, float]:
+def _point_at(ranges: Sequence[Range], shares: Sequence[float]) -> dict[str, float]:
+    """Return the values at the fractions of all edges."""
     return {edge.name: edge.at(share) for edge, share in zip(ranges, shares, strict=True)}
 
 
@@ -80,38 +82,44 @@ def judge_point(
     limit: float = math.inf,
     progress: Progress | None = None,
 ) -> Cell:
-    """One point of a box over [0, t_end] (s); `limit` (s) of processor time for its long run."""
+    """Return the verdict on one point of a box over [0, t_end] (s).
+
+    `limit` (s) bounds the processor time of its long run.
+    """
     work, limits = Work(simulation, t_end, parameters, limit=limit), limits or limits_of(setting)
     long = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
     if long.failure or long.run is None:
         return judge(parameters, long, [], limits)
     patient = replace(work, limit=PATIENCE * limit)
     times = predictable(long.run)
-    pair = _pair(patient, setting, times)
+    pair = _run_pair(patient, setting, times)
     cell = judge(parameters, long, [pair], limits)
     if cell.failed and cell.error.beyond(limits.motion, limits.path, limits.force):
         kept = times[: _horizon(patient, pair[1], limits)]
-        cell = judge(parameters, long, [_pair(patient, setting, kept)] if len(kept) > 1 else [], limits)
+        cell = judge(parameters, long, [_run_pair(patient, setting, kept)] if len(kept) > 1 else [], limits)
     return cell
 
 
 def predictable(run: Result) -> Array:
-    """Times (s) of a comparison: up to half-way between the fourth onset and the next, or all of the run."""
+    """Return the times (s) of a comparison: up to half-way between the fourth onset and the next, or over the whole
+    run.
+    """
     onsets = np.sort(run.impacts["t_on"])
     end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2 if len(onsets) > ONSETS else float(run.t[-1])
     return np.linspace(0.0, end, SAMPLES + 1)
 
 
-def _pair(work: Work, setting: Setting, times: Array) -> Pair:
+def _run_pair(work: Work, setting: Setting, times: Array) -> Pair:
+    """Run a setting and a finer one at the same times."""
     return work.sampled(setting, times), work.sampled(setting.finer(FINER), times)
 
 
 def _horizon(work: Work, fine: Attempt, limits: Limits) -> int:
-    """How many samples say anything about a run that disagrees with the finer one, `fine`.
+    """Return the number of samples up to which a run can agree with the finer run `fine`.
 
-    Joints that stay in contact may multiply differences as impacts do. What multiplies them is a matter of the
-    motion, not of the tolerance. So two runs at tolerances that nobody could call loose are compared, and where they
-    come apart by more than the limits over the ratio of their tolerances, no run can be asked to keep the limits.
+    Joints in lasting contact may amplify differences like impacts. The amplification is a property of the motion, not
+    of the tolerance. Two runs at very tight tolerances are compared. From the sample on at which they differ by more
+    than the limits over the ratio of their tolerances, no run can meet the limits.
     """
     if fine.run is None:
         return SAMPLES + 1

@@ -1,8 +1,8 @@
-"""`gudgeon map`: a map or a box of runs, each stable, inaccurate, diverged or outside the model.
+"""Judge a map or a box of runs, each stable, inaccurate, diverged or outside the model: `gudgeon map`.
 
-A run is asked two questions. Does it stay sane over a good part of the motion (finite, closed, its energy
-accounted for, no contact lost)? And does it agree with a finer one, a tenth of the step or a hundredth of
-the tolerance, over the first few contacts? `cells.Limits` has the numbers, every cell its reason.
+Two criteria apply to a run. It must remain valid over a good part of the motion: finite, closed, energy accounted for,
+no contact lost. It must also agree with a finer run, a tenth of the step or a hundredth of the tolerance, over the
+first few contacts. `verdicts.Limits` has the numbers; every cell has its reason.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ MOST_POINTS = 10**6
 LIMIT = 120.0  # s of processor time of a run
 
 
-class _Judged:
-    """What Ctrl-C may leave in part."""
+class _Verdicts:
+    """Base class of maps and boxes that Ctrl-C may leave incomplete."""
 
     cells: tuple[Cell, ...]
 
     @property
     def done(self) -> tuple[int, int]:
-        """Cells that are judged, and all."""
-        return _done(self.cells)
+        """Number of judged cells, and of all cells."""
+        return _count_judged(self.cells)
 
     @property
     def interrupted(self) -> bool:
@@ -49,7 +49,7 @@ class _Judged:
 
 
 @dataclass(frozen=True)
-class VerdictMap(_Judged):
+class VerdictMap(_Verdicts):
     """The cells of one scene over two axes, column by column; both axes ascend."""
 
     scene: str
@@ -61,14 +61,14 @@ class VerdictMap(_Judged):
     full: bool = False  # whether the full formulation was asked for: Baumgarte's gains act there
 
     def cell(self, row: float, column: float) -> Cell:
-        """One cell; KeyError if it is not in the map."""
+        """Return the cell at values of both axes. Raises KeyError if the map does not have it."""
         if row not in self.rows.values or (column not in self.columns.values and column == column):
             raise KeyError((row, column))
         place = self.columns.values.index(column) if column == column else 0
         return self.cells[place * len(self.rows.values) + self.rows.values.index(row)]
 
     def largest_stable(self, column: float) -> float:
-        """The largest row value with which it and every smaller one is stable; NaN: none."""
+        """Return the largest row value up to which every cell of the column is stable; NaN if there is none."""
         best = NAN
         for row in self.rows.values:
             if self.cell(row, column).status is not Status.STABLE:
@@ -78,8 +78,8 @@ class VerdictMap(_Judged):
 
 
 @dataclass(frozen=True)
-class VerdictBox(_Judged):
-    """All corners of a box, then Sobol points in it."""
+class VerdictBox(_Verdicts):
+    """The cells of all corners of a box, then of Sobol points in it."""
 
     scene: str
     setting: Setting
@@ -103,14 +103,15 @@ def verdict_map(
     quick: bool = False,
     progress: Report | None = None,
 ) -> VerdictMap:
-    """Judge every pair of at most two axes (`gudgeon.measure.axes`), by default tolerance (rk4: step) × clearance.
+    """Judge every pair of values of at most two axes (`gudgeon.measure.axes`), by default tolerance (rk4: step) ×
+    clearance.
 
-    `value`: the step or tolerance where neither axis is one. `t_long` (s) is the run over which a cell has to
-    stay sane; `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`);
-    `parameters` as in `simulate`; `quick` takes a few pairs. After Ctrl-C what was judged until then, the rest
-    Status.MISSING. Raises BadValueError where nothing is integrated or axes do not fit, MemoryError for too many cells.
+    `value`: the step or tolerance if neither axis is one. `t_long` (s) is the run over which a cell must remain valid;
+    `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`). `parameters` as in
+    `simulate`; `quick` judges a few pairs. After Ctrl-C the cells so far are returned, the others as Status.MISSING.
+    Raises BadValueError for a scene that is not integrated or axes that do not fit, MemoryError for too many cells.
     """
-    _check(simulation)
+    _check_dynamic(simulation)
     axes, method = listed(axes, "axes", Axis, "a list of Axis"), text(method, "method")
     limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
     t_long, t_short = optional_positive(t_long, "t_long"), optional_positive(t_short, "t_short")
@@ -120,12 +121,12 @@ def verdict_map(
     rows, columns = arrange(simulation, axes, method, given, quick)
     usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
     check_room(len(rows.values) * len(columns.values))
-    jobs = _jobs(simulation, rows, columns, usual, given)
+    jobs = _make_jobs(simulation, rows, columns, usual, given)
     least = min(setting.value for job in jobs for setting in job.settings) if usual.fixed else math.inf
     t_long = t_long or min(plain_end(simulation.compiled, given), LONG * least) / (10 if quick else 1)
     longest = t_short or SHORT * least / FINER / (10 if quick else 1)
     with Pool[_Job, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
-        found = pool.map(lambda job, tick: _judge(simulation, job, t_long, longest, limits, tick), jobs)
+        found = pool.map(lambda job, tick: _judge_job(simulation, job, t_long, longest, limits, tick), jobs)
     missing = ([not_judged(job.parameters, setting) for setting in job.settings] for job in jobs)
     cells = tuple(cell for own, none in zip(found, missing, strict=True) for cell in own or none)
     return VerdictMap(simulation.source.scene, usual, rows, columns, cells, t_long, full)
@@ -134,7 +135,7 @@ def verdict_map(
 def arrange(
     simulation: Simulation, axes: Sequence[Axis], method: str, parameters: Parameters, quick: bool = False
 ) -> tuple[Axis, Axis]:
-    """(rows, columns): the method's own axis is the rows; what is not given is as usual."""
+    """Return rows and columns of the map: the method's own axis is the rows; missing axes have defaults."""
     own, others = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
     wanted = "step" if method in FIXED else "rtol"
     if len(axes) > 2 or len(own) > 1 or len({a.name for a in axes}) < len(axes):
@@ -164,11 +165,12 @@ def verdict_box(
     quick: bool = False,
     progress: Report | None = None,
 ) -> VerdictBox:
-    """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups.
+    """Judge all corners of the box and `count` Sobol points.
 
-    `quick`: over a tenth of the time. Rest as for a map.
+    `addresses`: axes for names that are groups; `quick`: over a tenth of the time. Other arguments are as in
+    `verdict_map`.
     """
-    _check(simulation)
+    _check_dynamic(simulation)
     ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
     limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
     t_long, parameters = optional_positive(t_long, "t_long"), mapping(parameters, "parameters")
@@ -181,10 +183,12 @@ def verdict_box(
     simulation = simulation.full if full else simulation
 
     def moved(point: Mapping[str, float]) -> dict[str, float | str]:
+        """Return the parameters of `simulate` at a point."""
         own = (known[name].parameters(x) if name in known else {name: x} for name, x in point.items())
         return dict(parameters) | {address: x for part in own for address, x in part.items()}
 
     def one(point: Mapping[str, float], tick: Report) -> Cell:
+        """Judge one point."""
         return judge_point(simulation, moved(point), t_long, setting, limits, LIMIT, tick)
 
     check_room(2.0 ** len(ranges) + count)
@@ -198,9 +202,9 @@ def verdict_box(
 
 
 def needs_full(axes: Sequence[Axis], method: str) -> bool:
-    """Whether an axis moves Baumgarte's gains, which pull back what drifts in the full formulation with rk4.
+    """Return whether an axis sets Baumgarte's gains, which act in the full formulation with rk4 only.
 
-    Everybody else projects onto the constraints: BadValueError, for no gain would change anything.
+    Raises BadValueError for gains with another method, since those project onto the constraints.
     """
     moved = next((a.name for a in axes if any(address in GAINS for address, _ in a.ratios)), "")
     if moved and method != "rk4":
@@ -208,26 +212,30 @@ def needs_full(axes: Sequence[Axis], method: str) -> bool:
     return bool(moved)
 
 
-def _done(cells: Sequence[Cell]) -> tuple[int, int]:
+def _count_judged(cells: Sequence[Cell]) -> tuple[int, int]:
+    """Return the number of judged cells, and of all cells."""
     return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
 
 
 def default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
-    """1, 2, 5 · 10^k from the shortest step of a plain run of any of the scenes."""
+    """Return steps 1, 2, 5 · 10^k from the shortest step of a plain run of any of the scenes."""
     usual = min(natural_step(simulation) for simulation in simulations)
     steps = round_numbers(usual, COARSEST * usual)
     return steps[3::2] if quick else steps
 
 
 def default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
-    """1, 2, 5 · 10^k m around the file's clearance, and that itself."""
+    """Return clearances 1, 2, 5 · 10^k m around the clearance c of the file, and c itself."""
     if quick:
         return (c,)
     return tuple(sorted({*round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
 
 
 def _usual_clearances(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
-    """Those that the file's conditions allow (a clearance stays below its bearing's radius)."""
+    """Return the default axis of clearances, without those that violate conditions of the file.
+
+    A clearance must stay below its bearing's radius.
+    """
     if not simulation.source.clearances:
         return clearances(simulation, ())
     p = prepare(simulation.compiled, parameters)[0]
@@ -245,21 +253,24 @@ def _usual_clearances(simulation: Simulation, parameters: Parameters, quick: boo
 
 @dataclass(frozen=True)
 class _Job:
-    """One set of parameters with all settings that are asked of it."""
+    """One set of parameters with all settings to judge."""
 
     parameters: dict[str, float | str]
     settings: tuple[Setting, ...]
 
 
-def _check(simulation: Simulation) -> None:
+def _check_dynamic(simulation: Simulation) -> None:
+    """Raise BadValueError for a scene without degrees of freedom."""
     if simulation.source.degrees_of_freedom == 0:
         raise BadValueError(f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose")
 
 
-def _jobs(
+def _make_jobs(
     simulation: Simulation, rows: Axis, columns: Axis, usual: Setting, given: dict[str, float | str]
 ) -> list[_Job]:
-    """Column by column; the cells of all jobs in order are the map's. Raises BadValueError for a value."""
+    """Return the jobs column by column; their cells in order are those of the map. Raises BadValueError for a bad
+    value.
+    """
     found = []
     for x in columns.values:
         if rows.of_method:
@@ -275,19 +286,19 @@ def _jobs(
     return found
 
 
-def _judge(
+def _judge_job(
     simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
 ) -> list[Cell]:
-    """A tolerance is judged like a point of a box."""
+    """Return the cells of a job; a tolerance is judged like a point of a box."""
     if job.settings[0].fixed:
-        return _steps(simulation, job, t_long, longest, limits, tick)
+        return _judge_steps(simulation, job, t_long, longest, limits, tick)
     return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, tick)]
 
 
-def _steps(
+def _judge_steps(
     simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
 ) -> list[Cell]:
-    """All steps: long runs, and short ones over the first contacts."""
+    """Return the cells of a job with fixed steps, from long runs and short ones over the first contacts."""
     steps = [setting.finer(1) for setting in job.settings]
     usual = min(natural_step(simulation), *(setting.value for setting in steps))
     short = window(simulation, longest, Setting("rk4", usual), job.parameters)
@@ -298,7 +309,7 @@ def _steps(
     found: dict[tuple[Work, Setting], Attempt] = {}
     for work, step in pieces:
         share = work.t_end / step.value / cost
-        found[work, step] = work.run(step, _part(tick, done, share))
+        found[work, step] = work.run(step, _partial_progress(tick, done, share))
         done += share
     cells = []
     for step in steps:
@@ -311,6 +322,6 @@ def _steps(
     return cells
 
 
-def _part(tick: Report, done: float, share: float) -> Report:
-    """A run's progress as a part of its column's."""
+def _partial_progress(tick: Report, done: float, share: float) -> Report:
+    """Return a progress function for a run that is a fraction `share` of its job, after `done`."""
     return lambda fraction, text: tick(done + share * fraction, text)

@@ -1,6 +1,6 @@
-"""Which methods `gudgeon bench` measures in a scene, and why others are left out.
+"""Select the methods that `gudgeon bench` measures in a scene, with reasons for those left out.
 
-`gudgeon bench` also measures the time of one right-hand side, beside the number of operations in it.
+It also measures the time of one right-hand side, and counts its operations.
 """
 
 from __future__ import annotations
@@ -29,14 +29,15 @@ BATCH, REPEATS = 20_000, 9
 
 
 def adaptive(simulation: Simulation) -> bool:
-    """Whether a method that chooses its step fits a scene."""
+    """Return whether any method with step-size control fits a scene."""
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
 def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
-    """Methods that fit a scene, of those wanted (names, or patterns such as "scipy:*"), and why others are left out.
+    """Return the methods that fit a scene, of `wanted` (names, or patterns such as "scipy:*"), and reasons for those
+    left out.
 
-    By default all; with `quick` without the cross-checks, which take long. BadValueError for a name that is none.
+    The default is all; with `quick` all but the cross-checks, which are slow. Raises BadValueError for an unknown name.
     """
     own = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
     every = (*own, *python_driver.NAMES)
@@ -69,7 +70,7 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
 
 @dataclass(frozen=True)
 class RhsTime:
-    """One call of ẏ = f(t, y), at one state."""
+    """Time of one call of ẏ = f(t, y), at one state."""
 
     state: str  # "start", or which joint is in contact
     seconds: float  # the least over several batches
@@ -80,21 +81,25 @@ class RhsTime:
 
 
 def time_rhs(simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS) -> list[RhsTime]:
-    """At the start and, where a joint with play touches within `longest` (s), at the first peak of its force."""
+    """Return the times of a right-hand side at the start and, if a joint touches within `longest` (s), at its first
+    peak force.
+    """
     start = simulation.start()
     free = simulation.compiled.memory_array(None)
-    found = [_time(simulation, "start", 0.0, start.q, start.v, free, batch, repeats)]
-    if (run := _touching(simulation, longest)) is not None:
+    found = [_time_state(simulation, "start", 0.0, start.q, start.v, free, batch, repeats)]
+    if (run := _run_to_contact(simulation, longest)) is not None:
         closed = [j.name for j, code in zip(simulation.source.clearances, run.state[-1], strict=True) if code]
         state = f"{', '.join(closed)} in contact"
         found.append(
-            _time(simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed)
+            _time_state(
+                simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed
+            )
         )
     return found
 
 
 def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
-    """Of the equations of motion, every film, and the dry forces of the joints that are closed."""
+    """Count the operations of the equations of motion, of every film, and of the dry forces of the closed joints."""
     total = 0
     for kernel, count in simulation.source.operations.items():
         names = [j.name for j in simulation.source.clearances if kernel.endswith(f"_{j.name}_force")]
@@ -103,8 +108,8 @@ def operations(simulation: Simulation, closed: list[str] | None = None) -> int:
     return total
 
 
-def _touching(simulation: Simulation, longest: float) -> Result | None:
-    """A run that ends at the first contact's peak force, with the contact closed."""
+def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
+    """Return a run that ends at the peak force of the first contact; None if there is none."""
     if not simulation.source.clearances:
         return None
     step = natural_step(simulation)
@@ -119,7 +124,7 @@ def _touching(simulation: Simulation, longest: float) -> Result | None:
     return run if run.state[-1].any() else None
 
 
-def _time(
+def _time_state(
     simulation: Simulation,
     state: str,
     t: float,
@@ -130,6 +135,7 @@ def _time(
     repeats: int,
     closed: list[str] | None = None,
 ) -> RhsTime:
+    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls."""
     model = simulation.compiled
     y, latched = np.concatenate([q, v, np.zeros(N_WORK)]), model.memory_array(memory)
     arguments = (batch, t, model.pointer(y), model.pointer(latched), model.pointer(simulation.p))

@@ -1,4 +1,6 @@
-"""What is run again and again, with which method and step or tolerance, and how two runs are compared."""
+"""Own the repeated runs of bench and map: their method with step or tolerance, their window, and the difference of two
+runs.
+"""
 
 from __future__ import annotations
 
@@ -27,12 +29,12 @@ ONSETS = 4  # contacts that a window holds: after more of them dry motion is cha
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
 FIXED = ("rk4", "kinematic")  # methods that are given a step
-REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated so often, or until it took so many seconds
+REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated up to REPEATS times, or until ENOUGH seconds
 
 
 @dataclass(frozen=True)
 class Error:
-    """Largest difference of two runs over their common samples; NaN: the scene has no such thing."""
+    """Largest differences of two runs over their common samples; NaN: the scene has no such quantity."""
 
     motion: float = NAN  # of a coordinate: lengths by the mechanism's size, angles by 1 rad
     path: float = NAN  # of a journal's centre, by the clearance
@@ -40,17 +42,17 @@ class Error:
 
     @property
     def largest(self) -> float:
-        """Of the three, those that there are."""
+        """The largest of the three measures that are known."""
         return max((x for x in (self.motion, self.path, self.force) if not math.isnan(x)), default=NAN)
 
     def beyond(self, motion: float, path: float, force: float) -> bool:
-        """Whether any of them is larger than that."""
+        """Return whether any measure exceeds its limit."""
         return self.motion > motion or self.path > path or self.force > force
 
 
 @dataclass(frozen=True)
 class Setting:
-    """A method with what it is asked for: a step (s) of rk4 and kinematic, else the tolerance of a step."""
+    """A method with its step (s) for rk4 and kinematic, else with its tolerance."""
 
     method: str
     value: float  # the step (s) or the tolerance
@@ -61,17 +63,20 @@ class Setting:
         return self.method in FIXED
 
     def finer(self, factor: float) -> Setting:
-        """The same method, its step or tolerance divided; as few digits, so that it is found again."""
+        """Return the same method with step or tolerance divided by `factor`, rounded so that equal settings compare
+        equal.
+        """
         least = 0.0 if self.fixed else SMALLEST
         return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
 
     def __str__(self) -> str:
+        """Return step with unit, or tolerance, as text."""
         return seconds(self.value) if self.fixed else f"{self.value:.0e}".replace("e-0", "e-")
 
 
 @dataclass(frozen=True)
 class Attempt:
-    """One run: its result, as far as it came, and what stopped it ("" if nothing did)."""
+    """One run: its result up to where it came, and the reason why it ended early ("" if it did not)."""
 
     setting: Setting
     run: Result | None
@@ -84,7 +89,7 @@ class Attempt:
 
 @dataclass(frozen=True, eq=False)
 class Work:
-    """A scene with numbers and a window in time. A run with step h is sampled every max(h, spacing)."""
+    """A scene with parameters and a window in time. A run with step h is sampled every max(h, spacing)."""
 
     simulation: Simulation
     t_end: float
@@ -95,17 +100,17 @@ class Work:
 
     @property
     def spacing(self) -> float:
-        """A power of ten, so that steps 1, 2, 5 · 10^k fit into it, or are multiples of it."""
+        """Interval of samples, s: a power of ten, so that steps 1, 2, 5 · 10^k divide it or are multiples of it."""
         return 10.0 ** math.floor(math.log10(self.t_end / SAMPLES) + 1e-9)
 
     def run(self, setting: Setting, progress: Progress | None = None) -> Attempt:
-        """Sampled for comparison."""
+        """Run a setting with samples at multiples of the spacing, for comparison."""
         stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.fixed else 1
         count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
         return self.sampled(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
 
     def seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
-        """Wall time of the integration (s), the least of several runs that store as little as possible."""
+        """Return the wall time of the integration (s), the minimum of several runs that store as little as possible."""
         best, spent = math.inf, 0.0
         for _ in range(REPEATS):
             attempt = self.sampled(setting, np.linspace(0.0, self.t_end, output + 1), progress)
@@ -118,12 +123,12 @@ class Work:
         return best
 
     def sampled(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
-        """Sampled at these times (s)."""
+        """Run a setting with samples at these times (s)."""
         return attempt(self.simulation, times, setting, self.parameters, progress, self.limit)
 
 
 class _TooSlowError(Exception):
-    """A run took more processor time than it may."""
+    """A run exceeded its limit of processor time."""
 
 
 def attempt(
@@ -134,14 +139,15 @@ def attempt(
     progress: Progress | None = None,
     limit: float = math.inf,
 ) -> Attempt:
-    """A run that may fail, or be stopped after `limit` seconds of processor time.
+    """Run a scene and return the outcome; it may fail, or be stopped after `limit` seconds of processor time.
 
-    Ctrl-C is passed on, unlike in `simulate`: half a comparison is none.
+    Raises KeyboardInterrupt after Ctrl-C, unlike `simulate`, since half a comparison is of no use.
     """
     before = time.thread_time()
     reached = 0.0
 
     def watch(fraction: float, text: str) -> None:
+        """Report progress and stop the run after the limit of processor time."""
         nonlocal reached
         reached = fraction
         if time.thread_time() - before > limit:
@@ -175,24 +181,24 @@ def attempt(
 
 
 def round_numbers(low: float, high: float) -> tuple[float, ...]:
-    """1, 2, 5 · 10^k from low to high, both included, ascending."""
+    """Return the numbers 1, 2, 5 · 10^k from low to high, both included, ascending."""
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
     every = (float(f"{mantissa}e{k}") for k in range(first, last + 1) for mantissa in (1, 2, 5))
     return tuple(x for x in every if low * (1 - 1e-9) <= x <= high * (1 + 1e-9))
 
 
 def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
-    """The step (s) that a plain run would take: the scene's, or the default."""
+    """Return the step (s) of a plain run: the scene's, or the default."""
     p = prepare(simulation.compiled, parameters)[0]
     return scene_step(simulation.compiled, p, scene_end(simulation.source, p))
 
 
 def window(simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None) -> Work:
-    """The work over the first few contacts, or over `longest` (s) where there are not so many.
+    """Return the work over the first few contacts, or over `longest` (s) if there are not so many.
 
-    Two runs of a scene with dry contacts differ by any amount once an error has gone through many
-    contacts, however small the step: errors mean something only over the first few. The window ends
-    half-way between the fourth onset and the next.
+    Two runs of a scene with dry contacts differ by any amount once an error has passed through many contacts, however
+    small the step: errors are meaningful only over the first few. The window ends half-way between the fourth onset and
+    the next.
     """
     parameters = dict(parameters or {})
     longest = min(longest, plain_end(simulation.compiled, parameters))
@@ -209,11 +215,14 @@ def window(simulation: Simulation, longest: float, setting: Setting, parameters:
 
 
 def difference(run: Result, reference: Result) -> Error:
-    """`reference` is sampled as often as `run`, or a whole number of times as often."""
+    """Return the largest differences of two runs.
+
+    `reference` is sampled as often as `run`, or a whole number of times as often.
+    """
     if len(run.t) < 2 or len(reference.t) < 2:
         return Error()
     motion, path, force = apart(run, reference)
-    highest = _peak(reference)
+    highest = _peak_force(reference)
     largest = float(force.max()) if highest > 0 else NAN
     if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: peaks between samples too
         for a, b in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
@@ -222,35 +231,38 @@ def difference(run: Result, reference: Result) -> Error:
 
 
 def apart(run: Result, reference: Result) -> tuple[Array, Array, Array]:
-    """What `Error` has, of the worst coordinate and joint, at every common sample; zero where there is none."""
+    """Return the three measures of `Error` at every common sample, (N,) each, for the worst coordinate and joint; zero
+    where there is none.
+    """
     stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
     count = min(len(run.t), (len(reference.t) - 1) // stride + 1)
     ours, theirs = slice(0, count), slice(0, (count - 1) * stride + 1, stride)
-    source, highest = run.source, _peak(reference)
+    source, highest = run.source, _peak_force(reference)
     scale = np.array([1.0 if name.endswith(".theta") else size(reference) for name in source.coordinates])
     motion: Array = np.abs((run.q[ours] - reference.q[theirs]) / scale).max(axis=1)
     path, force = np.zeros(count), np.zeros(count)
     for joint in source.clearances or source.joints:
-        force = np.maximum(force, _distance(run, reference, f"{joint.name}.F", ours, theirs))
+        force = np.maximum(force, _vector_difference(run, reference, f"{joint.name}.F", ours, theirs))
     for clearance in source.clearances:
-        gap = _distance(run, reference, f"{clearance.name}.e", ours, theirs)
+        gap = _vector_difference(run, reference, f"{clearance.name}.e", ours, theirs)
         path = np.maximum(path, gap / float(reference.p[clearance.clearance]))
     return motion, path, force / highest if highest > 0 else np.zeros(count)
 
 
-def _distance(run: Result, reference: Result, name: str, ours: slice, theirs: slice) -> Array:
+def _vector_difference(run: Result, reference: Result, name: str, ours: slice, theirs: slice) -> Array:
+    """Return the distance of a joint's vector series in two runs, (N,)."""
     return np.hypot(*(run[f"{name}{axis}"][ours] - reference[f"{name}{axis}"][theirs] for axis in "xy"))
 
 
-def _peak(run: Result) -> float:
-    """The largest force of a joint, samples and steps."""
+def _peak_force(run: Result) -> float:
+    """Return the largest force of any joint, over samples and steps, N."""
     joints = run.source.clearances or run.source.joints
     samples = max((float(np.abs(run[f"{joint.name}.F"]).max()) for joint in joints), default=0.0)
     return max([samples, *(peak.F for peak in run.diagnostics.peaks)])
 
 
 def size(run: Result) -> float:
-    """The mechanism's size, m: what lengths and residuals are compared with."""
+    """Return the mechanism's size, m, by which lengths and residuals are divided."""
     if run.compiled is None:
         raise GudgeonError("a result that was read from a file cannot be compared: run the scene again")
     return mechanism_size(run.compiled, run.p)

@@ -1,4 +1,4 @@
-"""When a run counts as stable, inaccurate, diverged or outside the model; every verdict with its reason."""
+"""Decide whether a run is stable, inaccurate, diverged or outside the model; every verdict has a reason."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from gudgeon.results.results import Result
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, difference, size
 from gudgeon.studies.show.tables import rough_share, seconds, share
 
-OF_A_CELL = 2048  # bytes, about: its numbers, what it says, the job that it was
+OF_A_CELL = 2048  # bytes of a cell, about: values, texts and its job
 Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and with a finer one
 
 
 class Status(StrEnum):
-    """From good to bad; a cell takes the worst that applies. The last stands where Ctrl-C came first."""
+    """Verdict on a run, from good to bad; a cell has the worst that applies. MISSING: interrupted by Ctrl-C."""
 
     STABLE = "stable"
     OUTSIDE = "outside the model"
@@ -37,7 +37,7 @@ SEVERITY = (Status.DIVERGED, Status.INACCURATE, Status.OUTSIDE, Status.STABLE, S
 
 @dataclass(frozen=True)
 class Limits:
-    """Of a run that counts as stable. Each is a share, but for `closed`."""
+    """Limits of a stable run. All but `closed` are fractions."""
 
     phi: float = 1e-6  # max |Φ| over the mechanism's size
     closed: float = math.inf  # m, max |Φ| itself
@@ -57,13 +57,13 @@ STRICT = Limits(closed=1e-10, energy=1e-4, motion=1e-6, path=1e-3, force=1e-2)
 
 
 def limits_of(setting: Setting) -> Limits:
-    """A fixed step is judged by what a fixed step can do, a tolerance by what it promises."""
+    """Return the limits for a setting: those of fixed steps, or the stricter ones of a tolerance."""
     return Limits() if setting.fixed else STRICT
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One run: a method with its step or tolerance, and the parameters that are not the file's."""
+    """Verdict on one run: a method with its step or tolerance, and the parameters that differ from the file."""
 
     setting: Setting
     parameters: Parameters  # what to give to `simulate` to see the same
@@ -78,22 +78,25 @@ class Cell:
 
     @property
     def failed(self) -> bool:
-        """Whether the method is to blame."""
+        """Whether the method caused the verdict."""
         return self.status in (Status.INACCURATE, Status.DIVERGED)
 
 
 def check_room(cells: float) -> None:
-    """MemoryError where so many cells are more than there is memory for."""
+    """Raise MemoryError if so many cells do not fit into memory."""
     check_memory(OF_A_CELL * cells, f"{cells:.0f} cells")
 
 
 def not_judged(parameters: Parameters, setting: Setting) -> Cell:
-    """The cell of a run that Ctrl-C cut short or left out."""
+    """Return the cell of a run that Ctrl-C cut short or left out."""
     return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
 def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
-    """`long`: the run over the long window. `pairs`: a run with the same setting, and one with a finer."""
+    """Return the verdict on a setting.
+
+    `long`: the run over the long window. `pairs`: over short windows, a run with the same setting and one with a finer.
+    """
     limits = limits or limits_of(long.setting)
     both = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
     error = worst([difference(a, b) for a, b in both])
@@ -107,27 +110,27 @@ def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: 
     diagnostics = long.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)
     deepest = max((d for d, _ in _penetrations(long.run)), default=NAN)
-    for status, reason, label in _verdicts(long.run, energy, error, pairs, limits):
+    for status, reason, label in _find_faults(long.run, energy, error, pairs, limits):
         return cell(status, reason, label, error, energy, deepest)
     return cell(Status.STABLE, "", rough_share(error.largest), error, energy, deepest)
 
 
-def _verdicts(
+def _find_faults(
     run: Result, energy: float, error: Error, pairs: Sequence[Pair], limits: Limits
 ) -> Iterator[tuple[Status, str, str]]:
-    """What is wrong, the worst first."""
+    """Yield status, reason and label of each fault, the worst first."""
     for depth, radius in _penetrations(run):
         if depth > limits.through * radius:
             yield Status.DIVERGED, f"a journal flew through its bearing: δ = {quantity(depth, 'm')}", "through"
     if not math.isfinite(energy) or energy > limits.lost:
         yield Status.DIVERGED, f"energy from nowhere: residual {share(energy)} of the energy turned over", "energy"
-    if _lost_contact(run):
+    if _has_lost_contact(run):
         yield Status.DIVERGED, "lost contact: the surfaces overlap while the joint counts as free", "lost"
     for coarse, _ in pairs:
         if coarse.failure:
             yield Status.DIVERGED, coarse.failure, f"at {seconds(coarse.failed_at)}"
-    if outside := _outside(run, limits):
-        if any(_deeper(coarse, fine, limits) for coarse, fine in pairs):
+    if outside := _model_violation(run, limits):
+        if any(_is_outside_by_step(coarse, fine, limits) for coarse, fine in pairs):
             yield Status.INACCURATE, f"too deep for the method's sake: {outside}, not so in the finer run", "δ"
         yield Status.OUTSIDE, f"the contact law does not hold: {outside}", "δ"
     phi = run.diagnostics.phi_max
@@ -152,14 +155,14 @@ def _verdicts(
 
 
 def worst(errors: Sequence[Error]) -> Error:
-    """The largest of each measure; NaN where there is none."""
+    """Return the largest of each measure of the errors; NaN for a measure that none has."""
     measures = ("motion", "path", "force")
     found = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)
     return Error(*(max(values, default=NAN) for values in found))
 
 
 def _penetrations(run: Result) -> list[tuple[float, float]]:
-    """Largest δ (m, negative: never in contact) and bearing radius of every joint with play."""
+    """Return the largest δ (m; negative: never in contact) and the bearing radius of every joint with play."""
     found = []
     for joint, peak in zip(run.source.clearances, run.diagnostics.peaks, strict=True):
         radius = float(run.p[joint.constants["R_i"]]) if "R_i" in joint.constants else math.inf
@@ -167,7 +170,8 @@ def _penetrations(run: Result) -> list[tuple[float, float]]:
     return found
 
 
-def _outside(run: Result, limits: Limits) -> str:
+def _model_violation(run: Result, limits: Limits) -> str:
+    """Return why the contact law does not hold in a run; "" if it does."""
     for joint, (depth, radius) in zip(run.source.clearances, _penetrations(run), strict=True):
         c = float(run.p[joint.clearance])
         if depth > limits.half * c:
@@ -177,15 +181,18 @@ def _outside(run: Result, limits: Limits) -> str:
     return ""
 
 
-def _deeper(coarse: Attempt, fine: Attempt, limits: Limits) -> bool:
-    """Whether only the coarse one of a pair leaves the model; of a fixed step nothing else is believed."""
-    if coarse.run is None or fine.run is None or _outside(fine.run, limits):
+def _is_outside_by_step(coarse: Attempt, fine: Attempt, limits: Limits) -> bool:
+    """Return whether only the coarse run of a pair leaves the model.
+
+    A fixed step that leaves it is always attributed to the method.
+    """
+    if coarse.run is None or fine.run is None or _model_violation(fine.run, limits):
         return False
-    return coarse.setting.fixed or bool(_outside(coarse.run, limits))
+    return coarse.setting.fixed or bool(_model_violation(coarse.run, limits))
 
 
-def _lost_contact(run: Result) -> bool:
-    """Whether any sample overlaps by more than rounding while no contact is latched."""
+def _has_lost_contact(run: Result) -> bool:
+    """Return whether any sample overlaps by more than rounding while the joint counts as free."""
     for i, joint in enumerate(run.source.clearances):
         c = float(run.p[joint.clearance])
         if bool(np.any((run[f"{joint.name}.delta"] > c * 1e-9) & (run.state[:, i] == 0))):

@@ -1,4 +1,4 @@
-"""A run as a moving picture: a GIF, a film, or a page of HTML (drawing/page.py)."""
+"""Write a run as an animation: a GIF, a film, or an HTML page that plays (drawing/page.py)."""
 
 from __future__ import annotations
 
@@ -40,31 +40,33 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".gif", ".mp4", ".html")
 COLOURS, STRIPE = 128, 6  # of a GIF; pixels, by which a colour of the drawing counts for its palette
-NAMED = 60  # characters of a title, beside which the time fits
+NAMED = 60  # characters of a title, next to which the time fits
 RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
 RED = "red journal or corner: in contact now; red bearing or wall: touched since the picture before"
-SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: shorter and longer runs are shown within the last
+SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: runs shorter than SLOW or longer than QUICK play in SHOWN seconds
 
 
 @dataclass(frozen=True)
 class Animation:
-    """A page that plays; a notebook shows it where it ends a cell."""
+    """An HTML page that plays the run; a notebook displays it at the end of a cell."""
 
     html: str
     width: float
     height: float
 
     def __repr__(self) -> str:
+        """Return the size of the page in one line."""
         return f"<Animation: a page of {len(self.html) / 1e3:.0f} kB; a notebook shows it>"
 
     def _repr_html_(self) -> str:
+        """Return an iframe that contains the page."""
         size = f'width="{self.width + 60:.0f}" height="{self.height + 170:.0f}"'
         return f'<iframe {size} style="border: 0" srcdoc="{escape(self.html)}"></iframe>'
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is shown: times of the run (s) within so many seconds, paths of points, arrows."""
+    """Checked options of an animation: times of the run (s), duration (s), points with paths, arrows."""
 
     times: Any
     seconds: float
@@ -77,7 +79,7 @@ class Wanted:
 def wanted_of(
     run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
 ) -> Wanted:
-    """Checked. Raises BadValueError, UnknownNameError."""
+    """Return the checked options of an animation. Raises BadValueError, UnknownNameError."""
     span = float(run.t[-1] - run.t[0])
     seconds = (span if SLOW <= span <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
     rate = number_of(rate, "rate")
@@ -93,9 +95,9 @@ def wanted_of(
 
 
 def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
-    """Write x.gif, x.mp4 or x.html; an Animation of the page where that or nothing is named."""
+    """Write x.gif, x.mp4 or x.html; return an Animation for a page or if `target` is None."""
     if target is None:
-        return _page(run, wanted)
+        return _build_page(run, wanted)
     file = Path(path(target, "the file of an animation"))
     kind = file.suffix.lower()
     if kind not in SUFFIXES or os.fspath(target).endswith(os.sep):
@@ -105,12 +107,12 @@ def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
         raise GudgeonError(f"{told}\n  install it, or name a .gif or .html")
     check_target(file)
     if kind == ".html":
-        shown = _page(run, wanted)
+        shown = _build_page(run, wanted)
         write_text(file, shown.html)
         return shown
     try:
         with telling(file):  # a folder of its own, and what is written there first
-            film = _film(run, wanted, kind)
+            film = _write_film(run, wanted, kind)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
     write_bytes(file, film)
@@ -118,7 +120,7 @@ def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
 
 
 def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
-    """One for each picture, all in one box."""
+    """Yield the drawing of each picture, all in one box."""
     motion = postures_of(run, 60)
     plan = make_plan(motion)
     box, lines = room_of_all(motion, [plan]), path_lines(run, wanted.points)
@@ -143,7 +145,10 @@ def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
 
 
 def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
-    """Joints with play whose surfaces met between two times: a blow is shorter than a picture."""
+    """Return the joints with play whose surfaces met between two times.
+
+    An impact may be shorter than a picture.
+    """
     names = [joint.name for joint in run.source.clearances]
     ends = np.where(np.isnan(run.impacts["t_off"]), np.inf, run.impacts["t_off"])
     met = run.impacts["joint"][(run.impacts["t_on"] <= end) & (ends >= begin)]
@@ -152,17 +157,21 @@ def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
 
 
 def _caption(run: Result, t: float, wanted: Wanted) -> str:
+    """Return the caption of a picture: mechanism, scene, time and the ratio of speeds."""
     slow = wanted.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
     told = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
     title = textwrap.shorten(caption_of(run), NAMED, placeholder="…")
     return f"{title}, t = {t:.4f} s{told if abs(slow - 1.0) > 1e-9 else ''}"
 
 
-def _page(run: Result, wanted: Wanted) -> Animation:
-    """Names are placed by matplotlib once, then stay beside what they name until another one is there."""
+def _build_page(run: Result, wanted: Wanted) -> Animation:
+    """Return the Animation of an HTML page.
+
+    matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
+    """
     drawn = list(sketches(run, wanted))
-    picture, names = _canvas(drawn[0], _caption(run, wanted.times[0], wanted))
-    beside = _beside(picture, names)
+    picture, names = _draw_canvas(drawn[0], _caption(run, wanted.times[0], wanted))
+    beside = _name_offsets(picture, names)
     halves = {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in names.boxes.items()} if names else {}
     width = float(picture.get_size_inches()[0]) * PIXELS
     title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
@@ -170,8 +179,8 @@ def _page(run: Result, wanted: Wanted) -> Animation:
     return Animation(text, width, width * float(np.divide(*(drawn[0].high - drawn[0].low)[::-1])))
 
 
-def _canvas(sketch: Sketch, caption: str) -> tuple[Figure, Names | None]:
-    """A figure of the sketch at PIXELS to the inch, with its names."""
+def _draw_canvas(sketch: Sketch, caption: str) -> tuple[Figure, Names | None]:
+    """Return a figure of the sketch at PIXELS per inch, and its placed names."""
     width, height = size_of(sketch, 7.0)
     picture = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
     ax = picture.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
@@ -180,19 +189,22 @@ def _canvas(sketch: Sketch, caption: str) -> tuple[Figure, Names | None]:
     return picture, next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
 
 
-def _beside(picture: Figure, names: Names | None) -> dict[str, tuple[float, float]]:
+def _name_offsets(picture: Figure, names: Names | None) -> dict[str, tuple[float, float]]:
+    """Return the offsets of the placed names after the layout of a figure."""
     picture.draw_without_rendering()
     return names.beside if names is not None else {}
 
 
 class _GifWriter(PillowWriter):
-    """Pictures in few colours as they come: what is flat stays flat, and only what moves is compressed."""
+    """Writer of GIF files with one palette, so that flat areas stay flat and only moving parts need space."""
 
     _frames: list[Any]
     _palette: Any
 
     def grab_frame(self, **savefig: Any) -> None:
-        """The figure as it is now; the first one's palette holds every colour of a drawing, red that flashes too."""
+        """Add the figure as a frame. The palette of the first frame contains every colour of a drawing, also the red of
+        contacts.
+        """
         super().grab_frame(**savefig)
         picture = self._frames[-1].convert("RGB")
         if len(self._frames) == 1:
@@ -201,7 +213,7 @@ class _GifWriter(PillowWriter):
 
 
 def _with_swatches(picture: Any) -> Any:
-    """A picture of Pillow's with a stripe of each colour below it."""
+    """Return a Pillow image with a stripe of each colour of drawings below it."""
     names = [*TINTS, *EDGES, *(word for role in ROLES.values() for word in (role.edge, role.face) if word[:1] == "#")]
     width, height = picture.size
     stripes = list(dict.fromkeys(names))
@@ -212,8 +224,8 @@ def _with_swatches(picture: Any) -> Any:
     return more
 
 
-def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:
-    """By matplotlib's writers, into a folder of its own first."""
+def _write_film(run: Result, wanted: Wanted, suffix: str) -> bytes:
+    """Return the bytes of a GIF or film, written by matplotlib into a temporary folder."""
     from matplotlib.animation import FFMpegWriter
 
     rate: Any = (len(wanted.times) - 1) / wanted.seconds
@@ -222,10 +234,10 @@ def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, f"film{suffix}")
         for t, sketch in zip(wanted.times, sketches(run, wanted), strict=True):
-            picture, names = _canvas(sketch, _caption(run, float(t), wanted))
+            picture, names = _draw_canvas(sketch, _caption(run, float(t), wanted))
             if names is not None:
                 names.held = beside
-            beside = _beside(picture, names)
+            beside = _name_offsets(picture, names)
             if t == wanted.times[0]:
                 writer.setup(picture, file, PIXELS)
             writer.fig = picture

@@ -1,4 +1,4 @@
-"""The mechanism itself in figures of a run: at a time, with arrows, and paths of its points."""
+"""Draw the mechanism in figures of a run: at a time, with arrows, and with paths of its points."""
 
 from __future__ import annotations
 
@@ -31,7 +31,10 @@ MANY = 60  # names for which a panel has no room
 
 
 def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
-    """The mechanism at a time of the run, with what was asked for. Raises BadValueError, UnknownNameError."""
+    """Return the drawing of the mechanism at a time of the run, with arrows if requested.
+
+    Raises BadValueError, UnknownNameError.
+    """
     velocities, forces = flag(velocities, "velocities"), flag(forces, "forces")
     posture, motion = posture_at(run, time_of(run, t)), postures_of(run)
     plan = make_plan(motion)
@@ -40,8 +43,10 @@ def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = Fals
 
 
 def touching_at(run: Result, posture: Posture) -> frozenset[str]:
-    """Joints with play whose surfaces are in contact at a posture's time: what a sample there says, between two those
-    that overlap as they are drawn."""
+    """Return the joints with play whose surfaces are in contact at a posture's time.
+
+    The contact state decides at a sample; between two samples, the overlap in the drawing.
+    """
     if (at := np.flatnonzero(run.t == posture.t)).size:
         return frozenset(joint.name for c, joint in enumerate(run.source.clearances) if run.state[at[0], c] > 0)
     return in_contact(posture)
@@ -50,7 +55,10 @@ def touching_at(run: Result, posture: Posture) -> frozenset[str]:
 def arrows_of(
     run: Result, posture: Posture, motion: Sequence[Posture], plan: Plan, velocities: bool, forces: bool
 ) -> tuple[Plan, list[Arrows]]:
-    """What was asked for, and the plan that draws applied forces to the scale of reactions, if those are drawn."""
+    """Return the plan and the requested arrows of velocities and forces.
+
+    With forces the plan scales applied forces like reactions.
+    """
     found = [velocity_arrows(posture, motion, plan)] if velocities else []
     if not forces:
         return plan, found
@@ -59,16 +67,19 @@ def arrows_of(
 
 
 def velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
-    """Of all points; their scale is that of the whole run."""
+    """Return the velocity arrows of all points, to a scale for the whole run."""
     speeds = [float(np.hypot(*vector)) for at in (*motion, posture) for _, (_, vector) in velocities_of(at)]
     return arrows("velocity", dict(velocities_of(posture)), "m/s", plan.unit, max(speeds, default=0.0))
 
 
 def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, float]:
-    """On the second body of each joint, of one with play on the journal, from the samples beside; the longest, applied
-    forces among them, is the longest of this moment, for blows would leave nothing of the others. With the length of
-    1 N (m of the drawing). Raises UnknownNameError without masses."""
-    found = dict(_forces(run, posture))
+    """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing).
+
+    Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
+    longest arrow is the largest force of this moment, applied forces included, since a scale for the whole run would
+    shrink most forces to nothing next to impacts. Raises UnknownNameError without masses.
+    """
+    found = dict(_joint_forces(run, posture))
     applied = [posture.loads[part.name] for part in posture.parts("forces", "force")]
     sizes = [float(np.hypot(*vector)) for vector in (*(vector for _, vector in found.values()), *applied)]
     largest = max((size for size in sizes if np.isfinite(size)), default=0.0)
@@ -77,7 +88,8 @@ def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, flo
     return drawn, LONGEST * plan.unit / largest if largest > 0.0 else 0.0
 
 
-def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+def _joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+    """Yield name, point and force vector of each joint that connects points."""
     for part in posture.parts("joints"):
         own = type_of(part)
         if own.joins == "points":
@@ -87,14 +99,14 @@ def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, A
 
 
 def start_sketch(run: Result) -> Sketch:
-    """Where the run starts, without insets; of very many parts without names."""
+    """Return the drawing at the start of the run, without insets; without names if there are very many."""
     motion = postures_of(run)
     sketch = make_sketch(motion[0], make_plan(motion), inset=False)
     return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
 
 
 def start_picture(shown: Any) -> bytes:
-    """What a notebook shows of a run or of a scene, which has a `start`: PNG, with names and insets."""
+    """Return the PNG that a notebook displays for a run or a scene, with names and insets."""
     if hasattr(shown, "names"):
         sketch = sketch_at(shown, float(shown.t[0]))
     else:
@@ -106,7 +118,7 @@ def start_picture(shown: Any) -> bytes:
 
 
 def path_sketch(run: Result) -> Sketch:
-    """Where the run starts, in a box that holds all of it, without names."""
+    """Return the drawing at the start of the run without names, in a box that contains the whole motion."""
     motion = postures_of(run)
     plan = make_plan(motion)
     sketch = make_sketch(motion[0], plan, box=room_of_all(motion, [plan]), inset=False)
@@ -114,7 +126,7 @@ def path_sketch(run: Result) -> Sketch:
 
 
 def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> None:
-    """Curves of points over the run, the mechanism faintly behind them; a ring where each starts."""
+    """Draw the paths of points over the run with a ring at each start, and the mechanism in grey."""
     draw_on(ax, sketch, faint=True)
     for name, colour in zip(points, cycle(len(points)), strict=True):
         x, y = run[f"{name}.x"], run[f"{name}.y"]
@@ -124,20 +136,22 @@ def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> N
 
 
 def path_lines(run: Result, points: Sequence[str]) -> list[Line]:
-    """The same curves as parts of a drawing."""
+    """Return the paths of points over the run as lines of a drawing."""
     return [Line(f"path {name}", "path", np.column_stack([run[f"{name}.x"], run[f"{name}.y"]])) for name in points]
 
 
 def points_of(run: Result, points: Iterable[Any]) -> list[str]:
-    """Points "coupler.tracer", or bodies "S9" for their centres of mass, each once, of names and lists of names.
+    """Return the names of moving points, such as "coupler.tracer", or of bodies for their centres of mass, without
+    repetitions.
 
-    Raises BadValueError, UnknownNameError with the nearest.
+    `points` has names and lists of names. Raises BadValueError, UnknownNameError with the nearest name.
     """
     every = dict.fromkeys(name for some in points for name in names(some, "points", POINTS))
-    return [_point_of(run, name) for name in every]
+    return [_check_point(run, name) for name in every]
 
 
-def _point_of(run: Result, name: str) -> str:
+def _check_point(run: Result, name: str) -> str:
+    """Return the name if it is that of a moving point or a body. Raises UnknownNameError with the nearest name."""
     known = [point.name for point in run.source.points if point.body >= 0]
     bodies = [body.name for body in run.source.bodies]
     if name in known or name in bodies:

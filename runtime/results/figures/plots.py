@@ -1,7 +1,7 @@
-"""Several scenes in one picture, and what pictures of one run (run_plots.py) are drawn with.
+"""Own the figure of several scenes, and the components of the figures of one run (run_plots.py).
 
-matplotlib is imported with this module, hence only when somebody draws, and never through pyplot
-unless the caller uses pyplot already: no display is needed and no figure is kept alive.
+matplotlib is imported with this module, hence only for drawing, and pyplot only if the caller uses it: no display is
+needed, and no figure stays in memory.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 # Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
-ACROSS, BESIDE = 4, 6  # circles in a row; words of a legend that fits beside the title
-TITLE = 66  # characters of a line, beside which the legend fits
+ACROSS, BESIDE = 4, 6  # orbits in a row; entries of a legend that fits next to the title
+TITLE = 66  # characters of a line, next to which the legend fits
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 9.5,
@@ -59,7 +59,7 @@ STYLE = {
 
 
 def cycle(count: int) -> list[str]:
-    """Colours of curves beside each other: distinct ones, as far as there are twenty."""
+    """Return `count` colours for curves in one panel; distinct up to twenty."""
     if count <= len(COLOURS):
         return list(COLOURS[:count])
     pairs = [matplotlib.colors.to_hex(matplotlib.colormaps["tab20"](k)) for k in range(20)]
@@ -68,43 +68,47 @@ def cycle(count: int) -> list[str]:
 
 
 def peak_of(values: Any) -> float:
-    """Largest magnitude, 0 for none."""
+    """Return the largest magnitude of the values, 0 for none."""
     return float(np.nanmax(np.abs(values), initial=0.0))
 
 
 def caption_of(run: Result) -> str:
-    """Of which mechanism and scene a picture is, as `gudgeon draw` has it too."""
+    """Return mechanism and scene as a caption, as in `gudgeon draw`."""
     return f"{one_line(run.source.title or run.source.mechanism)}: {run.source.scene}"
 
 
 def reach(run: Result, joint: str) -> float:
-    """Half the side of a square, in units of c, that holds the orbit and the circle."""
+    """Return half the side of a square that contains the orbit and the clearance circle, in units of c."""
     _, x, y = joint_curves.path(run, joint)
     return 1.04 * max(1.0, peak_of(np.hypot(x, y)) / run.constants[f"{joint}.c"])
 
 
-def _trusted(run: Result) -> float | None:
-    """Time (s) to which a run can be trusted, None: to its end, or nobody asked."""
+def _horizon_within_run(run: Result) -> float | None:
+    """Return the predictability horizon (s) if it lies within the run, else None."""
     horizon = run.diagnostics.horizon
     return horizon if np.isfinite(horizon) and horizon < run.t[-1] else None
 
 
 def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
-    """Over time: a thin line where the trace can no longer be trusted, and grey beyond; nothing where it always can."""
-    if (horizon := _trusted(run)) is not None:
+    """Mark the predictability horizon on a time axis: a thin line, and grey beyond; no mark if it is beyond the end."""
+    if (horizon := _horizon_within_run(run)) is not None:
         ax.axvspan(horizon, float(run.t[-1]), color=UNTRUSTED, alpha=0.1, lw=0, zorder=0)
         ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
 
 
 def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
-    """The journal's path through its steps, e/c, and the circle e = c; dots where the surfaces are in contact."""
+    """Draw the journal's path through its steps, e/c, and the circle e = c, with dots where the surfaces are in
+    contact.
+
+    `half` is half the side of the square, in units of c.
+    """
     c = run.constants[f"{joint}.c"]
     t, x, y = joint_curves.path(run, joint)
     x, y, angle = x / c, y / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
-    ends = _trusted(run) or float(run.t[-1])
+    ends = _horizon_within_run(run) or float(run.t[-1])
     touching, known = np.hypot(x, y) >= 1.0, t <= ends
-    beyond = t >= t[known][-1]  # from the last trusted place on, so that the path has no gap
+    beyond = t >= t[known][-1]  # from the last point before the horizon on, so that the path has no gap
     ax.plot(x[known], y[known], color=colour, lw=0.7, alpha=0.8, zorder=2)
     ax.plot(x[touching & known], y[touching & known], ".", color=colour, ms=1.4, zorder=3)
     if not known.all():
@@ -117,11 +121,11 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> N
 
 
 def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result], watch: Sequence[str]) -> Figure:
-    """The picture of `gudgeon run`: what the play in the joints does, scene by scene.
+    """Return the figure of `gudgeon run`, the effect of play by scene.
 
-    Left: error of the first two watched names against the ideal scene, with their rates, and the forces
-    at the joints with play. Right: the mechanism where it starts, and journal orbits. `reference` is the ideal run at
-    the same times and parameters, one for all scenes or one a scene. Scenes without play are shown as they are.
+    Left: error of the first two watched series against the ideal scene, with their rates, and the forces at the joints
+    with play. Right: the mechanism at its start, and journal orbits. `reference` is the ideal run at the same times and
+    parameters, one for all scenes or one for each. Scenes without play are shown without comparison.
     """
     played = {scene: run for scene, run in runs.items() if run.source.clearances}
     references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
@@ -139,7 +143,7 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
             for name, *_ in panels.values()
             if name.count(".") == 1 and f"{name[:-1]}ex" in known
         ]
-        left, drawn, right = _parts(picture, len(played) if journals else 0, bool(first.source.parts))
+        left, drawn, right = _split_figure(picture, len(played) if journals else 0, bool(first.source.parts))
         rows = 3 + len(panels)
         grid = left.add_gridspec(rows, max(1, len(watch)))
         for column, name in enumerate(watch):
@@ -151,13 +155,12 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
             _draw_mechanism(drawn, first)
         if right is not None:
             _draw_orbits(right, journals, played, colours)
-        _head(picture, shown, colours, bool(played))
+        _draw_title_and_legend(picture, shown, colours, bool(played))
     return picture
 
 
-def _parts(picture: Figure, orbits: int, drawn: bool) -> tuple[Any, Any, Any]:
-    """The left part for curves over time, on the right one for the mechanism and one for orbits; None of what there is
-    nothing to show."""
+def _split_figure(picture: Figure, orbits: int, drawn: bool) -> tuple[Any, Any, Any]:
+    """Return the subfigures for curves over time, for the mechanism and for orbits; None for an empty one."""
     if not (orbits or drawn):
         return picture.subfigures(1, 1), None, None
     parts: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 and not drawn else 0.9])
@@ -169,7 +172,7 @@ def _parts(picture: Figure, orbits: int, drawn: bool) -> tuple[Any, Any, Any]:
 
 
 def _draw_mechanism(part: Any, run: Result) -> None:
-    """Where the run starts; how its joints with play fare is told by the other panels."""
+    """Draw the mechanism at the start of the run."""
     from gudgeon.drawing.picture import draw_on
     from gudgeon.results.figures.mechanism_plots import start_sketch
 
@@ -187,7 +190,7 @@ def _draw_motion(
     name: str,
     colours: Mapping[str, str],
 ) -> None:
-    """Three rows: a name, its velocity and its acceleration, as errors where there is something to compare with."""
+    """Draw three rows: a series, its velocity and its acceleration, as errors if there is a reference."""
     names = [series for series in (name, *rates(name)) if series]
     for row, series in enumerate(names):
         compared = [scene for scene in runs if scene in references and series in references[scene]]
@@ -212,7 +215,7 @@ def _draw_forces(
     references: Mapping[str, Result],
     colours: Mapping[str, str],
 ) -> None:
-    """One row a panel: forces in every scene, with their peaks (▾), and the ideal reaction over them."""
+    """Draw one row for each panel: forces in every scene, with their peaks (▾), and the ideal reaction over them."""
     for ax, (what, names) in zip(axes, panels.items(), strict=True):
         known = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
         curves = [(*joint_curves.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in known]
@@ -233,7 +236,7 @@ def _draw_forces(
 
 
 def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
-    """Only the last row of a column is labelled with the time."""
+    """Label an axis over time; only the last row of a column has the label of the time."""
     ax.set_ylabel(_folded(ax, text))
     start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
     ax.set_xlim(start, end if end > start else start + 1.0)
@@ -246,7 +249,7 @@ def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
 
 
 def _folded(ax: Axes, text: str) -> str:
-    """A label in as many lines as the height of its axes asks for: names of bodies may be long."""
+    """Return a label wrapped to the height of its axes, since names of bodies may be long."""
     spec = ax.get_subplotspec()
     share = spec.rowspan.stop - spec.rowspan.start if spec else 1
     rows = spec.get_gridspec().nrows if spec else 1
@@ -258,7 +261,7 @@ def _folded(ax: Axes, text: str) -> str:
 
 
 def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
-    """A clearance circle for each joint (down) and scene (across, in so many rows as are needed)."""
+    """Draw an orbit for each joint (down) and scene (across, in several rows if needed)."""
     scenes = list(runs)
     columns = min(len(scenes), ACROSS)
     rows = -(-len(scenes) // columns)
@@ -275,19 +278,21 @@ def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     part.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
 
 
-def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool) -> None:
-    """Title from the mechanism's file and one legend for all panels."""
+def _draw_title_and_legend(
+    picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool
+) -> None:
+    """Draw the title of the mechanism and one legend for all panels."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
     title = in_figure(run.source.title or run.source.mechanism, TITLE)
     picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
-    labels = {scene: f"{scene}{_shorter(scene, runs)}" for scene in colours}
+    labels = {scene: f"{scene}{_early_end_text(scene, runs)}" for scene in colours}
     handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=labels[s]) for s, colour in colours.items()]
     if compared:
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
-    if any(_trusted(run) is not None for run in runs.values()):
+    if any(_horizon_within_run(run) is not None for run in runs.values()):
         handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
     if len(handles) > BESIDE:  # outside, below all panels
         picture.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
@@ -295,14 +300,14 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
     picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 
-def _shorter(scene: str, runs: Mapping[str, Result]) -> str:
-    """Where a run ends before another one of the figure."""
+def _early_end_text(scene: str, runs: Mapping[str, Result]) -> str:
+    """Return a text with the end of a run that is shorter than others in the figure, else ""."""
     end, last = (float(max(run.t[-1] for run in some)) for some in ([runs[scene]], runs.values()))
     return f", to {end:.4g} s" if end < (1.0 - 1e-9) * last else ""
 
 
 def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a picture aside and move it into place; it holds neither date nor version."""
+    """Write a figure under a temporary name and move it into place; the file has neither date nor version."""
     path, drawn = Path(path), io.BytesIO()
     suffix = path.suffix.lower().removeprefix(".") or None
     try:

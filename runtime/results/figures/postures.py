@@ -1,4 +1,4 @@
-"""Positions of a run for its drawings: at a sample as it was stored, between two on the cubic through both, closed."""
+"""Compute the positions of a run for its drawings: a stored sample, or a point of the cubic between two samples."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OF_MOTION = 24  # positions that stand for a motion where a drawing makes room f
 
 
 def time_of(run: Result, t: Any) -> float:
-    """A time of the run (s), a number or '0.2 s'. Raises BadValueError."""
+    """Return a time of the run (s) from a number or a text such as '0.2 s'. Raises BadValueError."""
     if t is None:
         refuse("t", t, "a time")
     if isinstance(t, str):
@@ -37,17 +37,17 @@ def time_of(run: Result, t: Any) -> float:
 
 
 def posture_at(run: Result, t: float) -> Posture:
-    """Where everything is at t (s); loads are those of the samples beside it, linear between."""
+    """Return the posture at t (s), with loads interpolated linearly between samples."""
     k = int(np.clip(np.searchsorted(run.t, t), 1, max(len(run.t) - 1, 1)))
     near = slice(max(k - 1, 0), k + 1)
     loads = {
         name: (float(np.interp(t, run.t[near], x[near])), float(np.interp(t, run.t[near], y[near])))
-        for name, x, y in _loads(run)
+        for name, x, y in _load_series(run)
     }
     if (at := np.flatnonzero(run.t == t)).size:
         q, v = run.q[at[0]], run.v[at[0]]
     else:
-        q, v = _hermite(run, k, t)
+        q, v = _interpolate_cubic(run, k, t)
         if run.compiled is not None:  # between coarse samples the cubic takes joints apart
             for _ in range(CLOSING):
                 q, v = project(run.compiled, t, q, v, run.p)
@@ -55,16 +55,16 @@ def posture_at(run: Result, t: float) -> Posture:
 
 
 def postures_of(run: Result, count: int = OF_MOTION) -> list[Posture]:
-    """The start, and samples of the whole run."""
+    """Return up to `count` postures over the whole run, the start first."""
     places = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
-    series = [*_loads(run)]
+    series = [*_load_series(run)]
     loads = [{name: (float(x[k]), float(y[k])) for name, x, y in series} for k in places]
     at = zip(places, loads, strict=True)
     return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], own) for k, own in at]
 
 
-def _loads(run: Result) -> Iterator[tuple[str, Any, Any]]:
-    """Of forces and torques: name, and two series, of a torque the second is 0."""
+def _load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
+    """Yield the name and two series of each force and torque element: components of a force; a torque and 0."""
     for part in run.source.parts:
         if part.kind == "force":
             yield part.name, run[f"{part.name}.Fx"], run[f"{part.name}.Fy"]
@@ -72,8 +72,8 @@ def _loads(run: Result) -> Iterator[tuple[str, Any, Any]]:
             yield part.name, run[f"{part.name}.M"], np.zeros(len(run.t))
 
 
-def _hermite(run: Result, k: int, t: float) -> tuple[Any, Any]:
-    """q and q̇ of the cubic through both neighbours and their rates."""
+def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
+    """Return q and q̇ of the cubic through samples k − 1 and k and their rates, at time t."""
     h = float(run.t[k] - run.t[k - 1])
     s = (t - float(run.t[k - 1])) / h
     q_0, q_1, v_0, v_1 = run.q[k - 1], run.q[k], run.v[k - 1], run.v[k]
@@ -83,7 +83,7 @@ def _hermite(run: Result, k: int, t: float) -> tuple[Any, Any]:
 
 
 def loads_at(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
-    """Forces (N, ground axes) and torques (N·m, 0) of the file at t = 0, q and v (n,), by its expressions."""
+    """Return forces (N, ground axes) and torques (N·m, 0) of the file at t = 0, by its expressions of q and v (n,)."""
     from gudgeon.results.results import bare
 
     none = np.zeros((1, 0))
@@ -93,6 +93,7 @@ def loads_at(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tu
     slots = {slot.address: float(x) for slot, x in zip(source.slots, p, strict=False)}
 
     def number(address: str) -> float:
+        """Return the value of an address of the file at the posture, from its expression or its parameter."""
         from gudgeon.language.tree import evaluate, from_json
 
         if address not in written:

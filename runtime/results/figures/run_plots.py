@@ -1,7 +1,7 @@
-"""Figures of one run, `run.plot()`, `run.plot.orbit("A")`, and of its wear; a notebook shows them at the end of a cell.
+"""Own the figures of one run, `run.plot()`, `run.plot.orbit("A")`, and of its wear; notebooks display them.
 
-matplotlib is imported with this module, hence only when somebody draws, and never through pyplot unless the caller uses
-pyplot already: no display is needed and no figure is kept alive.
+matplotlib is imported with this module, hence only for drawing, and pyplot only if the caller uses it: no display is
+needed, and no figure stays in memory.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
     from gudgeon.results.wear import Wear
 
-LEGEND = 1.2  # inches for a legend beside a drawing
+LEGEND = 1.2  # inches for a legend next to a drawing
 SERIES = "the name of a series, or a list of such names"
 _OF_A_PAGE = ContextVar("of_a_page", default=False)
 
@@ -53,15 +53,18 @@ _OF_A_PAGE = ContextVar("of_a_page", default=False)
 class Plot:
     """Figures of one run; every method returns its Axes, `axes.figure.savefig(...)` stores them.
 
-    `run.plot()` is a figure of what moves and what it takes, `run.plot("S9.y", "A.F")` of these series: a panel for
-    each unit. Notebooks show either.
+    `run.plot()` is a figure of the main series, `run.plot("S9.y", "A.F")` of these series, with a panel for each unit.
+    Notebooks display either.
     """
 
     def __init__(self, run: Result) -> None:
+        """Store the run to plot."""
         self.run = run
 
     def __call__(self, *names: str | Sequence[str]) -> Figure:
-        """A panel for each unit, the panels wrapped; without names what a reader wants to see (default_watch)."""
+        """Plot series with a panel for each unit; without names the default series (default_watch), drives and
+        forces.
+        """
         wanted = [name for some in names for name in listed_names(some, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
@@ -72,7 +75,7 @@ class Plot:
         columns = 1 if len(panels) < 3 else 2
         rows = -(-len(panels) // columns)
         with matplotlib.rc_context(STYLE):
-            figure = _figure(6.5 * columns + 1.5, 2.6 * rows + 0.6)
+            figure = _new_figure(6.5 * columns + 1.5, 2.6 * rows + 0.6)
             for k, own in enumerate(panels.values()):
                 ax = figure.add_subplot(rows, columns, k + 1, axes_class=ShownAxes)
                 self._curves({name: forces.get(name, (run.t, run[name])) for name in own}, ax).set_title("")
@@ -80,12 +83,12 @@ class Plot:
         return figure
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
-        """Series of one unit over time."""
+        """Plot series of one unit over time."""
         every = [name for some in names for name in listed_names(some, "names", SERIES)]
         return self._curves({name: (self.run.t, self.run[name]) for name in every}, ax)
 
     def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, over: str = "t [s]") -> Axes:
-        """Times (or frequencies) and values by the name of a series; all have one unit."""
+        """Plot curves by name, each with times (or frequencies) and values; all have one unit."""
         run, names = self.run, list(curves)
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
@@ -103,14 +106,16 @@ class Plot:
         return ax
 
     def forces(self, ax: Axes | None = None) -> Axes:
-        """Magnitudes of the forces at the joints with play, with the extremes of all steps, and at samples of the sums
-        of a slider's corners; in an ideal scene at all joints."""
+        """Plot the magnitudes of the forces at the joints with play, with the extremes of all steps.
+
+        The sums of a slider's corners are at samples. An ideal scene has the forces at all joints.
+        """
         source = self.run.source
         joints = [*(joint.name for joint in source.clearances or source.joints), *source.guides]
         return self._curves({f"{joint}.F": joint_curves.force(self.run, joint) for joint in joints}, ax)
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
-        """Path of the journal's centre in its clearance circle, in units of the clearance."""
+        """Plot the path of the journal's centre in its clearance circle, in units of the clearance."""
         joints = [each.name for each in self.run.source.clearances if not each.at_wall]
         if not isinstance(joint, str) or joint not in joints:
             hint = f"its journals with play: {', '.join(joints) or 'none'}"
@@ -121,18 +126,21 @@ class Plot:
         return ax
 
     def phase(self, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
-        """One series over another, "S9.y" over itself its rate, with a ring where the run starts."""
+        """Plot one series over another, with a ring at the start; by default the rate of "S9.y" over "S9.y"."""
         y = self._rate_of(x) if y is None else y
         return self._pairs(self.run[x], self.run[y], x, y, ax, "-")
 
     def section(self, event: str, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
-        """Poincaré's section: the states at the located times of an event, one series over another, else its rate."""
+        """Plot a Poincaré section: the states at the located times of an event, one series over another, by default its
+        rate.
+        """
         y, at = self._rate_of(x) if y is None else y, self.run.at_events(event)
         if not len(at):
             raise BadValueError(f"plot.section: {event} did not happen in this run")
         return self._pairs(at[x], at[y], x, y, ax, ".", f", at {event}, {len(at)} states")
 
     def _rate_of(self, name: str) -> str:
+        """Return the series that is the rate of a series. Raises BadValueError if there is none."""
         found = next((rate for rate in rates(name) if rate in self.run), "")
         if not found:
             self.run.unit(name)  # UnknownNameError
@@ -140,6 +148,7 @@ class Plot:
         return found
 
     def _pairs(self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, more: str = "") -> Axes:
+        """Plot values `ys` of the series y over values `xs` of the series x, with units."""
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.2, 4.4) if ax is None else plain(ax)
             (of_x, x_unit), (of_y, y_unit) = (
@@ -153,11 +162,11 @@ class Plot:
         return ax
 
     def spectrum(self, *names: str | Sequence[str], window: str = "hann", ax: Axes | None = None) -> Axes:
-        """Amplitudes over frequency (Hz), one-sided, of series of one unit at even samples, each less its mean.
+        """Plot one-sided amplitudes over frequency (Hz) of series of one unit at even samples, each less its mean.
 
         window: boxcar, hann, hamming, blackman, blackmanharris or flattop, divided by its mean, so that a sine of
-        amplitude A on a line of the spectrum has A (between lines flattop is off least). BadValueError for samples
-        that are not even, or no numbers.
+        amplitude A on a line of the spectrum has A (between lines the error of flattop is smallest). Raises
+        BadValueError for uneven samples, or values that are not finite.
         """
         from gudgeon.results.series import spectrum
 
@@ -170,10 +179,11 @@ class Plot:
     def low_pass(
         self, name: str, cutoff: float, *, order: int = 2, causal: bool = True, ax: Axes | None = None
     ) -> Axes:
-        """A series as an accelerometer shows it: behind a low-pass of Butterworth, −3 dB at `cutoff` (Hz), over itself.
+        """Plot a series as an accelerometer shows it, after a Butterworth low-pass, −3 dB at `cutoff` (Hz), over the
+        series itself.
 
-        causal: as an amplifier does, with its delay; False: forwards and back, without phase. BadValueError for
-        samples that are not even, or a cutoff beyond half their rate.
+        causal: as in an amplifier, with its delay; False: forwards and backwards, without phase. Raises BadValueError
+        for uneven samples, or a cutoff above half their rate.
         """
         from gudgeon.results.series import low_pass
 
@@ -194,10 +204,11 @@ class Plot:
     def mechanism(
         self, t: float | str = 0.0, *, velocities: bool = False, forces: bool = False, ax: Axes | None = None
     ) -> Axes:
-        """The mechanism where it is at t (s, or '0.2 s'), joints with play magnified beside it.
+        """Draw the mechanism at t (s, or '0.2 s'), with insets that magnify joints with play.
 
-        `velocities`: arrows of m/s at its points, to one scale for the run; `forces`: of N at its joints, on the second
-        body. Between samples it lies on the cubic through both. BadValueError for a time outside the run.
+        `velocities`: arrows in m/s at its points, to one scale for the run; `forces`: in N at its joints, on the second
+        body. Between samples the position lies on the cubic through both. Raises BadValueError for a time outside the
+        run.
         """
         from gudgeon.drawing.picture import draw_on
         from gudgeon.results.figures.mechanism_plots import sketch_at
@@ -207,9 +218,10 @@ class Plot:
         return self._drawn(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
 
     def path(self, *points: str | Sequence[str], ax: Axes | None = None) -> Axes:
-        """Curves of points over the run ("coupler.tracer"; "S9" is its centre of mass), the mechanism faintly behind.
+        """Draw the paths of points over the run ("coupler.tracer"; "S9" is its centre of mass), with the mechanism in
+        grey.
 
-        UnknownNameError names the nearest point.
+        Raises UnknownNameError with the nearest point.
         """
         from gudgeon.results.figures.mechanism_plots import draw_path, path_sketch, points_of
 
@@ -222,6 +234,7 @@ class Plot:
     def _drawn(
         self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, beside: float = 0.0
     ) -> Axes:
+        """Draw a sketch with caption and notes on new or given axes."""
         from gudgeon.drawing.picture import PER_INCH, size_of
 
         with matplotlib.rc_context(STYLE):
@@ -235,7 +248,7 @@ class Plot:
 
 
 def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
-    """See Wear.plot."""
+    """Plot the wear depth over the angle for both surfaces. See Wear.plot."""
     with matplotlib.rc_context(STYLE):
         ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
         sides = {"bearing": wear.bearing, "journal": wear.journal}
@@ -250,9 +263,10 @@ def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
 
 
 class ShownFigure(Figure):
-    """What a notebook shows where it is the last value of a cell."""
+    """Figure that a notebook displays if it is the last value of a cell."""
 
     def _repr_png_(self) -> bytes | None:
+        """Return the figure as PNG; None if pyplot displays it."""
         if self.canvas.manager is not None:  # pyplot shows its own
             return None
         drawn_as = io.BytesIO()
@@ -261,16 +275,17 @@ class ShownFigure(Figure):
 
 
 class ShownAxes(Axes):
-    """The same of axes: their figure."""
+    """Axes whose figure a notebook displays if they are the last value of a cell."""
 
     def _repr_png_(self) -> bytes | None:
+        """Return the figure of the axes as PNG; None if another program displays it."""
         shown = getattr(self.figure, "_repr_png_", None)
         return shown() if shown is not None else None
 
 
 @contextmanager
 def of_a_page() -> Iterator[None]:
-    """Figures that are made in here are nobody's else: neither a window nor a notebook's cell shows them."""
+    """Create figures for a page within this context: neither a window nor a notebook's cell displays them."""
     token = _OF_A_PAGE.set(True)
     try:
         yield
@@ -278,8 +293,8 @@ def of_a_page() -> Iterator[None]:
         _OF_A_PAGE.reset(token)
 
 
-def _figure(width: float, height: float) -> Figure:
-    """A new figure: pyplot's, if the caller has imported it, so that plt.show() shows it."""
+def _new_figure(width: float, height: float) -> Figure:
+    """Return a new figure; pyplot's if the caller has imported it, so that plt.show() displays it."""
     if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None and not _OF_A_PAGE.get():
         made: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
         return made
@@ -287,12 +302,12 @@ def _figure(width: float, height: float) -> Figure:
 
 
 def new_axes(width: float, height: float) -> Axes:
-    """Of a figure of their own, inches."""
-    return _figure(width, height).add_subplot(axes_class=ShownAxes)
+    """Return axes on a new figure of the given size, inches."""
+    return _new_figure(width, height).add_subplot(axes_class=ShownAxes)
 
 
 def plain(ax: Any) -> Axes:
-    """Axes of matplotlib with x and y, for lengths and times: polar ones, maps and those of space are refused."""
+    """Return the argument if it is matplotlib Axes with x and y; raise BadValueError for polar, map and 3-D axes."""
     if not isinstance(ax, Axes) or ax.name != "rectilinear" or ax.figure is None:
         refuse("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")
     return ax

@@ -1,1 +1,1 @@
-"""Results as files: NetCDF written and read back, CSV, MATLAB, tables of other programs."""
+"""Results as files: NetCDF written and read, CSV, MATLAB, tables for other programs."""

@@ -1,7 +1,6 @@
-"""Results for other programs: tables of pandas, Datasets of xarray over several scenes, CSV, files of MATLAB; in SI.
+"""Export results in SI to other programs: pandas tables, xarray Datasets of several scenes, CSV, MATLAB files.
 
-A batch is a long table: the run's number, what was given to it, t and the series, a row for each sample that was
-reached.
+A batch is a long table with a row for each reached sample: number of the run, given parameters, t and the series.
 """
 
 from __future__ import annotations
@@ -32,8 +31,8 @@ if TYPE_CHECKING:
 
 Columns: TypeAlias = "dict[str, Array]"  # name -> (rows,)
 
-ROWS = 4096  # of a CSV file that are text at once
-SOME = 64  # of a run, by which it is told how long a file will be
+ROWS = 4096  # rows of a CSV file that are formatted at once
+SOME = 64  # rows of a run from which the size of the file is estimated
 DATE = 116  # bytes at the head of a MATLAB file in which SciPy puts the day
 MATLAB = b"MATLAB 5.0 MAT-file, written by gudgeon"
 LONGEST = 63  # characters of a name in MATLAB
@@ -64,7 +63,7 @@ KEYWORDS = frozenset(
 
 
 def wanted_series(run: Result, names: Iterable[str] | None) -> list[str]:
-    """These, each once, or every series for None; UnknownNameError for one that there is not."""
+    """Return the names of series without repetitions, or all for None. Raises UnknownNameError for an unknown name."""
     if names is None:
         return list(run.names)
     if isinstance(names, str):
@@ -76,35 +75,37 @@ def wanted_series(run: Result, names: Iterable[str] | None) -> list[str]:
 
 
 def dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
-    """See Result.to_dataframe."""
-    frames = _pandas()
+    """Return series of a run as a pandas table over t. See Result.to_dataframe."""
+    frames = _import_pandas()
     series = wanted_series(run, names)
     table: pandas.DataFrame = frames.DataFrame(
         {name: run[name] for name in series}, index=frames.Index(run.t, name="t"), copy=True
     )
-    table.attrs = {"units": {"t": "s"} | {name: run.unit(name) for name in series}} | _whence(run)
+    table.attrs = {"units": {"t": "s"} | {name: run.unit(name) for name in series}} | _origin_attributes(run)
     return table
 
 
 def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
-    """See Batch.to_dataframe."""
-    frames = _pandas()
-    columns_of = len(_wanted_of_batch(batch, names)) + len(batch.parameters) + 2
-    check_memory(2 * 8.0 * columns_of * _rows_of(batch), f"a table of {len(batch)} runs")
-    parts = list(_runs(batch, names))
+    """Return series of a batch as a long pandas table. See Batch.to_dataframe."""
+    frames = _import_pandas()
+    columns_of = len(_series_of_batch(batch, names)) + len(batch.parameters) + 2
+    check_memory(2 * 8.0 * columns_of * _count_rows(batch), f"a table of {len(batch)} runs")
+    parts = list(_columns_by_run(batch, names))
     columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
     units = {"t": "s"} | {name: series.unit for name, series in catalogue(batch.source).items()}
     units |= {slot.address: slot.unit for slot in batch.source.slots}
     table: pandas.DataFrame = frames.DataFrame(columns)
-    table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _whence(batch)
+    table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _origin_attributes(batch)
     return table
 
 
-def _whence(of: Result | Batch) -> dict[str, str]:
+def _origin_attributes(of: Result | Batch) -> dict[str, str]:
+    """Return mechanism, scene and title of a result as attributes of a table."""
     return {"mechanism": of.source.mechanism, "scene": of.source.scene, "title": of.source.title}
 
 
-def _pandas() -> Any:
+def _import_pandas() -> Any:
+    """Return the module pandas. Raises GudgeonError if it is not installed."""
     try:
         import pandas
     except ModuleNotFoundError as error:
@@ -112,74 +113,75 @@ def _pandas() -> Any:
     return pandas
 
 
-def _wanted_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
-    """These series but t, each once, or for None every one that there is."""
+def _series_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
+    """Return the names of series without t and without repetitions, or all for None."""
     every = batch.kept if batch.states is None else catalogue(batch.source)
     return [name for name in (every if names is None else wanted_names(batch.source, names)) if name != "t"]
 
 
-def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
-    """The columns of one run after the other; one that did not begin has no row."""
+def _columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
+    """Yield the columns of one run after the other; a run that did not begin has none."""
     columns = given_columns(batch)
-    for i, t, own in rows(batch, _wanted_of_batch(batch, names)):
+    for i, t, own in rows(batch, _series_of_batch(batch, names)):
         given = {name: values[i] for name, values in columns.items()}
         same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
         yield same | {"t": t} | {series_column(name): values for name, values in own.items()}
 
 
-def _rows_of(batch: Batch) -> float:
-    """Samples of all runs that were reached."""
+def _count_rows(batch: Batch) -> float:
+    """Return the number of samples of all runs."""
     return float(batch.samples.sum())
 
 
 def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
-    """See Result.to_csv."""
+    """Write series of a run as CSV. See Result.to_csv."""
     series = wanted_series(run, names)
     _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]), len(run.t))
 
 
 def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
-    """See Batch.to_csv."""
-    _write_csv(path, _runs(batch, names), _rows_of(batch))
+    """Write series of a batch as CSV. See Batch.to_csv."""
+    _write_csv(path, _columns_by_run(batch, names), _count_rows(batch))
 
 
 def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns], rows: float) -> None:
-    """A line of names, then one a row; the shortest digits that are read back as the same number.
+    """Write a line of names, then a line for each row, with the shortest digits that read back as the same number.
 
-    OutputError, before more is written, where so many `rows`, as long as some of the first are, do not fit on the disk.
+    Raises OutputError at once if `rows` lines of the length of some of the first do not fit on the disk.
     """
     with written(named(path, "path")) as file:
         for k, part in enumerate(parts):
             columns = list(part.values())
             if k == 0:
-                some = _lines([column[:: max(1, len(column) // SOME)] for column in columns])
+                some = _format_lines([column[:: max(1, len(column) // SOME)] for column in columns])
                 check_disk(Path(path).parent, rows * len("".join(some)) / max(1, len(some)), "it", path)
                 file.write((",".join(part) + "\n").encode())
             for first in range(0, len(columns[0]), ROWS):
-                file.write("".join(_lines([column[first : first + ROWS] for column in columns])).encode())
+                file.write("".join(_format_lines([column[first : first + ROWS] for column in columns])).encode())
 
 
-def _lines(columns: Sequence[Array]) -> list[str]:
-    digits = _cell if any(column.dtype.kind in "OU" for column in columns) else repr
+def _format_lines(columns: Sequence[Array]) -> list[str]:
+    """Return the lines of a CSV file for columns of equal length."""
+    digits = _format_cell if any(column.dtype.kind in "OU" for column in columns) else repr
     return [",".join(map(digits, row)) + "\n" for row in zip(*(column.tolist() for column in columns), strict=True)]
 
 
-def _cell(value: object) -> str:
-    """A number's digits, or the name of what was chosen, in which no comma can be."""
+def _format_cell(value: object) -> str:
+    """Return a number's digits, or the name of a choice, which contains no comma."""
     return str(in_spreadsheet(value)) if isinstance(value, str) else repr(value)
 
 
 def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
-    """See Result.to_mat."""
+    """Write series of a run as a MATLAB file. See Result.to_mat."""
     series = ["t", *wanted_series(run, names)]
     told = [(name, run.unit(name), run.meaning(name)) for name in series]
     _write_mat(path, run, told, {name: np.asarray(run[name], dtype=float) for name in series})
 
 
 def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
-    """See Batch.to_mat."""
+    """Write series of a batch as a MATLAB file. See Batch.to_mat."""
     known, slots = catalogue(batch.source), {slot.address: slot for slot in batch.source.slots}
-    wanted = _wanted_of_batch(batch, names)
+    wanted = _series_of_batch(batch, names)
     told = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in wanted)]
     given = given_columns(batch)
     pairs = zip(given, batch.parameters, strict=True)
@@ -192,7 +194,7 @@ def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] |
 def _write_mat(
     path: str | os.PathLike[str], of: Result | Batch, told: Sequence[tuple[str, str, str]], columns: Columns
 ) -> None:
-    """Columns under MATLAB's names, beside what they are: names, units and meanings."""
+    """Write columns under MATLAB's names, with their names, units and meanings (`told`) as cells."""
     from scipy.io import savemat
 
     fields = _matlab_names([name for name, *_ in told])
@@ -210,25 +212,26 @@ def _write_mat(
 
 
 def _matlab_names(names: Sequence[str]) -> dict[str, str]:
-    """A name that MATLAB takes for each, no two the same: "S9.y" → "S9_y"."""
+    """Return a valid and unique MATLAB name for each name: "S9.y" → "S9_y"."""
     found: dict[str, str] = {}
-    taken = {"variables", "names", "units", "meanings", "mechanism", "scene"}
+    used = {"variables", "names", "units", "meanings", "mechanism", "scene"}
     for name in names:
         plain = re.sub(r"\W", "_", name, flags=re.ASCII)
         plain = (f"{plain}_" if plain in KEYWORDS else plain if plain[0].isalpha() else f"x{plain}")[:LONGEST]
         choice, number = plain, 2
-        while choice in taken:
+        while choice in used:
             end = f"_{number}"
             choice, number = plain[: LONGEST - len(end)] + end, number + 1
-        taken.add(choice)
+        used.add(choice)
         found[name] = choice
     return found
 
 
 def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
-    """Series over `scene` and `time` (of batches over `run` too) of results of scenes of one mechanism.
+    """Return a Dataset of series over `scene` and `time` (and `run` for batches) from results of scenes of one
+    mechanism.
 
-    What a scene does not have is NaN, and so are times that only others have. BadValueError for two results of one
+    NaN marks series that a scene lacks and times of other scenes only. Raises BadValueError for two results of one
     scene: those are a batch.
     """
     kinds: Any = (Result, Batch)
@@ -243,7 +246,7 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
         raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint="join scenes of one")
     xarray = import_xarray()
     _check_times(found)
-    parts, along = [run.to_xarray() for run in found], _pandas().Index(scenes, name="scene")
+    parts, along = [run.to_xarray() for run in found], _import_pandas().Index(scenes, name="scene")
     attributes = {"mechanism": names[0], "title": found[0].source.title}
     joined: Any = xarray.concat(
         parts, along, data_vars="all", coords="different", compat="equals", join="outer", combine_attrs="drop_conflicts"
@@ -252,7 +255,7 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
 
 
 def _check_times(found: list[Result | Batch]) -> None:
-    """BadValueError for batches whose samples do not lie side by side: runs with times of their own."""
+    """Raise BadValueError for batches whose numbers of samples differ and whose runs have times of their own."""
     forms = {run.t.shape[1:] for run in found}
     if len(forms) > 1:
         own = next(run for run in found if run.t.ndim == 2)

@@ -1,12 +1,11 @@
-"""Tables as the bytes of an HDF5 file that any NetCDF 4 tool reads: laid out by h5py in memory, streamed to a file.
+"""Write tables as an HDF5 file that NetCDF 4 tools read: h5py lays it out in memory, then it is streamed to a file.
 
-HDF5 never has a file to write to: one that is full leaves it with handles that it cannot close, and at exit it dies
-of them. It lays out what describes the arrays (some 70 kB) and says where each is to stand; the arrays themselves go
-straight to the file. It works in a thread of its own, where no signal reaches Python: Ctrl-C in the midst of its
-calls would be lost.
+HDF5 never writes to a file itself: a full disk would leave it with handles that it cannot close and that crash it at
+exit. It lays out the metadata (about 70 kB) and the offsets of the arrays; the arrays go straight to the file. The
+layout runs in a separate thread, where no signal reaches Python, since Ctrl-C within its calls would be lost.
 
-The last line of a file is a seal, behind what HDF5 calls its end: a program that changes the file drops it, what
-merely damages the file does not.
+The last line of a file is a checksum after the end of the HDF5 data. A program that changes the file drops it; damage
+to the file does not.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ Array: TypeAlias = NDArray[Any]
 
 # what a dimension without a coordinate variable is called in the file: NetCDF's own words
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable.%10d"
-LONGEST = 60_000  # bytes of an attribute beside its object; longer ones lie in a heap
+LONGEST = 60_000  # bytes of a compact attribute; longer ones are stored in a heap
 PAGE = 4096
 SEAL = b"\ngudgeon crc32 %08x\n"
 SEAL_SIZE = len(SEAL % 0)
@@ -42,7 +41,7 @@ SEAL_SIZE = len(SEAL % 0)
 
 @dataclass(frozen=True)
 class Variable:
-    """One array; `values` (n,) numbers or, as objects, texts."""
+    """A named array of a table; `values` (n,) are numbers or, as objects, texts."""
 
     name: str
     values: Array
@@ -51,16 +50,21 @@ class Variable:
 
     @property
     def is_text(self) -> bool:
+        """Whether the values are texts."""
         return bool(self.values.dtype == object)
 
     @property
     def attributes(self) -> dict[str, str]:
+        """Unit and meaning as NetCDF attributes."""
         return {"units": self.unit or "1", "long_name": self.meaning}
 
 
 @dataclass(frozen=True)
 class Table:
-    """Variables over one dimension: the root of the file ("") or a group; the first may be its coordinate."""
+    """Variables over one dimension: the root of the file ("") or a group.
+
+    The first variable may be the coordinate of the dimension.
+    """
 
     group: str
     dimension: str
@@ -69,12 +73,12 @@ class Table:
 
     @property
     def length(self) -> int:
-        """Of the dimension; 0: it is not in the file."""
+        """Length of the dimension; a table of length 0 is not written."""
         return len(self.variables[0].values) if self.variables else 0
 
 
 def pieces(tables: Sequence[Table]) -> Iterator[Any]:
-    """The bytes of a file with these tables, piece by piece in their order, its seal last."""
+    """Yield the bytes of a file with these tables in order, and the checksum last."""
     image, places = apart(partial(_lay_out, tables))
     total = at = 0
     for offset, values in sorted(places, key=lambda place: place[0]):
@@ -88,7 +92,10 @@ def pieces(tables: Sequence[Table]) -> Iterator[Any]:
 
 
 def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
-    """A file with these tables; they are made one after the other, and Ctrl-C is taken in between."""
+    """Write a file with these tables.
+
+    They are computed one after the other, and Ctrl-C is handled in between.
+    """
     try:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
@@ -108,7 +115,7 @@ def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
 
 
 def is_damaged(path: Path) -> bool:
-    """Whether a file that has a seal is not what was sealed; a file without one may be."""
+    """Return whether the checksum of a file does not match; False for a file without a checksum."""
     with open(path, "rb") as file:
         size = file.seek(0, io.SEEK_END) - SEAL_SIZE
         if size <= 0:
@@ -125,17 +132,20 @@ def is_damaged(path: Path) -> bool:
 
 
 class _Image(io.RawIOBase):
-    """A file in memory that keeps the pages that were written, so that the arrays' places cost nothing."""
+    """A file in memory that stores only the written pages, so that the gaps for arrays need no memory."""
 
     def __init__(self) -> None:
+        """Create an empty file."""
         self._pages: dict[int, bytearray] = {}
         self._at = self.size = 0
 
     def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        """Set the position as io.RawIOBase does, and return it."""
         self._at = offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._at, io.SEEK_END: self.size}[whence]
         return self._at
 
     def write(self, data: Any) -> int:
+        """Write bytes at the position, and return their number."""
         begin, count = self._at, len(data)
         while self._at < begin + count:
             page, offset = divmod(self._at, PAGE)
@@ -146,23 +156,25 @@ class _Image(io.RawIOBase):
         return count
 
     def readinto(self, buffer: Any) -> int:
+        """Fill the buffer from the position, and return its length."""
         buffer[:] = self.between(self._at, self._at + len(buffer))
         self._at += len(buffer)
         return len(buffer)
 
     def truncate(self, size: int | None = None) -> int:
+        """Set the size of the file, by default to the position, and return it."""
         self.size = self._at if size is None else size
         return self.size
 
     def between(self, begin: int, end: int) -> bytes:
-        """Bytes [begin, end): zeros where nothing was written."""
+        """Return the bytes [begin, end), zeros where nothing was written."""
         nothing, first = bytes(PAGE), begin // PAGE
         pages = (self._pages.get(page, nothing) for page in range(first, -(-end // PAGE)))
         return b"".join(pages)[begin - first * PAGE : end - first * PAGE]
 
 
 def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:
-    """The image without the numbers, and where these go."""
+    """Return the image of the file without numeric arrays, and the offset of each array."""
     import h5py
 
     image, places = _Image(), []
@@ -180,7 +192,10 @@ def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:
 
 
 def _lay_out_table(group: Any, table: Table, number: int) -> Iterator[tuple[Any, Variable]]:
-    """Its dataset for each variable; a dimension without a coordinate has one of numbers that nobody reads."""
+    """Yield the dataset of each variable of a table.
+
+    A dimension without a coordinate variable gets a placeholder dataset, which is not read.
+    """
     from h5py import h5ds
 
     own = table.variables[0].name == table.dimension
@@ -197,7 +212,7 @@ def _lay_out_table(group: Any, table: Table, number: int) -> Iterator[tuple[Any,
 
 
 def _create(group: Any, variable: Variable) -> Any:
-    """A dataset that has its place in the file, and nothing written there; of texts the whole, for HDF5 places them."""
+    """Create a dataset: of numbers with space in the file but without data, of texts with its data."""
     import h5py
     from h5py import h5d, h5p, h5s, h5t
 
@@ -213,7 +228,7 @@ def _create(group: Any, variable: Variable) -> Any:
 
 
 def _write_text(where: Any, key: str, text: str) -> None:
-    """An attribute beside its object, as NetCDF's own texts are, if it is short enough; ten times quicker too."""
+    """Write a text attribute in compact form if it is short enough, as NetCDF does; this is ten times faster."""
     from h5py import h5a, h5s, h5t
 
     data = text.encode()

@@ -1,10 +1,10 @@
-"""Results as NetCDF 4 files, written and read back, and as xarray's Datasets.
+"""Write and read results as NetCDF 4 files, and convert them to xarray Datasets.
 
-A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
-other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` and `peaks` over all steps
-(peaks.py), for people; `compiled`, the kernel source and what was derived from the parameters, so that gudgeon reads
-all of it back bit for bit without a compiled library; `provenance` (diagnostics.py). What has no row is not there. The
-only date is that of the run, in `provenance`: a result that is saved twice gives the same bytes.
+A file contains every series under its own name over `time`, so that any NetCDF tool can read it. Groups contain tables
+with other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` and `peaks` over all steps
+(peaks.py), for readers. `compiled` has the kernel source and derived parameters, from which gudgeon restores the result
+bit for bit without a compiled library; `provenance` is described in diagnostics.py. Empty tables are left out. The only
+date is that of the run, in `provenance`: a result that is saved twice gives the same bytes.
 """
 
 from __future__ import annotations
@@ -64,24 +64,25 @@ NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*
 
 
 def tables(run: Result) -> Iterator[Table]:
-    """All that a file holds: series over `time` at its root, groups over their own dimensions."""
-    yield Table("", "time", tuple(_series(run)), attributes(run))
-    yield Table(START, "time", () if run.start_row is None else tuple(_series(run.start_row)), {})
-    yield Table(GIVEN_START, "row", tuple(_given_start(run)), {})
+    """Yield all tables of a file: series over `time` at its root, groups over their own dimensions."""
+    yield Table("", "time", tuple(_series_variables(run)), attributes(run))
+    yield Table(START, "time", () if run.start_row is None else tuple(_series_variables(run.start_row)), {})
+    yield Table(GIVEN_START, "row", tuple(_given_start_variables(run)), {})
     joints = [joint.name for joint in run.source.clearances]
     yield Table("impacts", "impact", tuple(records(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
     yield Table("events", "occurrence", tuple(records(run.events, EVENTS, events)), {})
-    yield Table(STATES, "occurrence", tuple(_states(run, events)), {})
-    yield Table("parameters", "address", tuple(_parameters(run)), {})
-    yield Table(TRACE, "t", tuple(_trace(run)), {})
-    yield Table(PEAKS, "row", tuple(_extremes(run)), {})
+    yield Table(STATES, "occurrence", tuple(_event_state_variables(run, events)), {})
+    yield Table("parameters", "address", tuple(_parameter_variables(run)), {})
+    yield Table(TRACE, "t", tuple(_envelope_variables(run)), {})
+    yield Table(PEAKS, "row", tuple(_peak_variables(run)), {})
     derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
     yield Table(PROVENANCE_GROUP, "", (), run.provenance)
 
 
-def _series(run: Result) -> Iterator[Variable]:
+def _series_variables(run: Result) -> Iterator[Variable]:
+    """Yield the time and every series of a run."""
     yield Variable("time", run.t, "s", "time")
     older = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
     for name, unit in run.names.items():
@@ -90,16 +91,16 @@ def _series(run: Result) -> Iterator[Variable]:
         yield Variable(variable(name), run[name], unit, run.meaning(name))
 
 
-def _given_start(run: Result) -> Iterator[Variable]:
-    """The state as one column; nothing where the run was given none."""
+def _given_start_variables(run: Result) -> Iterator[Variable]:
+    """Yield the given start state as one column; nothing if the run was given none."""
     if run.begun is not None:
         parts = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
         values = np.concatenate([np.asarray(part, dtype=np.float64) for part in parts])
         yield Variable("value", values, "", "time, coordinates, velocities, contact codes, memory, SI")
 
 
-def _states(run: Result, events: list[str]) -> Iterator[Variable]:
-    """Every series at the events, beside their names and times; nothing where they are not known."""
+def _event_state_variables(run: Result, events: list[str]) -> Iterator[Variable]:
+    """Yield every series at the events, with their names and times; nothing where the states are not known."""
     try:
         at = run.states_at_events if len(run.events) else None
         names = [name for name in run.names if at is not None and (at.compiled or name in at.stored)]
@@ -113,34 +114,38 @@ def _states(run: Result, events: list[str]) -> Iterator[Variable]:
 
 
 def at_event(name: str) -> str:
-    """The same beside the names and times of events."""
+    """Return the name of a series in the table of events, other than the columns of that table."""
     return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
 def records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
-    """Columns of impacts or events; the first one's numbers as the names that they stand for."""
+    """Yield the columns of impacts or events; the first column as the names for its numbers."""
     for k, (name, (unit, meaning)) in enumerate(columns.items()):
-        yield Variable(name, _texts([names[i] for i in rows[name]]) if k == 0 else rows[name], unit, meaning)
+        yield Variable(name, _as_text_array([names[i] for i in rows[name]]) if k == 0 else rows[name], unit, meaning)
 
 
-def _parameters(run: Result) -> Iterator[Variable]:
+def _parameter_variables(run: Result) -> Iterator[Variable]:
+    """Yield the columns of the table of run-time parameters."""
     slots = run.source.slots
-    yield Variable("address", _texts([slot.address for slot in slots]), "", "where the number stands in the file")
+    yield Variable(
+        "address", _as_text_array([slot.address for slot in slots]), "", "where the number stands in the file"
+    )
     yield Variable("value", run.p[: len(slots)], "", "what the run had, SI")
-    yield Variable("unit", _texts([slot.unit for slot in slots]), "", "of the value")
+    yield Variable("unit", _as_text_array([slot.unit for slot in slots]), "", "of the value")
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
     if any(slot.words for slot in slots):
         told = [str(said(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)]
-        yield Variable("name", _texts(told), "", "of what was chosen where the value is its place")
+        yield Variable("name", _as_text_array(told), "", "of what was chosen where the value is its place")
 
 
-def _texts(values: list[str]) -> Array:
+def _as_text_array(values: list[str]) -> Array:
+    """Return texts as an array of objects."""
     return np.array(values, dtype=object)
 
 
-def _trace(run: Result) -> Iterator[Variable]:
-    """Least and largest forces, places of the journals; nothing where a run has no trace."""
+def _envelope_variables(run: Result) -> Iterator[Variable]:
+    """Yield the envelope over the steps: extreme forces and positions of the journals; nothing if the run has none."""
     if run.trace is None:
         return
     yield Variable("t", run.trace.t, *TRACE_TIME)
@@ -149,15 +154,17 @@ def _trace(run: Result) -> Iterator[Variable]:
             yield Variable(f"{joint.name}.{name}", run.trace.joints[:, k, column], unit, meaning)
 
 
-def _extremes(run: Result) -> Iterator[Variable]:
-    """Peaks over all steps, for people: `diagnostics` has them to be read back."""
+def _peak_variables(run: Result) -> Iterator[Variable]:
+    """Yield the columns of peaks over all steps, for readers; `diagnostics` restores them."""
     for name, (unit, meaning) in EXTREMES.items():
         values = [getattr(one, name) for one in run.diagnostics.extremes]
-        yield Variable(name, _texts(values) if name in ("name", "against", "unit") else np.array(values), unit, meaning)
+        yield Variable(
+            name, _as_text_array(values) if name in ("name", "against", "unit") else np.array(values), unit, meaning
+        )
 
 
 def attributes(run: Result) -> dict[str, str]:
-    """Of the whole file."""
+    """Return the attributes of the whole file."""
     return {
         "gudgeon": FORMAT,
         "title": run.source.title,
@@ -168,12 +175,12 @@ def attributes(run: Result) -> dict[str, str]:
 
 
 def variable(name: str) -> str:
-    """An output may be called like what else stands at the root; no other name can, for they all have a dot."""
+    """Return the name of a series in the file: an output with the name of a group or of the time gets a prefix."""
     return f"output.{name}" if name in ("time", *PARTS, START, GIVEN_START, COMPILED, PROVENANCE_GROUP) else name
 
 
 def import_xarray() -> Any:
-    """Return xarray. Raises GudgeonError where it is not installed."""
+    """Return the module xarray. Raises GudgeonError if it is not installed."""
     try:
         import xarray
     except ModuleNotFoundError as error:
@@ -182,7 +189,7 @@ def import_xarray() -> Any:
 
 
 def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
-    """A table of the file as an xarray Dataset: the series, or one of PARTS."""
+    """Return a table of the file as an xarray Dataset: the series, or one of PARTS."""
     xarray = import_xarray()
     part = text(part, "part", "the name of a table")
     group = "" if part == SERIES else part
@@ -196,13 +203,16 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 
 
 def save(run: Result, path: str | os.PathLike[str], more: Mapping[str, str] = MappingProxyType({})) -> None:
-    """Write `run` to `path`, with more attributes. OutputError where that fails; an older file is then as it was."""
+    """Write a run to a file with additional attributes.
+
+    Raises OutputError if that fails, and leaves an older file unchanged.
+    """
     root, *others = tables(run)
-    write(iter([replace(root, attributes={**root.attributes, **_more(more, root)}), *others]), path)
+    write(iter([replace(root, attributes={**root.attributes, **_check_attributes(more, root)}), *others]), path)
 
 
-def _more(given: Any, root: Table) -> dict[str, str]:
-    """Attributes of the user's; those that a result is read back by are not written over. BadValueError."""
+def _check_attributes(given: Any, root: Table) -> dict[str, str]:
+    """Return checked attributes of the user. Raises BadValueError for names that the format itself uses."""
     found = {}
     for name, value in mapping(given, "attributes", "{name: text}").items():
         if not 0 < len(name) <= LONGEST or not name.isprintable() or name in root.attributes:
@@ -213,12 +223,12 @@ def _more(given: Any, root: Table) -> dict[str, str]:
 
 
 def read(path: str | os.PathLike[str]) -> Result:
-    """The result in a file that `save` wrote; InputError for a missing file or one that is not a whole result."""
+    """Return the result in a file that `save` wrote. Raises InputError for any other file."""
     return opened(path, lambda file, size: _read_result(File(file, size, (FORMAT, OLD_FORMAT))))
 
 
 def source_of(file: File) -> KernelSource:
-    """What a file says of its scene."""
+    """Return the checked kernel source of a file."""
     source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
     _check_names(source)
@@ -226,6 +236,7 @@ def source_of(file: File) -> KernelSource:
 
 
 def _read_result(file: File) -> Result:
+    """Return the result of an open file."""
     source = source_of(file)
     run = result_of(file, source, tuple(catalogue(source)))
     run.provenance = read_provenance(file)
@@ -233,14 +244,14 @@ def _read_result(file: File) -> Result:
 
 
 def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
-    """The result with these series."""
+    """Return the result of an open file with the named series."""
     diagnostics = Diagnostics.from_json(file.text("diagnostics"))
     check_typed(diagnostics, Diagnostics, "diagnostics")
     t = file.numbers("time")
     if not len(t):
         raise ValueError("it has no sample")
     check_times(t)
-    stored = {name: _read_series(file, name, len(t)) for name in names if _is_there(file, name)}
+    stored = {name: _read_series(file, name, len(t)) for name in names if _has_series(file, name)}
     p, given, is_given = _read_parameters(file, source)
     run = Result(
         compiled=None,
@@ -269,20 +280,20 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
 
 
 def check_times(t: Array) -> None:
-    """Raise unless times of samples are numbers that ascend."""
+    """Raise ValueError unless sample times are finite and ascend."""
     if not (np.isfinite(t).all() and (np.diff(t) > 0.0).all()):
         raise ValueError("the times of samples do not ascend")
 
 
 def _check_given(source: KernelSource, p: Array, given: Array, is_given: Array) -> None:
-    """Raise unless what a run was given is what it had."""
+    """Raise ValueError unless given values equal the values of the run."""
     for slot, x, own, is_own in zip(source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False):
         if is_own not in (0, 1) or is_own and not own == x:
             raise ValueError(f"{slot.address} is {x!r}, and was given as {own!r}")
 
 
 def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
-    """Raise unless they are of series that there are."""
+    """Return the extremes. Raises ValueError unless they belong to known series."""
     for one in extremes:
         if one.name not in names or not UNIT.fullmatch(one.unit) or one.against and not NAME.fullmatch(one.against):
             raise ValueError(f"peaks of {one.name[:64]!r} are of no series")
@@ -290,7 +301,7 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
 
 
 def _check_names(source: KernelSource) -> None:
-    """They will stand in tables, figures and paths: identifiers with dots, as the reader of mechanisms has them."""
+    """Raise ValueError unless names are identifiers with dots, since they occur in tables, figures and paths."""
     named: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
     named += source.points
     words = [word for slot in source.slots for word in slot.words]
@@ -303,12 +314,13 @@ def _check_names(source: KernelSource) -> None:
         raise ValueError(f"{wrong[0][:64]!r} is no unit")
 
 
-def _is_there(file: File, name: str) -> bool:
-    """Files of before the drift was a series lack it."""
+def _has_series(file: File, name: str) -> bool:
+    """Return whether a series is in the file; older files lack the drift."""
     return name not in DRIFT or file.has(name)
 
 
 def _read_series(file: File, name: str, length: int) -> Array:
+    """Return a series of the file, read-only."""
     stored = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
     stored = stored if file.has(stored) else name  # an output that is called like a group that older files have not
     values = file.numbers(stored, length, "i1" if name.endswith(".state") else "f8")
@@ -317,7 +329,7 @@ def _read_series(file: File, name: str, length: int) -> Array:
 
 
 def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
-    """p, given and is_given."""
+    """Return p, given and is_given of the file."""
     slots, derived = len(source.slots), len(source.derived)
     if file.is_old:
         p, given = file.numbers("parameters.prepared", slots + derived), file.numbers("parameters.given", slots)
@@ -332,17 +344,19 @@ def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Ar
 
 
 def impacts_of(file: File, source: KernelSource) -> Array:
-    """IMPACT_DTYPE, the contacts of the file's run."""
-    return _records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
+    """Return the contacts of the file's run, IMPACT_DTYPE."""
+    return _read_records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
 
 
 def events_of(file: File, source: KernelSource) -> Array:
-    """EVENT_DTYPE, its events."""
-    return _records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
+    """Return the events of the file's run, EVENT_DTYPE."""
+    return _read_records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
 
 
-def _records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
-    """Impacts or events from their columns, the first of which says whose they are; none, where there is no group."""
+def _read_records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
+    """Return impacts or events from their columns, the first of which names the joint or event; empty without a
+    group.
+    """
     first, *others = dtype.names or ()
     if not file.has(f"{what}.{first}" if file.is_old else f"{what}s"):
         return np.zeros(0, dtype)
@@ -361,7 +375,7 @@ def _records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> A
 
 
 def _read_trace(file: File, source: KernelSource) -> Trace | None:
-    """None where the run had none, or the file is from before there were any."""
+    """Return the envelope over the steps; None where the run had none or the file is older."""
     if not file.has(TRACE):
         return None
     t = file.numbers(f"{TRACE}/t")
@@ -371,20 +385,20 @@ def _read_trace(file: File, source: KernelSource) -> Trace | None:
 
 
 def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
-    """What the integrator stores of rows, from their series; by the names of a Result."""
-    q, v, a = (_motion(source, stored, length, order) for order in range(3))
+    """Return the arrays that the integrator stores, rebuilt from their series, by their names in a Result."""
+    q, v, a = (_read_motion(source, stored, length, order) for order in range(3))
     return {
         "q": q,
         "v": v,
         "accelerations": a,
-        "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
-        "memory": _columns(stored, _memory_names(source), length),
-        "work": _works(source, stored, length),
+        "state": _read_columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
+        "memory": _read_columns(stored, _memory_names(source), length),
+        "work": _read_works(source, stored, length),
     }
 
 
-def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
-    """q, q̇ or q̈ (order 0, 1, 2) from the bodies' series."""
+def _read_motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
+    """Return q, q̇ or q̈ (order 0, 1, 2), (N, n), from the series of the bodies."""
     if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
         raise ValueError("the bodies' places in q are not theirs")
     values = np.empty((samples, 3 * len(source.bodies)))
@@ -394,28 +408,29 @@ def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, ord
     return values
 
 
-def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
+def _read_columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
+    """Return the named series as the columns of an array; 0 for an empty name."""
     values = np.empty((samples, len(names)), dtype)
     for column, name in enumerate(names):
         values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
     return values
 
 
-def _works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
-    """NaN where there are no masses to tell them by."""
+def _read_works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
+    """Return the works (N, 3); NaN without masses."""
     if source.massless:
         return np.full((samples, 3), np.nan)
-    return _columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
+    return _read_columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
 
 
 def _memory_names(source: KernelSource) -> list[str]:
-    """The series that hold what the right-hand side remembers."""
+    """Return the names of the series that contain the discrete states and friction states of a scene."""
     latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
     return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]
 
 
 def states_at_events(file: File, run: Result) -> Result:
-    """The result whose samples are the start of the run and then its events."""
+    """Return the result whose samples are the start of the run and then its events."""
     stored, count, first = {}, len(run.events), run.start_row or run
     for name in run.stored:
         at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
@@ -443,7 +458,7 @@ def _read_given_start(file: File, final: State) -> State:
 
 
 def read_provenance(file: File) -> dict[str, str]:
-    """Return what a file records; nothing of an older one, in which an output may have the group's name."""
+    """Return the provenance in a file; empty for an older file, in which an output may have the group's name."""
     try:
         return {name: file.text(name, PROVENANCE_GROUP) for name in PROVENANCE}
     except (KeyError, ValueError):

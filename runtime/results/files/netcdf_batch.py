@@ -1,9 +1,10 @@
-"""A batch as one NetCDF 4 file, and back, bit for bit: its runs' tables one after the other, each row with its run.
+"""Write a batch as one NetCDF 4 file and read it bit for bit: the tables of its runs one after the other, each row with
+its run.
 
-`series` are long tables over the samples that were reached, as are `impacts`, `events` and the others that the file of
-one run has (netcdf.py); `runs` has a row a run: its diagnostics, failure, ends and peaks, `given` what was given to it,
-`times` when samples were asked for, of all runs or of each. Where series were kept instead of states, `kept` are these.
-Read back it needs no compiled library; the file is believed no more than that of one run.
+`series` are long tables over the reached samples, as are `impacts`, `events` and the others of the file of one run
+(netcdf.py). `runs` has a row for each run: diagnostics, failure, end and peaks. `given` has the given parameters,
+`times` the requested times, of all runs or of each. If series were stored instead of states, the table is `kept`.
+Reading needs no compiled library and checks the file like that of one run.
 """
 
 from __future__ import annotations
@@ -58,12 +59,12 @@ COUNTS = (*(field.name for field in fields(Counts)), "seconds")
 
 
 def save(batch: Batch, path: str | os.PathLike[str]) -> None:
-    """See Batch.save."""
+    """Write a batch to a file. See Batch.save."""
     netcdf.write(tables(batch), path)
 
 
 def tables(batch: Batch) -> Iterator[Table]:
-    """All that a file holds."""
+    """Yield all tables of a file."""
     began = range(len(batch) if batch.states else 0)
     runs = {i: run for i in began if (run := batch.partial(i)) is not None}
     parts = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
@@ -81,7 +82,7 @@ def tables(batch: Batch) -> Iterator[Table]:
     if not batch.states:
         parts += kept_tables(batch)
         yield long_table(KEPT, [(i, table) for i, table in parts if table.group == KEPT], {})
-    yield Table(RUNS, NUMBER, tuple(_runs(batch, runs)), {})
+    yield Table(RUNS, NUMBER, tuple(_run_variables(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
     yield Table(GIVEN, NUMBER, tuple(given), {})
@@ -93,7 +94,7 @@ def tables(batch: Batch) -> Iterator[Table]:
 
 
 def long_table(group: str, parts: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
-    """The same table of several runs as one, whose first column is the run."""
+    """Return the same table of several runs as one, whose first column is the number of the run."""
     rows = [np.full(table.length, i, np.int32) for i, table in parts]
     found = [Variable(OWNER, np.concatenate(rows), "", "number of the run")] if parts else []
     for k, first in enumerate(parts[0][1].variables if parts else ()):
@@ -103,16 +104,17 @@ def long_table(group: str, parts: list[tuple[int, Table]], attributes: dict[str,
 
 
 def beside_owner(name: str) -> str:
-    """An output may be called like the column of runs, or like the dimension."""
+    """Return the name of a series in a long table, other than the column of runs and the dimension."""
     return f"output.{name}" if name in (OWNER, "row") else name
 
 
 def _stored_name(name: str) -> str:
+    """Return the name of a series in the table `kept`."""
     return "time" if name == "t" else netcdf.variable(name)
 
 
 def times(batch: Batch) -> Table:
-    """(N,) where they are those of all runs; else a long table."""
+    """Return the table of requested times: (N,) if all runs have the same; else a long table."""
     told = "time that was asked for"
     if batch.t.ndim == 1:
         return Table(TIMES, "time", (Variable("time", batch.t, "s", told),), {})
@@ -121,7 +123,7 @@ def times(batch: Batch) -> Table:
 
 
 def kept_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
-    """Series that were kept of each run, its contacts and events."""
+    """Yield number and tables of each run of a batch without states: stored series, contacts, events."""
     source, known = batch.source, blank(batch.source)
     joints, events = [joint.name for joint in source.clearances], [event.name for event in source.events]
     for i, done in enumerate(batch.samples.tolist()):
@@ -136,11 +138,11 @@ def kept_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
 
 
 def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SERIES) -> xarray.Dataset:
-    """See Batch.to_xarray."""
+    """Return a batch as an xarray Dataset. See Batch.to_xarray."""
     names, part = ((), names) if isinstance(names, str) else (names, part)
     xarray = netcdf.import_xarray()
     if text(part, "part", "the name of a table") != netcdf.SERIES:
-        rows = {v.name: ("row", v.values, v.attributes) for v in _part(batch, part).variables}
+        rows = {v.name: ("row", v.values, v.attributes) for v in _part_table(batch, part).variables}
         return xarray.Dataset(rows)
     reasons = dict((failure.run, str(failure.error)) for failure in batch.failures)
     columns: dict[str, Any] = {
@@ -152,15 +154,15 @@ def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SE
     for k, joint in enumerate(batch.source.clearances):
         columns |= {f"{joint.name}.peak.{name}": ("run", batch.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
     columns |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(batch.extremes)}
-    columns |= _samples(batch, names)
+    columns |= _sample_variables(batch, names)
     coordinates: dict[str, Any] = {"time": ("time", batch.t, {"units": "s"})} if batch.t.ndim == 1 else {}
     coordinates |= {name: ("run", values) for name, values in given_columns(batch).items()}
     attributes = {"mechanism": batch.source.mechanism, "scene": batch.source.scene, "title": batch.source.title}
     return xarray.Dataset(columns, coordinates, attributes)
 
 
-def _samples(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
-    """Variables over run and time."""
+def _sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
+    """Return the variables over run and time."""
     over, found = ("run", "time"), dict[str, Any]()
     if batch.t.ndim == 2:
         found["t"] = over, batch.t, {"units": "s"}
@@ -173,8 +175,8 @@ def _samples(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
     return found | {series_column(name): (over, values) for name, values in series(batch, names).items()}
 
 
-def _part(batch: Batch, part: str) -> Table:
-    """One of netcdf.PARTS of all runs as one table, with the run of each row."""
+def _part_table(batch: Batch, part: str) -> Table:
+    """Return one of netcdf.PARTS of all runs as one table, with the run of each row."""
     if part not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and part in ("impacts", "events"):
@@ -185,7 +187,8 @@ def _part(batch: Batch, part: str) -> Table:
     return long_table(part, own, {})
 
 
-def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
+def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
+    """Yield the columns of the table `runs`."""
     failed = {failure.run: failure.error for failure in batch.failures}
     if batch.states:
         told = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
@@ -193,7 +196,7 @@ def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
     elif batch.extremes:
         told = [extremes_to_json(own) for own in batch.extremes]
         yield Variable(EXTREMES, np.array(told, dtype=object), "", "peaks over all steps, JSON")
-    told = [_told(failed[i]) if i in failed else "" for i in range(len(batch))]
+    told = [_error_to_json(failed[i]) if i in failed else "" for i in range(len(batch))]
     yield Variable("failure", np.array(told, dtype=object), "", "why it did not come to its end, JSON")
     yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
     yield Variable("t_last", batch.t_last, "s", "where the run ended")
@@ -204,14 +207,15 @@ def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
             yield Variable(f"{joint.name}.peak.{name}", np.ascontiguousarray(batch.peaks[name][:, k]), "", "peak")
 
 
-def _told(error: GudgeonError) -> str:
-    """An error as JSON: its kind, its words, and when."""
+def _error_to_json(error: GudgeonError) -> str:
+    """Return an error as JSON: class, text and time."""
     time = repr(float(getattr(error, "time", math.nan)))
     more = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
     return json.dumps({"kind": type(error).__name__, "text": str(error), "time": time, **more}, ensure_ascii=False)
 
 
-def _error(text: str, partial: Result | None) -> GudgeonError:
+def _error_from_json(text: str, partial: Result | None) -> GudgeonError:
+    """Return the error from JSON that `_error_to_json` wrote, with the partial result."""
     data = json.loads(text)
     kind = getattr(errors, str(data["kind"]), None)
     if not (isinstance(kind, type) and issubclass(kind, GudgeonError)):
@@ -223,38 +227,45 @@ def _error(text: str, partial: Result | None) -> GudgeonError:
 
 
 def load(path: str | os.PathLike[str]) -> Batch:
-    """See Batch.load."""
-    return opened(path, _batch)
+    """Return the batch in a file. See Batch.load."""
+    return opened(path, _read_batch)
 
 
 class _RunOf(File):
-    """The rows of one run in the tables of all, for the reader of a single run's file."""
+    """The rows of one run in the long tables, with the interface of a single run's file."""
 
     def __init__(self, whole: Whole, run: int) -> None:
+        """Store the file of the batch and the number of the run."""
         self.whole, self.run, self.is_old = whole, run, False
 
     def has(self, group: str) -> bool:
+        """Return whether the run has rows in a group, or the file has a series of that name."""
         return self.whole.count(group, self.run) > 0 or self.whole.file.has(f"{netcdf.SERIES}/{group}")
 
     def text(self, key: str, group: str = "") -> str:
+        """Return the diagnostics of the run, JSON."""
         return self.whole.diagnostics[self.run]
 
     def numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
-        return self._checked(name, length, self.whole.column(name, dtype)[self.whole.rows(name, self.run)])
+        """Return the run's rows of a numeric column."""
+        return self._check_length(name, length, self.whole.column(name, dtype)[self.whole.rows(name, self.run)])
 
     def texts(self, name: str, length: int | None = None) -> list[str]:
-        return list(self._checked(name, length, self.whole.column(name, "")[self.whole.rows(name, self.run)]))
+        """Return the run's rows of a text column."""
+        return list(self._check_length(name, length, self.whole.column(name, "")[self.whole.rows(name, self.run)]))
 
-    def _checked(self, name: str, length: int | None, found: Array) -> Array:
+    def _check_length(self, name: str, length: int | None, found: Array) -> Array:
+        """Return the rows. Raises ValueError unless their number is `length`."""
         if length is not None and len(found) != length:
             raise ValueError(f"run {self.run} has {len(found)} values of {name}, expected {length}")
         return found
 
 
 class Whole:
-    """Columns of the file, read once each, and where runs begin in them."""
+    """Columns of the long tables of a file, read once each, and the first row of each run."""
 
     def __init__(self, file: File, count: int, states: bool) -> None:
+        """Read the diagnostics and the first rows of `count` runs; `states`: whether the batch has states."""
         told = count and states
         self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if told else [""] * count
         self.columns: dict[str, Array] = {}
@@ -268,15 +279,17 @@ class Whole:
             self.begins[group] = np.searchsorted(owner, np.arange(count + 1))
 
     def count(self, group: str, run: int) -> int:
+        """Return the number of rows of a run in a group."""
         begins = self.begins.get(group, np.zeros(run + 2, np.int64))
         return int(begins[run + 1] - begins[run])
 
     def rows(self, name: str, run: int) -> slice:
+        """Return the rows of a run in the table of a column."""
         begins = self.begins[name.rpartition("/")[0] or netcdf.SERIES]
         return slice(int(begins[run]), int(begins[run + 1]))
 
     def column(self, name: str, dtype: str) -> Array:
-        """By "group/name"; the series have no group in the file of one run. Texts for no dtype."""
+        """Return a column by "group/name"; a name without a group is a series. `dtype` "" means texts."""
         name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{beside_owner(name.rpartition('/')[2])}"
         if name not in self.columns:
             rows = int(self.begins[name.rpartition("/")[0]][-1])
@@ -286,27 +299,29 @@ class Whole:
 
 
 @dataclass
-class _Stored:
-    """Runs and errors by their number."""
+class _StoredResults:
+    """Results and errors of a loaded batch by the number of the run."""
 
     runs: dict[int, Result]
     errors: dict[int, GudgeonError]
 
     def __call__(self, i: int) -> Result:
+        """Return the result of run i. Raises its error."""
         if i in self.errors:
             raise self.errors[i]
         return self.runs[i]
 
     def bare(self, i: int, parts: frozenset[str]) -> Result | None:
-        """Run i, of which every series is stored."""
+        """Return run i, of which every series is stored; None if it did not begin."""
         return self.runs.get(i)
 
     def notes(self) -> dict[int, tuple[str, ...]]:
-        """What runs say of themselves."""
+        """Return the notes of the runs by number."""
         return {i: run.diagnostics.notes for i, run in self.runs.items()}
 
 
-def _batch(opened_file: Any, size: int) -> Batch:
+def _read_batch(opened_file: Any, size: int) -> Batch:
+    """Return the batch of an open file of `size` bytes."""
     file = File(opened_file, size, FORMATS)
     source, count = source_of(file), len(file.numbers(OWNER, None, "i8"))
     about = json.loads(file.text("batch"))
@@ -317,13 +332,13 @@ def _batch(opened_file: Any, size: int) -> Batch:
     for run in runs.values():
         run.provenance = provenance
     told = file.texts(f"{RUNS}/failure", count)
-    failed = {i: _error(text, runs.get(i)) for i, text in enumerate(told) if text}
+    failed = {i: _error_from_json(text, runs.get(i)) for i, text in enumerate(told) if text}
     if missing := [i for i in range(count) if kept is None and i not in runs and i not in failed]:
         raise ValueError(f"run {missing[0]} has neither a result nor a failure")
     t = read_times(whole, count, bool(about.get("own_times")))
     numbers = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
     own, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
-    padded = [_padded(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
+    padded = [_pad_runs(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
         t=t,
@@ -331,33 +346,33 @@ def _batch(opened_file: Any, size: int) -> Batch:
         samples=samples,
         kept={} if kept is None else read_kept(whole, kept, names, samples, t.shape[-1]),
         t_last=file.numbers(f"{RUNS}/t_last", count),
-        parameters=_given(file, source, count, runs),
+        parameters=_read_given(file, source, count, runs),
         impacts=tuple(impacts_of(run, source) for run in own),
         events=tuple(events_of(run, source) for run in own),
-        peaks=_peaks(file, source, count),
+        peaks=_read_peaks(file, source, count),
         diagnostics=numbers,
         failures=as_failures(failed),
         seconds=float(about["seconds"]),
         threads=int(about["threads"]),
         interrupted=bool(about["interrupted"]),
-        result=_Stored(runs, failed),
-        extremes=_extremes(file, source, count, runs if kept is None else None),
+        result=_StoredResults(runs, failed),
+        extremes=_read_extremes(file, source, count, runs if kept is None else None),
     )
 
 
 def read_times(whole: Whole, count: int, own: bool) -> Array:
-    """(N,), or (n, N) where each run has its own."""
+    """Return the requested times, (N,), or (n, N) where each run has its own."""
     t = whole.file.numbers(f"{TIMES}/time")
     if not own:
         check_times(t)
         return t
     for i in range(count):
         check_times(t[whole.begins[TIMES][i] : whole.begins[TIMES][i + 1]])
-    return _spread(whole, TIMES, t, count, max(whole.count(TIMES, i) for i in range(count)))
+    return _unroll_column(whole, TIMES, t, count, max(whole.count(TIMES, i) for i in range(count)))
 
 
-def _spread(whole: Whole, group: str, column: Array, count: int, samples: int) -> Array:
-    """A column of a long table as (n, N), NaN where a run has no row."""
+def _unroll_column(whole: Whole, group: str, column: Array, count: int, samples: int) -> Array:
+    """Return a column of a long table as (n, N), NaN where a run has no row."""
     out = np.full((count, samples), np.nan)
     if len(column) != whole.begins[group][-1]:
         raise ValueError(f"{group} has {len(column)} values, expected {whole.begins[group][-1]}")
@@ -368,7 +383,7 @@ def _spread(whole: Whole, group: str, column: Array, count: int, samples: int) -
 
 
 def read_kept(whole: Whole, kept: Any, names: tuple[str, ...], samples: Array, most: int) -> dict[str, Array]:
-    """The series that were kept, each (n, N)."""
+    """Return the stored series of a batch without states, (n, N) each."""
     known = isinstance(kept, list) and "t" in kept and all(name in ("t", *names) for name in kept)
     if not known or [whole.count(KEPT, i) for i in range(len(samples))] != samples.tolist():
         raise ValueError("the series that were kept are not those of its runs")
@@ -376,12 +391,12 @@ def read_kept(whole: Whole, kept: Any, names: tuple[str, ...], samples: Array, m
     for name in kept:
         stored = f"{KEPT}/{beside_owner(_stored_name(name))}"
         column = whole.file.numbers(stored) if whole.file.has(KEPT) else np.zeros(0)
-        found[name] = _spread(whole, KEPT, column, len(samples), most)
+        found[name] = _unroll_column(whole, KEPT, column, len(samples), most)
     return found
 
 
-def _extremes(file: File, source: KernelSource, count: int, runs: Mapping[int, Result] | None) -> Any:
-    """Peaks over all steps, of each run: in its diagnostics, or beside the series that are kept."""
+def _read_extremes(file: File, source: KernelSource, count: int, runs: Mapping[int, Result] | None) -> Any:
+    """Return the peaks over all steps of each run, from its diagnostics or from the table `runs`."""
     if runs is not None:
         return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(count))
     if not file.has(f"{RUNS}/{EXTREMES}"):
@@ -391,8 +406,8 @@ def _extremes(file: File, source: KernelSource, count: int, runs: Mapping[int, R
     return tuple(check_extremes(own, catalogue(source)) for own in found)
 
 
-def _padded(runs: Mapping[int, Result], name: str, count: int, samples: int, source: KernelSource) -> Array:
-    """(n, N, ...), NaN (codes: 0) where a run has no sample."""
+def _pad_runs(runs: Mapping[int, Result], name: str, count: int, samples: int, source: KernelSource) -> Array:
+    """Return an array of the runs as (n, N, ...), NaN (codes: 0) where a run has no sample."""
     kind = np.int8 if name == "state" else np.float64
     width = {"work": 3, "state": len(source.clearances)}.get(name, len(source.coordinates))
     out = np.full((count, samples, width), 0 if name == "state" else np.nan, dtype=kind)
@@ -402,7 +417,10 @@ def _padded(runs: Mapping[int, Result], name: str, count: int, samples: int, sou
     return out
 
 
-def _given(file: File, source: KernelSource, count: int, runs: Mapping[int, Result]) -> dict[str, Array]:
+def _read_given(file: File, source: KernelSource, count: int, runs: Mapping[int, Result]) -> dict[str, Array]:
+    """Return the given parameters of the runs by address. Raises ValueError for values that differ from those of the
+    results.
+    """
     if not file.has(GIVEN):
         return {}
     found = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
@@ -424,7 +442,8 @@ def _given(file: File, source: KernelSource, count: int, runs: Mapping[int, Resu
     return given
 
 
-def _peaks(file: File, source: KernelSource, count: int) -> Array:
+def _read_peaks(file: File, source: KernelSource, count: int) -> Array:
+    """Return the peak forces of all runs, PEAK_DTYPE (n, n_clearances)."""
     out = np.full((count, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
     for k, joint in enumerate(source.clearances):
         for name in PEAK_DTYPE.names or ():

@@ -1,8 +1,7 @@
-"""Read arrays and texts of NetCDF files that anybody may have written: whole, or an InputError.
+"""Read arrays and texts of NetCDF files from untrusted sources; a file that is not valid raises InputError.
 
-Nothing in a file is believed: that a seal holds, types, lengths and names are looked at before anything is read, links
-out of the file are not followed, and no more is read than the file can hold. What was read as JSON has its types
-checked by `check_typed`.
+The checksum, types, lengths and names are checked before data is read. Links to other files are not followed, and no
+more is read than the size of the file allows. `check_typed` checks the types of objects from JSON.
 """
 
 from __future__ import annotations
@@ -34,7 +33,9 @@ AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene 
 
 
 def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
-    """What `make` has from an open file and its size in bytes; InputError for whatever is wrong with that."""
+    """Return `make(file, size)` for an open HDF5 file and its size in bytes. Raises InputError for every fault of the
+    file.
+    """
     try:
         import h5py
     except ModuleNotFoundError as error:
@@ -58,9 +59,10 @@ def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Ma
 
 
 class File:
-    """Arrays and texts of an open file by name ("S9.y", "impacts/t_on"); ValueError for what is not as expected."""
+    """Arrays and texts of an open file by name ("S9.y", "impacts/t_on"). Raises ValueError for unexpected contents."""
 
     def __init__(self, file: Any, size: int, formats: tuple[str, ...]) -> None:
+        """Check the format of an open HDF5 file of `size` bytes; formats[0] is the expected one."""
         self._file, self._left = file, float(size)
         found = self.text("gudgeon")
         kind = found.partition("/")[0]
@@ -72,14 +74,15 @@ class File:
         self.is_old = found == OLD_FORMAT
 
     def has(self, group: str) -> bool:
+        """Return whether the file contains a group or dataset."""
         return group in self._file
 
     def names(self, group: str) -> list[str]:
-        """What lies in a group."""
+        """Return the names of the entries of a group."""
         return list(self._group(group))
 
     def text(self, key: str, group: str = "") -> str:
-        """An attribute of the file or of a group."""
+        """Return a text attribute of the file or of a group."""
         found = (self._group(group) if group else self._file).attrs[key]
         if isinstance(found, bytes):
             found = found.decode()
@@ -88,7 +91,7 @@ class File:
         return str(found)
 
     def numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
-        """(length,) of that kind, or as long as it is for None."""
+        """Return an array of the given type and length; of any length for None."""
         item = self._dataset(name, length)
         if item.dtype.newbyteorder("=") != np.dtype(dtype):
             raise ValueError(f"{name} has numbers of type {item.dtype}, expected {dtype}")
@@ -96,10 +99,11 @@ class File:
         return values
 
     def either(self, name: str, length: int) -> Array:
-        """Numbers that may be whole."""
+        """Return an array of integers or floats, as stored."""
         return self.numbers(name, length, "i8" if self._dataset(name, length).dtype.kind == "i" else "f8")
 
     def texts(self, name: str, length: int | None = None) -> list[str]:
+        """Return an array of texts of the given length as a list; of any length for None."""
         import h5py
 
         item = self._dataset(name, length)
@@ -108,12 +112,12 @@ class File:
         return [str(text) for text in item.asstr()[...]]
 
     def _dataset(self, name: str, length: int | None) -> Any:
-        """One of one dimension, with its data in this file, and no more of it than the file has room for."""
+        """Return a one-dimensional dataset with its data in this file and no larger than the file allows."""
         import h5py
         from h5py import h5d
 
         group, _, last = name.rpartition("/")
-        item = _own(self._group(group) if group else self._file, last)
+        item = _hard_linked(self._group(group) if group else self._file, last)
         if not isinstance(item, h5py.Dataset) or len(item.shape or ()) != 1:
             raise ValueError(f"{name} is no variable over one dimension")
         if length is not None and item.shape[0] != length:
@@ -128,16 +132,17 @@ class File:
         return item
 
     def _group(self, name: str) -> Any:
+        """Return a group. Raises ValueError if there is none."""
         import h5py
 
-        item = _own(self._file, name)
+        item = _hard_linked(self._file, name)
         if not isinstance(item, h5py.Group):
             raise ValueError(f"{name} is no group")
         return item
 
 
-def _own(group: Any, name: str) -> Any:
-    """What is itself in the file; a link may lead to another one."""
+def _hard_linked(group: Any, name: str) -> Any:
+    """Return the entry of a group that is stored in the file itself; a link raises ValueError."""
     import h5py
 
     if not isinstance(group.get(name, getlink=True), h5py.HardLink):
@@ -146,7 +151,9 @@ def _own(group: Any, name: str) -> Any:
 
 
 def check_typed(value: Any, kind: Any, where: str) -> None:
-    """TypeError that says where, unless `value` is of `kind`: a dataclass, tuple, mapping, union, str or number."""
+    """Raise TypeError with the location unless `value` is of `kind`: a dataclass, tuple, mapping, union, str or
+    number.
+    """
     if kind is Any:
         return
     origin = get_origin(kind)
@@ -162,13 +169,14 @@ def check_typed(value: Any, kind: Any, where: str) -> None:
             raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
     elif isinstance(kind, type) and is_dataclass(kind):
         _check_class(value, kind, where)
-        for name, one in _hints(kind).items():
+        for name, one in _field_types(kind).items():
             check_typed(getattr(value, name), one, f"{where}.{name}")
     else:
         _check_class(value, {float: (float, int)}.get(kind, kind), where)
 
 
 def _is_typed(value: Any, kind: Any) -> bool:
+    """Return whether a value is of a kind, by `check_typed`."""
     try:
         check_typed(value, kind, "")
     except TypeError:
@@ -177,6 +185,7 @@ def _is_typed(value: Any, kind: Any) -> bool:
 
 
 def _check_tuple(value: Any, kinds: tuple[Any, ...], where: str) -> None:
+    """Raise TypeError unless a value is a tuple with entries of these kinds."""
     _check_class(value, tuple, where)
     if len(kinds) == 2 and kinds[1] is Ellipsis:
         kinds = kinds[:1] * len(value)
@@ -187,12 +196,14 @@ def _check_tuple(value: Any, kinds: tuple[Any, ...], where: str) -> None:
 
 
 def _check_class(value: Any, kind: Any, where: str) -> None:
+    """Raise TypeError unless a value is an instance of a class; a bool does not count as a number."""
     is_bool = isinstance(value, bool) and kind is not bool
     if is_bool or not isinstance(value, NoneType if kind is None else kind):
         raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
 
 
 @cache
-def _hints(kind: Any) -> dict[str, Any]:
+def _field_types(kind: Any) -> dict[str, Any]:
+    """Return the type hints of the fields of a dataclass."""
     hints = get_type_hints(kind)
     return {field.name: hints[field.name] for field in fields(kind)}

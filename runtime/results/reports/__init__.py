@@ -1,1 +1,1 @@
-"""Reports of results: a run's report as page and text, scenes beside each other in tables."""
+"""Reports of results: the report of a run as page and text, and tables of several scenes."""

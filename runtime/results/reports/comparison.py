@@ -1,6 +1,6 @@
-"""What a run has to say in figures: peak errors against the ideal scene, peak forces, trust and cost.
+"""Compare runs by their main values: peak errors against the ideal scene, peak forces, accuracy and cost.
 
-`compare` computes it, `tables` shows it (rich, imported on first use), `as_json` hands it to scripts.
+`compare` computes them, `tables` displays them (rich, imported on first use), `as_json` returns them for scripts.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ NEED_A_LEGEND = ("δ̇/δ̇⁻ while latched", "steps with it outside ±1", CONS
 
 @dataclass(frozen=True)
 class SceneReport:
-    """One scene: all numbers in SI."""
+    """Main values of one scene, all in SI."""
 
     scene: str
     motion: tuple[Extreme, ...]  # of the watched names and their rates
@@ -48,7 +48,10 @@ class SceneReport:
 
 
 def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
-    """The figures of one run; `reference` is the ideal run at the same times, None for the ideal run itself."""
+    """Return the main values of one run.
+
+    `reference` is the ideal run at the same times, None for the ideal run itself; `watch` are names of series.
+    """
     wanted = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)
     series = [name for name in wanted if name in run]
     motion = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in series)
@@ -69,11 +72,15 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
     )
     rows = run.source.rows if run.source.formulation == "full" else run.source.closures
     found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
-    return SceneReport(*found, bool(rows) or run.diagnostics.phi_max > 0.0, _scales(run, forces, (*drives, *guides)))
+    return SceneReport(
+        *found, bool(rows) or run.diagnostics.phi_max > 0.0, _largest_by_unit(run, forces, (*drives, *guides))
+    )
 
 
-def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]) -> dict[str, float]:
-    """By unit the largest number of the kind in a run: what rounding is to be compared with."""
+def _largest_by_unit(
+    run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]
+) -> dict[str, float]:
+    """Return the largest magnitude in a run by unit, with which rounding errors are compared."""
     found: dict[str, float] = {}
     sizes = [("N", force) for force, _ in forces.values()] + [(drive.unit, abs(drive.peak)) for drive in drives]
     for order, array in enumerate((run.q, run.v, run.a)):
@@ -88,7 +95,7 @@ def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequ
 
 
 def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
-    """Plain values for `--json`; what JSON has no number for (NaN, infinity) is null."""
+    """Return plain values for `--json`; NaN and infinity, which JSON lacks, are null."""
     scenes = {}
     for report in reports:
         scenes[report.scene] = {
@@ -108,7 +115,7 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
 
 
 def finite(value: Any) -> Any:
-    """NaN and infinity, which JSON has no number for, as None, at any depth."""
+    """Return the value with NaN and infinity, which JSON lacks, replaced by None at any depth."""
     if isinstance(value, dict):
         return {key: finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -119,7 +126,11 @@ def finite(value: Any) -> Any:
 
 
 def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool = False) -> list[Table]:
-    """A scene a column, a quantity a row, with `verbose` all; as many beside each other as fit `width` characters."""
+    """Return tables with a column for each scene and a row for each quantity, as many columns as fit `width`
+    characters.
+
+    `verbose` adds the rows of NEED_A_LEGEND.
+    """
     from rich.measure import Measurement
 
     from gudgeon.language.shown import plain_console
@@ -136,6 +147,7 @@ def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool
 
 
 def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], part: slice) -> Table:
+    """Return one rich Table of some of the reports."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text
@@ -157,7 +169,9 @@ def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, lis
 
 
 def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """(name, a cell a scene); no cells for a heading; rows that are empty in all scenes are left out."""
+    """Return the rows (name, one cell a scene); a heading has no cells, and rows that are empty in all scenes are left
+    out.
+    """
     rows: list[tuple[str, list[str]]] = []
     for heading, part in (
         ("Peak error against ideal", _error_rows(reports)),
@@ -177,7 +191,8 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return rows
 
 
-def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
+def _peak_cell(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
+    """Return a peak and its time as a cell, "–" if it is not known."""
     if math.isfinite(t) and _is_noise(abs(value), unit, scales):
         return ZERO
     factor, text = drawn(value, unit)
@@ -186,29 +201,32 @@ def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
 
 
 def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
-    """Whether a number is what rounding leaves of none."""
+    """Return whether a value is no larger than rounding errors."""
     return 0.0 < size < NOISE * scales.get(unit, 0.0)
 
 
 def _error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Return the rows of peak errors against the ideal scene at the samples."""
     names = dict.fromkeys(e.name for report in reports for e in report.errors)
-    found = [{e.name: _at(e.peak, e.unit, e.t, report.scales) for e in report.errors} for report in reports]
+    found = [{e.name: _peak_cell(e.peak, e.unit, e.t, report.scales) for e in report.errors} for report in reports]
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
 def _motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    found = [{e.name: _range(e, report.scales) for e in report.motion} for report in reports]
+    """Return the rows of the ranges of the watched series."""
+    found = [{e.name: _range_cell(e, report.scales) for e in report.motion} for report in reports]
     names = dict.fromkeys(e.name for report in reports for e in report.motion)
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
 def _extreme_rows(reports: Sequence[SceneReport], errors: bool) -> list[tuple[str, list[str]]]:
-    """Of the series that `peaks:` of a scene names."""
-    cells = [partial(_at, scales=report.scales) for report in reports]
+    """Return the rows of peaks over all steps of the series in `peaks:` of a scene."""
+    cells = [partial(_peak_cell, scales=report.scales) for report in reports]
     return table_rows([report.diagnostics.extremes for report in reports], cells, errors)
 
 
-def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
+def _range_cell(extreme: Extreme, scales: Mapping[str, float]) -> str:
+    """Return the smallest and largest value of a series as a cell."""
     if _is_noise(size := max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
         return ZERO
     factor, text = drawn(size, extreme.unit)
@@ -217,31 +235,41 @@ def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
 
 
 def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """At the joints that have play in any scene; where none has, at all joints."""
+    """Return the rows of peak forces at the joints that have play in any scene, or else at all joints."""
     played = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
     joints = played or dict.fromkeys(joint for report in reports for joint in report.forces)
     missing = (math.nan, math.nan)
     return [
-        (joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales) for r in reports])
+        (
+            joint,
+            [
+                _peak_cell(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales)
+                for r in reports
+            ],
+        )
         for joint in joints
     ]
 
 
 def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Of those that have play in any scene."""
+    """Return the rows of peak forces and moments of guides that have play in any scene."""
     played = {f"{peak.joint.partition('.')[0]}." for r in reports for peak in r.diagnostics.peaks if "." in peak.joint}
     own = [tuple(e for e in report.guides if e.name[:-1] in played) for report in reports]
     return _peak_rows(reports, own)
 
 
 def _peak_rows(reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]) -> list[tuple[str, list[str]]]:
-    found = [{e.name: _at(e.peak, e.unit, e.t, r.scales) for e in own} for r, own in zip(reports, peaks, strict=True)]
+    """Return the rows of peaks at the samples, without those that are known over all steps."""
+    found = [
+        {e.name: _peak_cell(e.peak, e.unit, e.t, r.scales) for e in own} for r, own in zip(reports, peaks, strict=True)
+    ]
     known = {x.name for report in reports for x in report.diagnostics.extremes}  # over all steps, which is more
     names = dict.fromkeys(e.name for own in peaks for e in own if e.name not in known)
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
 def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Return the rows of each joint with play: first contact, its peak, largest eccentricity, constants."""
     peaks = [{peak.joint: peak for peak in report.diagnostics.peaks} for report in reports]
     rows = []
     for joint in dict.fromkeys(name for found in peaks for name in found):
@@ -258,9 +286,10 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
 
 def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """How often, and when first; a dash in scenes that do not have the event."""
+    """Return the rows of events: number and first time; a dash in scenes that do not have the event."""
 
     def cell(times: tuple[float, ...] | None) -> str:
+        """Return number and first time of an event as a cell."""
         if not times:
             return "–" if times is None else "none"
         return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"
@@ -270,6 +299,7 @@ def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
 
 def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Return the rows of accuracy: drift, energy residual, predictability horizon, contacts, audit."""
     every = [report.diagnostics for report in reports]
     play = [bool(d.peaks) for d in every]
     ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
@@ -278,7 +308,7 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
         ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
         ("energy turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
-        ("trusted until", [_until(d.horizon) for d in every]),
+        ("trusted until", [_horizon_cell(d.horizon) for d in every]),
         ("contacts that began", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
         ("δ̇/δ̇⁻ while latched", ratio),
         ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
@@ -287,7 +317,7 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
 
 def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """The largest value of each check of the audit, in its limits, as far as it is above rounding."""
+    """Return the rows of the largest value of each check of the audit, in its limits, if it is above rounding."""
     found = [{one.check: one.worst for one in report.diagnostics.audit} for report in reports]
     checks = dict.fromkeys(check for one in found for check, worst in one.items() if worst >= AUDIT_SHOWN)
     largest = [max(one.values(), default=math.nan) for one in found]
@@ -297,12 +327,13 @@ def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     ]
 
 
-def _until(horizon: float) -> str:
-    """See predictability.py; NaN: nobody asked."""
+def _horizon_cell(horizon: float) -> str:
+    """Return the predictability horizon as a cell; NaN: not requested. See predictability.py."""
     return "to the end" if horizon == math.inf else quantity(horizon, "s", 3)
 
 
 def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Return the rows of cost: method, steps, evaluations and run time."""
     every = [report.diagnostics for report in reports]
     return [
         ("method", [d.method for d in every]),

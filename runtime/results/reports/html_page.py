@@ -1,6 +1,6 @@
-"""A page of HTML that is whole by itself: headings, tables and pictures; light and dark, on a phone and on paper.
+"""Build a self-contained HTML page of headings, tables and figures; light and dark, for screens, phones and paper.
 
-What comes from a file is text: `escape` it, or hand it to `table` and `lines`, which do.
+Text from a file must be escaped: use `escape`, or pass it to `table` or `lines`, which escape it.
 """
 
 from __future__ import annotations
@@ -65,7 +65,10 @@ body {{ margin: 0; }} body > .g-report {{ max-width: 68rem; margin: 0 auto; padd
 
 
 def page(title: str, about: str, sections: Iterable[Section], chapters: Iterable[str] = ()) -> str:
-    """The whole file. `title` and `about` are text; chapters: headings to which links stand at its beginning."""
+    """Return a complete HTML file.
+
+    `title` and `about` are text; `chapters` are headings to which links are listed at the top.
+    """
     head = f"<h1>{text(title)}</h1><p class='g-quiet'>{escape(visible(about))}</p>"
     every = [(name, inside) for name, inside in sections if inside]
     linked = [name for name in dict.fromkeys(chapters) if any(name == own for own, _ in every)]
@@ -75,7 +78,7 @@ def page(title: str, about: str, sections: Iterable[Section], chapters: Iterable
 
 
 def article(sections: Iterable[Section], head: str = "", linked: Sequence[str] = ()) -> str:
-    """What a notebook shows: the same without the rest of a page."""
+    """Return the article of a page, as a notebook displays it."""
     places = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked)}
     parts = [
         f"<section{places.pop(name, '')}><h2>{escape(visible(name))}</h2>{inside}</section>"
@@ -86,12 +89,12 @@ def article(sections: Iterable[Section], head: str = "", linked: Sequence[str] =
 
 
 def text(words: str) -> str:
-    """Text of a file in a line."""
+    """Return a text of a file as one escaped line."""
     return escape(one_line(words))
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = False) -> str:
-    """Cells are text, `words` or numbers; nothing where there is no row."""
+    """Return an HTML table of escaped cells; "" without rows. `words`: the cells are words, not numbers."""
     body = "".join(f"<tr>{''.join(f'<td>{escape(visible(cell))}</td>' for cell in row)}</tr>" for row in rows)
     if not body:
         return ""
@@ -102,6 +105,6 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = Fals
 
 
 def lines(texts: Iterable[str], kind: str = "") -> str:
-    """A paragraph each."""
+    """Return an HTML paragraph for each text, of the CSS class `kind`."""
     of = f" class='{kind}'" if kind else ""
     return "".join(f"<p{of}>{escape(visible(one))}</p>" for one in texts)

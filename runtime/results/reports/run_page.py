@@ -1,4 +1,4 @@
-"""The report of a run as a page and as text: the same rows in both."""
+"""Build the report of a run as an HTML page and as text, from the same rows."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Rows = list[tuple[str, str]]
 
 
 def page_of(run: Result, found: Mapping[str, Any]) -> str:
-    """The whole file."""
+    """Return the report as a complete HTML file."""
     return page(_title(found), _about(found), sections(run, found))
 
 
 def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
-    """Heading and HTML of each part."""
+    """Yield heading and HTML of each section of the report."""
     yield "What to know", lines(found["warnings"], "g-warning")
     for name, guide in found["guides"].items():
         yield f"Guide {name}", table(("", ""), guide_rows(guide, found["trust"]["asked"]))
@@ -56,7 +56,7 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
 
 
 def as_text(found: Mapping[str, Any]) -> str:
-    """The same for a terminal."""
+    """Return the report as text for a terminal."""
     parts: list[tuple[str, Rows]] = [("", [("", _about(found))])]
     asked = found["trust"]["asked"]
     parts += [(f"guide {name}", guide_rows(one, asked)) for name, one in found["guides"].items()]
@@ -77,16 +77,18 @@ def as_text(found: Mapping[str, Any]) -> str:
 
 
 def _title(found: Mapping[str, Any]) -> str:
+    """Return title and scene in one line."""
     return f"{one_line(found['title'] or found['mechanism'])}: {found['scene']}"
 
 
 def _about(found: Mapping[str, Any]) -> str:
+    """Return time span, samples, method and steps in one line."""
     begin, end = found["t"]
     return f"{begin:.6g} … {end:.6g} s, {found['samples']} samples, {found['method']}, {found['trust']['steps']} steps"
 
 
 def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
-    """Name and cell."""
+    """Return the rows (name, cell) of a joint with play; `asked`: whether additional runs were requested."""
     shares = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
     time = ", ".join(f"{name} {100 * x:.4g} %" for name, x in shares if x or name == "free")
     rows = [("gap c" if joint["corner"] else "clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
@@ -99,11 +101,11 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
         told = "" if free is None else f", of which a free impact delivers {free:.5g}"
         rows.append(("restitution asked for", f"{joint['asked']:g}{told}"))
     if joint["approach"]:
-        rows.append(("approach, least … median … largest", _range(joint["approach"], "m/s")))
+        rows.append(("approach, least … median … largest", _range_cell(joint["approach"], "m/s")))
         back = joint["restitution"]
         known = back is not None and math.isfinite(back["median"])
         none = "no contact that met at a rate ended" if back is not None else NOT_ASKED
-        rows.append(("restitution delivered, the same", _range(back, "") if known else none))
+        rows.append(("restitution delivered, the same", _range_cell(back, "") if known else none))
     rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
     rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))
     rows += [] if joint["corner"] else _ideal_rows(joint, asked)  # of a guide the sum has one
@@ -116,7 +118,7 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
 
 
 def guide_rows(guide: Mapping[str, Any], asked: bool) -> Rows:
-    """Name and cell."""
+    """Return the rows (name, cell) of a guide with play; `asked` as in `joint_rows`."""
     peak, moment = guide["peak"], guide["M"]
     return [
         ("force on the slider, peak of samples", f"{quantity(peak['F'], 'N')} at {quantity(peak['t'], 's')}"),
@@ -127,15 +129,17 @@ def guide_rows(guide: Mapping[str, Any], asked: bool) -> Rows:
 
 
 def _ideal_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
+    """Return the rows of the forces in the ideal scene."""
     if not (ideal := joint["ideal"]):
         return [("ideal forces", NOT_ASKED if not asked else "not known")]
     return [
-        ("ideal peak force", f"{quantity(ideal['F'], 'N')}{_times(joint['peak']['F'], ideal['F'])}"),
-        ("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_times(joint['rms'], ideal['rms'])}"),
+        ("ideal peak force", f"{quantity(ideal['F'], 'N')}{_ratio_text(joint['peak']['F'], ideal['F'])}"),
+        ("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_ratio_text(joint['rms'], ideal['rms'])}"),
     ]
 
 
 def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
+    """Return the rows of the energies that contact, friction and film dissipate."""
     if work is None:
         return [("where its work went", NOT_ASKED if not asked else "not known")]
     names = {
@@ -148,17 +152,18 @@ def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
     return [(told, quantity(work[name], "J")) for name, told in names.items() if math.isfinite(work[name])]
 
 
-def _range(found: Mapping[str, float], unit: str) -> str:
+def _range_cell(found: Mapping[str, float], unit: str) -> str:
+    """Return minimum, median and maximum as a cell."""
     return " … ".join(quantity(found[name], unit) for name in ("min", "median", "max"))
 
 
-def _times(value: float, ideal: float) -> str:
-    """How many times the ideal one."""
+def _ratio_text(value: float, ideal: float) -> str:
+    """Return the ratio of a value to the ideal one as a text; "" if that is 0."""
     return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
 
 
 def energy_rows(found: Mapping[str, Any]) -> Rows:
-    """Name and cell."""
+    """Return the rows (name, cell) of the energy balance."""
     energy = found["energy"]
     if energy is None:
         return [("energy", "not known: a body has no mass or no inertia")]
@@ -176,7 +181,7 @@ def energy_rows(found: Mapping[str, Any]) -> Rows:
 
 
 def trust_rows(trust: Mapping[str, Any]) -> Rows:
-    """Name and cell."""
+    """Return the rows (name, cell) of the accuracy of a run."""
     rows = [("drift, max |Φ|", f"{trust['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{trust['phi_dot_max']:.2e}")]
     if math.isfinite(trust["rtol"]):
         rows.append(("tolerance of a step", f"{trust['rtol']:.3g}"))
@@ -192,7 +197,7 @@ def trust_rows(trust: Mapping[str, Any]) -> Rows:
 
 
 def orbit_svg(run: Result, joint: str) -> str:
-    """The journal's path through all steps, as far as a picture shows them, in the circle e = c."""
+    """Return the journal's path through all steps in the circle e = c as an SVG figure, thinned to MOST points."""
     c = run.constants[f"{joint}.c"]
     _, x, y = joint_curves.path(run, joint)
     good = np.isfinite(x) & np.isfinite(y)

@@ -1,7 +1,7 @@
-"""The report of a run, `run.report()`: what its joints with play did, where energy went, how far it may be believed.
+"""Compute the report of a run, `run.report()`: contacts of its joints with play, energies, and accuracy.
 
-Everything is of what a result holds, so that one that was read from a file has the same report, bit for bit. What other
-runs tell (simulation/examine.py) is there if it was asked for, and named as missing if not.
+The report depends on the stored result only, so that a result from a file has the same report, bit for bit. Values from
+additional runs (simulation/examine.py) are included if they were requested, and named as missing if not.
 """
 
 from __future__ import annotations
@@ -37,14 +37,15 @@ NOT_ASKED = "not asked for: gudgeon run --report, or gudgeon.examine(simulation,
 
 @dataclass(frozen=True)
 class RunReport:
-    """The report of one run; `print` shows it, a notebook too, `to_html` is a page of its own."""
+    """The report of one run; `print` and notebooks display it, `to_html` is a self-contained page."""
 
     run: Result
 
     @cached_property
     def _found(self) -> dict[str, Any]:
+        """All values of the report, in SI."""
         run = with_start(self.run)
-        joints = {joint.name: _joint(run, k, joint) for k, joint in enumerate(run.source.clearances)}
+        joints = {joint.name: _joint_values(run, k, joint) for k, joint in enumerate(run.source.clearances)}
         return {
             "title": run.source.title,
             "mechanism": run.source.mechanism,
@@ -53,60 +54,66 @@ class RunReport:
             "samples": len(self.run.t),
             "method": run.diagnostics.method,
             "joints": joints,
-            "guides": {name: _guide(run, name) for name in run.source.guides},
-            "energy": _energy(run),
-            "trust": _trust(run),
+            "guides": {name: _guide_values(run, name) for name in run.source.guides},
+            "energy": _energy_balance(run),
+            "trust": _accuracy_values(run),
             "laws": laws_of(run.source),
-            "warnings": [*run.diagnostics.notes, *_warnings(run, joints)],
+            "warnings": [*run.diagnostics.notes, *_validity_warnings(run, joints)],
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values in SI, None where there is nothing: JSON takes them."""
+        """Return plain values in SI for JSON, None where there is no value."""
         plain: dict[str, Any] = finite(self._found)
         return plain
 
     def to_html(self) -> str:
-        """One page that needs nothing from elsewhere: tables, and each joint's orbit as SVG."""
+        """Return a self-contained HTML page with tables, and each joint's orbit as SVG."""
         from gudgeon.results.reports.run_page import page_of
 
         return page_of(self.run, self._found)
 
     def _repr_html_(self) -> str:
+        """Return the report as HTML for a notebook."""
         from gudgeon.results.reports.html_page import article
         from gudgeon.results.reports.run_page import sections
 
         return article(sections(self.run, self._found))
 
     def __str__(self) -> str:
+        """Return the report as text."""
         from gudgeon.results.reports.run_page import as_text
 
         return as_text(self._found)
 
     def __repr__(self) -> str:
+        """Return mechanism and scene in one line."""
         return f"<RunReport {self.run.source.mechanism}/{self.run.source.scene}>"
 
 
-def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
-    """Of a joint with play; times, forces and places over all steps, shares of time from onsets and separations."""
+def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
+    """Return the values of a joint with play.
+
+    Times, forces and positions are over all steps, fractions of time from onsets and separations.
+    """
     peak, c = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     own = run.impacts[run.impacts["joint"] == k]
-    examined, deepest = _examined(run, joint.name), peak.e_max - c
+    examined, deepest = _joint_statistics(run, joint.name), peak.e_max - c
     between = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
         deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
     found = {
         "c": c,
         "corner": joint.at_wall,
-        "time": _shares(run, k, joint, own),
+        "time": _time_fractions(run, k, joint, own),
         "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()),
-        "approach": _spread(own["deltadot"][own["deltadot"] > 0.0]),
+        "approach": _quantiles(own["deltadot"][own["deltadot"] > 0.0]),
         "restitution": None,
         "stiffness": _stiffness(run, joint),
-        "asked": _asked(run, joint),
+        "asked": _specified_restitution(run, joint),
         "free_impact": _free_impact(run, joint),
         "peak": {"F": peak.F, "t": peak.t},
-        "rms": _rms(run, joint.name),
+        "rms": _rms_force(run, joint.name),
         "rms_of": "samples",
         "largest_e": peak.e_max,
         "penetration": max(deepest, 0.0) if joint.dry else math.nan,
@@ -126,17 +133,22 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
             "friction": examined.friction,
             "film": examined.film,
         }
-    return found | {"ideal": _ideal(run, joint.name)}
+    return found | {"ideal": _ideal_force(run, joint.name)}
 
 
-def _guide(run: Result, name: str) -> dict[str, Any]:
-    """Force and moment on the slider of a guide with play, of samples."""
+def _guide_values(run: Result, name: str) -> dict[str, Any]:
+    """Return force and moment on the slider of a guide with play, at the samples."""
     force, moment = (of_samples("", "", run.t, run[f"{name}.{last}"]) for last in "FM")
-    found = {"peak": {"F": force.peak, "t": force.t}, "rms": _rms(run, name), "M": {"peak": moment.peak, "t": moment.t}}
-    return found | {"ideal": _ideal(run, name)}
+    found = {
+        "peak": {"F": force.peak, "t": force.t},
+        "rms": _rms_force(run, name),
+        "M": {"peak": moment.peak, "t": moment.t},
+    }
+    return found | {"ideal": _ideal_force(run, name)}
 
 
-def _ideal(run: Result, joint: str) -> dict[str, float] | None:
+def _ideal_force(run: Result, joint: str) -> dict[str, float] | None:
+    """Return peak and rms of the force at a joint of the ideal scene; None if they were not requested."""
     for ideal in (run.diagnostics.examined or Examined()).ideal:
         if ideal.joint == joint:
             return {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
@@ -144,17 +156,20 @@ def _ideal(run: Result, joint: str) -> dict[str, float] | None:
 
 
 def _stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:
-    """K of the elastic force as its law has it, with its unit; of a line contact and a spring by length."""
+    """Return the stiffness K of the contact law with its unit, which depends on the law; None without one."""
     for name in ("K", "spring"):
         if name in joint.constants:
-            n = float(run.parameters.get(f"contacts.{_contact(run, joint)}.normal.exponent", 1.0))
+            n = float(run.parameters.get(f"contacts.{_contact_name(run, joint)}.normal.exponent", 1.0))
             unit = "N/m" if name == "spring" or n == 1.0 else f"N/m^{n:g}"
             return {"K": float(run.p[joint.constants[name]]), "unit": unit}
     return None
 
 
-def _contact(run: Result, joint: ClearanceInfo) -> str:
-    """The contact whose normal law it has; "" where that is not known: what follows from its numbers bears its name."""
+def _contact_name(run: Result, joint: ClearanceInfo) -> str:
+    """Return the name of the contact whose normal law a joint has; "" if it is not known.
+
+    Derived parameters of a law contain the name of its contact.
+    """
     source = run.source
     named = [address.split(".")[1] for slot in source.slots if ".normal." in (address := slot.address)]
     bearing = source.slots[joint.clearance].address.split(".")[1]
@@ -167,27 +182,33 @@ def _contact(run: Result, joint: ClearanceInfo) -> str:
     return named[0] if len({*named}) == 1 and len({joint.joint for joint in source.clearances}) == 1 else ""
 
 
-def _asked(run: Result, joint: ClearanceInfo) -> float | None:
-    found = run.parameters.get(f"contacts.{_contact(run, joint)}.normal.restitution")
+def _specified_restitution(run: Result, joint: ClearanceInfo) -> float | None:
+    """Return the specified coefficient of restitution of a joint's contact, if there is one."""
+    found = run.parameters.get(f"contacts.{_contact_name(run, joint)}.normal.restitution")
     return None if found is None else float(found)
 
 
 def _free_impact(run: Result, joint: ClearanceInfo) -> float | None:
-    """The restitution that its hysteresis damping delivers where nothing but the contact acts."""
+    """Return the restitution that the hysteresis damping delivers in an impact without other forces; None without such
+    damping.
+    """
     from gudgeon.generator.kinds.laws.dissipation import delivered
 
     return delivered(float(run.p[joint.constants["hysteresis"]])) if "hysteresis" in joint.constants else None
 
 
-def _examined(run: Result, joint: str) -> Any:
+def _joint_statistics(run: Result, joint: str) -> Any:
+    """Return the contact statistics of a joint from the second pass; None if they were not requested."""
     found = run.diagnostics.examined or Examined()
     return next((one for one in found.joints if one.joint == joint), None)
 
 
-def _shares(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, float]:
-    """Of the time: free, impacting (from an onset until the penetration first stops growing), in contact, on a film.
+def _time_fractions(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, float]:
+    """Return the fractions of the time: free, impacting (from an onset until the first maximum of δ), in contact, on a
+    film.
 
-    How long surfaces touch follows from onsets and separations; of it what is impact from a second pass, else samples.
+    The time in contact follows from onsets and separations. Its impacting part is from the second pass, else from
+    samples.
     """
     begin, end = float(run.t[0]), float(run.t[-1])
     if not end > begin:
@@ -195,7 +216,7 @@ def _shares(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, 
     off = np.where(np.isnan(own["t_off"]), end, own["t_off"])
     touching = np.clip(off, begin, end) - np.clip(own["t_on"], begin, end)
     closed = float(touching.sum()) / (end - begin)
-    examined = _examined(run, joint.name)
+    examined = _joint_statistics(run, joint.name)
     if examined is not None and joint.dry:
         impacting = min(examined.impacting, closed)
     else:
@@ -210,35 +231,37 @@ def _shares(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, 
     }
 
 
-def _spread(values: Array) -> dict[str, float] | None:
+def _quantiles(values: Array) -> dict[str, float] | None:
+    """Return minimum, median and maximum of the values; None for none."""
     if not len(values):
         return None
     low, middle, high = (float(x) for x in np.quantile(values, (0.0, 0.5, 1.0)))
     return {"min": low, "median": middle, "max": high}
 
 
-def _rms(run: Result, joint: str) -> float:
-    """Of the samples, by trapezoids."""
+def _rms_force(run: Result, joint: str) -> float:
+    """Return the rms force of a joint over the samples, by the trapezoidal rule."""
     force, span = run[f"{joint}.F"], float(run.t[-1] - run.t[0])
     return math.sqrt(float(np.trapezoid(force**2, run.t)) / span) if span > 0.0 else float(force[0])
 
 
-def _energy(run: Result) -> dict[str, float] | None:
-    """Works to the end and the balance, J; None of a scene that lacks masses."""
+def _energy_balance(run: Result) -> dict[str, float] | None:
+    """Return the works up to the end and the terms of the energy balance, J; None for a scene without masses."""
     if run.source.massless:
         return None
     d, names = run.diagnostics, ("drives", "forces", "clearances")
     found = {name: float(run.work[-1, k] - run.work[0, k]) for k, name in enumerate(names)}
     total = run["energy.kinetic"] + run["energy.potential"]
     found |= {"change": float(total[-1] - total[0]), "residual": d.energy_residual, "turned_over": d.energy_turned_over}
-    joints = [_examined(run, joint.name) for joint in run.source.clearances]
+    joints = [_joint_statistics(run, joint.name) for joint in run.source.clearances]
     if joints and all(joints):
         parts = [x for one in joints for x in (one.taken - one.returned, one.friction, one.film) if math.isfinite(x)]
         found["not_told_apart"] = -found["clearances"] - math.fsum(parts)
     return found
 
 
-def _trust(run: Result) -> dict[str, Any]:
+def _accuracy_values(run: Result) -> dict[str, Any]:
+    """Return the values of the accuracy of a run."""
     d, examined = run.diagnostics, run.diagnostics.examined or Examined()
     horizon: Any = "to the end" if d.horizon == math.inf else d.horizon
     return {
@@ -257,7 +280,9 @@ def _trust(run: Result) -> dict[str, Any]:
 
 
 def laws_of(source: KernelSource) -> list[dict[str, str]]:
-    """Title, source, validity and options of each law of contact, friction and film, as its C says them."""
+    """Return title, source, validity and options of each law of contact, friction and film, from the comments of
+    its C.
+    """
     found: dict[tuple[str, str], dict[str, str]] = {}
     for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
         if law := _LAW.match(" ".join(line.strip(" *") for line in comment.splitlines())):
@@ -267,8 +292,8 @@ def laws_of(source: KernelSource) -> list[dict[str, str]]:
     return list(found.values())
 
 
-def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
-    """Where a run went beyond what its laws are good for; what it told itself is among its notes."""
+def _validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
+    """Return sentences for runs beyond the validity of their laws; other warnings are among the notes of the run."""
     d, found = run.diagnostics, []
     if d.ratio_outside:
         found.append(
@@ -276,7 +301,7 @@ def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
             " laws are made for impacts that nothing drives on"
         )
     found += beyond(run)
-    energy = _energy(run) or {}
+    energy = _energy_balance(run) or {}
     known = not run.source.rigid  # what blows take is told nowhere else
     if known and abs(energy.get("not_told_apart", 0.0)) > OFF * max(abs(energy.get("clearances", 0.0)), 1e-300):
         found.append(
@@ -287,12 +312,12 @@ def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
 
 
 def beyond(run: Result) -> list[str]:
-    """A sentence for each limit that a film of the run is beyond; none where no joint has a film."""
-    return [note for joint in run.source.clearances if joint.film for note in _beyond(run, joint)]
+    """Return a sentence for each limit of validity that a film of the run exceeds; empty without films."""
+    return [note for joint in run.source.clearances if joint.film for note in _exceeded_limits(run, joint)]
 
 
-def _beyond(run: Result, joint: ClearanceInfo) -> Iterator[str]:
-    """Where a film's law says that it is good for less than it was asked; of a law that is not known nothing."""
+def _exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]:
+    """Yield a sentence for each limit that the film of a joint exceeds; nothing for an unknown law."""
     law = _film_law(run.source, joint)
     if law is None:
         return
@@ -308,7 +333,7 @@ def _beyond(run: Result, joint: ClearanceInfo) -> Iterator[str]:
     if most > law.limits.epsilon:
         where = f"at {100 * deep:.3g} % of the samples" if deep > 0.0 else "between samples"
         yield f"{joint.name}: {where} ε is over {law.limits.epsilon:g}, beyond {law.name}; it reaches {most:.4g}"
-    share = _squeezed(run, joint) if law.limits.slow_squeeze else 0.0
+    share = _fast_squeeze_fraction(run, joint) if law.limits.slow_squeeze else 0.0
     if share > 0.0:
         yield (
             f"{joint.name}: at {100 * share:.3g} % of the samples on the film |ε̇| is over half the surfaces' mean"
@@ -317,7 +342,7 @@ def _beyond(run: Result, joint: ClearanceInfo) -> Iterator[str]:
 
 
 def _film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
-    """The law that the C of a joint's film calls."""
+    """Return the law that the C of a joint's film calls; None if it is not known."""
     from gudgeon.generator.kinds.laws.law import called
 
     # without the "_": runs that were saved before names of a file ended in one
@@ -328,14 +353,16 @@ def _film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
 
 
 def _l_over_d(run: Result, joint: ClearanceInfo) -> float:
-    """Length over diameter of the journal."""
+    """Return length over diameter of the journal."""
     bearing = run.source.slots[joint.constants["R_i"]].address.rpartition(".")[0]
     length = run.p[run.source.place[f"{bearing}.length"]]
     return float(length / (2.0 * run.p[joint.constants["R_j"]]))
 
 
-def _squeezed(run: Result, joint: ClearanceInfo) -> float:
-    """Share of the samples on the film at which its squeezing is not slow beside its turning."""
+def _fast_squeeze_fraction(run: Result, joint: ClearanceInfo) -> float:
+    """Return the fraction of the samples on the film at which |ε̇| is not small next to the mean rotation of the
+    surfaces.
+    """
     sides = [run.source.bodies[body].name for body in (joint.first, joint.second) if body >= 0]
     turning = 0.5 * np.abs(sum(run[f"{name}.omega"] for name in sides))
     c = float(run.p[joint.clearance])

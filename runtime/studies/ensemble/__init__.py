@@ -1,1 +1,1 @@
-"""`gudgeon study`: a file of many runs as blocks on disk, and what was measured of them as one Dataset."""
+"""Run the ensembles of a study file in blocks on disk, and collect the measures in one Dataset: `gudgeon study`."""

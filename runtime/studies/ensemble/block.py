@@ -1,4 +1,4 @@
-"""A block of a study's runs: what a process is given, what it runs, what is left of it. Everything can be pickled."""
+"""Run one block of a study's runs: the job that a process receives, its execution, and the picklable result."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is asked of every run."""
+    """Requested outputs and settings of every run of a study."""
 
     t_end: Expr | None
     output: Expr | None
@@ -52,7 +52,9 @@ class Wanted:
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Runs of one scene with their numbers, (n,) each; `relative` and `absolute` say how far some are off."""
+    """Runs of one scene with their parameters, (n,) each; `relative` and `absolute` are deviations of perturbed
+    starts.
+    """
 
     mechanism: str
     scene: str
@@ -66,12 +68,12 @@ class Job:
     absolute: Mapping[str, Array]
     wanted: Wanted
     threads: int | None
-    later: int = 0  # runs of the same scene behind these
+    later: int = 0  # runs of the same scene in later blocks
 
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """What is left of n runs; `t` is (N,) where all that began have the same times, else (n, N)."""
+    """Results of n runs; `t` is (N,) if all runs that began have the same times, else (n, N)."""
 
     number: int
     first: int
@@ -84,25 +86,28 @@ class Block:
 
     @property
     def nbytes(self) -> int:
-        """Memory of its arrays."""
+        """Memory of the arrays, bytes."""
         return sum(array.nbytes for array in (self.t_last, self.t, *self.measures.values(), *self.series.values()))
 
 
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
-    """Run, measure, let go; without a simulation load it. KeyboardInterrupt where Ctrl-C ended a run."""
+    """Run the runs of a job, measure them and return the results; without a simulation load it.
+
+    Raises KeyboardInterrupt if Ctrl-C ended a run.
+    """
     simulation = simulation or loaded(job.mechanism, job.scene, job.overrides, job.sha256)
     table = Table(simulation, job)
     failures = [table.bad.get(i, "") for i in range(job.n)]
     good = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
-    found = _Found(job, table)
+    found = _Collector(job, table)
     with guesses(simulation.source, job.first) as off, followed_by(job.later):
         try:
             if len(good):
-                found.take(good, _run(simulation, job, table, good, progress), failures)
+                found.take(good, _run_batch(simulation, job, table, good, progress), failures)
         except InputError:  # of one run, as a rule; alone it says which
             for i in good:
                 try:
-                    found.take(np.array([i]), _run(simulation, job, table, np.array([i]), None), failures)
+                    found.take(np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures)
                 except InputError as error:
                     failures[i] = str(error)
     found.notes.append(off)
@@ -111,28 +116,31 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
 
 
 class Table:
-    """Numbers of all runs of a job, and what follows from them: end, samples, step; why some cannot begin."""
+    """Parameters of all runs of a job, with their ends, outputs, steps and windows, and reasons why some cannot
+    begin.
+    """
 
     def __init__(self, simulation: Simulation, job: Job) -> None:
+        """Evaluate the parameters and settings of all runs of a job."""
         self.source, self.compiled, wanted = simulation.source, simulation.compiled, job.wanted
         self.bad: dict[int, str] = {}
         self.columns = {key: own for name, own in job.columns.items() if (key := key_of(self.source, name))}
-        self.p, errors = self._numbers(job.n)
-        if off := self._off(job):
+        self.p, errors = self._prepare_parameters(job.n)
+        if off := self._perturbed_parameters(job):
             self.columns |= off
-            self.p, errors = self._numbers(job.n)
+            self.p, errors = self._prepare_parameters(job.n)
         self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
-        self.t_end = self._ends(wanted.t_end)
+        self.t_end = self._end_times(wanted.t_end)
         known = {"t_end": self.t_end}
-        self.output = self._outputs(wanted.output, known)
+        self.output = self._output_counts(wanted.output, known)
         self.step: Array | None = None
         if wanted.step is not None and self.source.degrees_of_freedom:
             self.step = of_runs(self.source, wanted.step, self.p, known)
-            self._refuse("step", self.step)
-        self.spans = self._windows(wanted.windows, known)
+            self._mark_impossible("step", self.step)
+        self.spans = self._evaluate_windows(wanted.windows, known)
 
-    def _off(self, job: Job) -> dict[str, Array]:
-        """The numbers of perturbed starts: a share of where they are, and so much, away from there."""
+    def _perturbed_parameters(self, job: Job) -> dict[str, Array]:
+        """Return the parameters of perturbed starts by address: p (1 + relative) + absolute, (n,) each."""
         place, found = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
         for name in dict.fromkeys((*job.relative, *job.absolute)):
             if (slot := slot_of(self.source, name)) is None:
@@ -142,11 +150,11 @@ class Table:
             found[key] = found.get(key, base) + by  # another ensemble may spell it otherwise
         return found
 
-    def _numbers(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
-        """p of all runs, and what is wrong with it; a number that is none is left out, and its run is bad."""
+    def _prepare_parameters(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
+        """Return p of all runs and the errors by run; a value that is not finite is left out, and its run is bad."""
         rows: list[dict[str, float | str]] = [{} for _ in range(n)]
         for name, own in self.columns.items():
-            for i, value in enumerate(map(_plain, own)):
+            for i, value in enumerate(map(_as_python_value, own)):
                 if isinstance(value, str) or math.isfinite(value):
                     rows[i][name] = value
                 else:
@@ -155,8 +163,8 @@ class Table:
         p, _, errors = prepare_sets(self.compiled, given, is_given, False)
         return p, errors
 
-    def _windows(self, windows: Mapping[str, tuple[Expr | None, ...]], known: Mapping[str, Array]) -> Spans:
-        """Begin and end of each run's windows; one that lies nowhere in its run is what the run fails of."""
+    def _evaluate_windows(self, windows: Mapping[str, tuple[Expr | None, ...]], known: Mapping[str, Array]) -> Spans:
+        """Return begin and end of each run's windows; a window outside its run makes the run bad."""
         found: dict[str, tuple[Array | None, ...]] = {}
         for name, ends in windows.items():
             own = [None if expr is None else of_runs(self.source, expr, self.p, known) for expr in ends]
@@ -169,27 +177,30 @@ class Table:
             found[name] = tuple(own)
         return found
 
-    def _refuse(self, name: str, values: Array) -> None:
+    def _mark_impossible(self, name: str, values: Array) -> None:
+        """Mark the runs whose values are not possible as bad."""
         wrong, expected = impossible(name, values)
         for i in np.flatnonzero(wrong).tolist():
             self.bad.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
 
-    def _ends(self, expr: Expr | None) -> Array:
+    def _end_times(self, expr: Expr | None) -> Array:
+        """Return the end time of each run, (n,), s."""
         if expr is not None:
             found = of_runs(self.source, expr, self.p, {})
-            self._refuse("t_end", found)
+            self._mark_impossible("t_end", found)
             return found
-        return self._of_scene(lambda p: scene_end(self.source, p))
+        return self._from_scene(lambda p: scene_end(self.source, p))
 
-    def _outputs(self, expr: Expr | None, more: Mapping[str, Array]) -> Array:
-        """Intervals of output of each run: an expression is rounded to a whole number."""
+    def _output_counts(self, expr: Expr | None, more: Mapping[str, Array]) -> Array:
+        """Return the number of output intervals of each run, (n,); an expression is rounded to a whole number."""
         if expr is None:
-            return self._of_scene(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
+            return self._from_scene(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
         found = np.rint(of_runs(self.source, expr, self.p, more))
-        self._refuse("output", found)
+        self._mark_impossible("output", found)
         return found
 
-    def _of_scene(self, value: Any) -> Array:
+    def _from_scene(self, value: Any) -> Array:
+        """Return a value that the scene determines from p for each run, (n,); an error makes the run bad."""
         found = np.full(len(self.p), np.nan)
         for i in range(len(self.p)):
             try:
@@ -200,22 +211,23 @@ class Table:
         return found
 
 
-def _plain(value: Any) -> float | str:
+def _as_python_value(value: Any) -> float | str:
+    """Return a Python float or text from an entry of an array."""
     return value if isinstance(value, str) else float(value)
 
 
-def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
-    """The batch of some runs of a job."""
+def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
+    """Run some runs of a job and return their batch."""
     wanted, ends, counts = job.wanted, table.t_end[runs], table.output[runs].astype(int)
     spans = None if wanted.keep else sampled(wanted.measures, table.spans, runs)
     alike = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
     if not alike:
         output = [np.linspace(0.0, end, k + 1) for end, k in zip(ends, counts, strict=True)]
-        output = output if spans is None else [_read(t, *own) for t, *own in zip(output, *spans, strict=True)]
+        output = output if spans is None else [_times_to_store(t, *own) for t, *own in zip(output, *spans, strict=True)]
     same_end = len(set(ends.tolist())) == 1
     t_end: Any = None if not alike else float(ends[0]) if same_end else ends
-    parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
+    parameters: Any = {name: list(map(_as_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
     origin, lookers = of_steps(wanted.measures, source), rubs_of(wanted.measures, source)
     common: dict[str, Any] = {
@@ -243,15 +255,16 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     return batch
 
 
-def _read(t: Array, begin: float, end: float) -> Array:
-    """Samples of a run from `begin` to `end`, its start, and its end, to which it goes."""
+def _times_to_store(t: Array, begin: float, end: float) -> Array:
+    """Return the sample times within [begin, end], and the start and end of the run."""
     return t[(t == 0.0) | (t == t[-1]) | within(t, begin, end)]
 
 
-class _Found:
-    """Measures and series of the runs of a job, NaN until they are taken."""
+class _Collector:
+    """Collector of measures and series of the runs of a job; NaN for runs without results so far."""
 
     def __init__(self, job: Job, table: Table) -> None:
+        """Create empty measures for all runs of a job."""
         self.job, self.table, n = job, table, job.n
         self.measures = {one.name: np.full(n, np.nan) for one in job.wanted.measures}
         self.t_last = np.full(n, np.nan)
@@ -259,7 +272,7 @@ class _Found:
         self.notes: list[Mapping[str, Note]] = []
 
     def take(self, runs: Array, batch: Batch, failures: list[str]) -> None:
-        """What is wanted of a batch of these runs; of one that failed only how far it came."""
+        """Add the measures and series of a batch of these runs; of a failed run only its end."""
         spans: Spans = {
             name: tuple(None if end is None else end[runs] for end in ends) for name, ends in self.table.spans.items()
         }
@@ -278,12 +291,12 @@ class _Found:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
     def add(self, values: Mapping[str, Array], failures: list[str]) -> None:
-        """Measures of all runs that are known by now; of runs that failed there is none."""
+        """Add further measures of all runs, and set those of failed runs to NaN."""
         for name, own in (self.measures | dict(values)).items():
             self.measures[name] = np.where([not told for told in failures], own, np.nan)
 
     def block(self, failures: list[str]) -> Block:
-        """All of it."""
+        """Return the collected results as a Block."""
         job, keep = self.job, self.job.wanted.keep
         N = max((asked.shape[-1] for _, asked, _ in self.kept), default=0)
         t = np.full((job.n, N), np.nan)
@@ -303,7 +316,9 @@ class _Found:
 
 
 def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
-    """An InputError at its place for numbers, and for a joint that has a contour in no scene."""
+    """Return the wear model of a study. Raises InputError for bad values, and for a joint without a contour in any
+    scene.
+    """
     able = {one.joint for source in sources for one in source.contours}
     for joint in wear.joints:
         if joint not in able:
@@ -328,9 +343,9 @@ def worn(
     common: dict[str, Any],
     progress: Progress | None,
 ) -> tuple[dict[str, Array], Progress | None]:
-    """The contours that the rounds of wear leave of the runs, by joint; none where the scene has none that wears.
+    """Run the rounds of wear; return the contours by joint, and the progress function for the measured runs.
 
-    And what is left of the progress for the runs themselves: each round has as much of it.
+    There are no contours if no joint of the scene wears. Each round takes an equal part of the progress.
     """
     able = {one.joint for one in simulation.source.contours}
     if wearing is None or not able.intersection(wearing.joints):

@@ -1,4 +1,4 @@
-"""What runs say of the claims of their file: two tables, in the study's folder as JSON and CSV."""
+"""Judge the claims of a study file by its runs: two tables, in the study's folder as JSON and CSV."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ UNNAMED = ""  # the ensemble of runs that are in none
 
 
 class Claimed(NamedTuple):
-    """Two tables, a row for each claim and ensemble.
+    """Two tables of judged claims, with a row for each claim and ensemble.
 
     numbers: claim, figure, says, part, at, place (of its scene along each dimension, JSON), measure, unit, printed,
-    ensemble, n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number that it
-    stands beside), beside, note, heading (under which a page has it). trends: claim, figure, says, heading,
-    ensemble, verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (what this one
-    by itself would say), probability (the least of what it consists of) and its interval low to high, chance (that one
-    run of each scene shows all of it), agreed (whether no ensemble rules out what another one carries), note.
+    ensemble, n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number in
+    `beside`), beside, note, heading (under which a page shows it). trends: claim, figure, says, heading, ensemble,
+    verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (verdict of this
+    ensemble), probability (the least of its checks) and its interval low to high, chance (that one run of each scene
+    shows all checks), agreed (whether no ensemble rules out the verdict of another), note.
     """
 
     numbers: pandas.DataFrame
@@ -49,7 +49,9 @@ class Claimed(NamedTuple):
     source: str
 
     def totals(self) -> list[str]:
-        """In a line each: how many trends hold, those under a heading apart, and how far printed numbers are off."""
+        """Return lines with the number of trends by verdict, for each heading, and with the deviation of printed
+        numbers.
+        """
         told = []
         each = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
         headings = list(each["heading"]) if "heading" in each else [UNNAMED] * len(each)
@@ -61,12 +63,14 @@ class Claimed(NamedTuple):
             told.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
-            told.append(_off_by(printed))
+            told.append(_deviation_text(printed))
         return told
 
 
-def _off_by(printed: pandas.DataFrame) -> str:
-    """How far printed numbers are off, of those that could be computed; from a printed 0 nothing is off by a share."""
+def _deviation_text(printed: pandas.DataFrame) -> str:
+    """Return a sentence on the deviation from printed numbers, of those that were computed; a printed 0 has no relative
+    deviation.
+    """
     each = printed.groupby("claim")
     off = printed["deviation"].abs().groupby(printed["claim"]).median().dropna()
     computed = int(each["median"].count().gt(0).sum())
@@ -82,16 +86,16 @@ def _off_by(printed: pandas.DataFrame) -> str:
 
 
 def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
-    """Judge all claims by the finished runs; a folder whose file makes none has no such files. Raises OutputError."""
+    """Judge all claims by the finished runs and write the tables; without claims remove them. Raises OutputError."""
     if not (known.numbers or known.trends):
         for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs = _Finished(plans, study, names_of(plans).values)
+    runs = _FinishedRuns(plans, study, names_of(plans).values)
     cells = {str(one.claim.name): one.cell for one in known.numbers}
     rows = {
-        "numbers": [row for one in known.numbers for row in _of_number(one, runs, cells)],
-        "trends": [row for one in known.trends for row in _of_trend(one, runs)],
+        "numbers": [row for one in known.numbers for row in _number_rows(one, runs, cells)],
+        "trends": [row for one in known.trends for row in _trend_rows(one, runs)],
     }
     with written(folder / FILE) as file:
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
@@ -101,7 +105,7 @@ def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None
 
 
 def read_claims_of(folder: Path) -> Claimed:
-    """What write_claims left. Raises GudgeonError where there is nothing."""
+    """Return the tables that write_claims wrote. Raises GudgeonError if there are none."""
     document = claims_json(folder)
     if document is None:
         raise GudgeonError("the file of this study makes no claims")
@@ -110,7 +114,7 @@ def read_claims_of(folder: Path) -> Claimed:
 
 
 def claims_json(folder: Path) -> dict[str, Any] | None:
-    """The document of a folder; None where its study claims nothing."""
+    """Return the JSON document of a folder; None if its study makes no claims."""
     try:
         data = read_regular(folder / FILE)
         found = None if data is None else json.loads(data)
@@ -120,6 +124,7 @@ def claims_json(folder: Path) -> dict[str, Any] | None:
 
 
 def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
+    """Return the two tables from rows of JSON."""
     import pandas
 
     found = [pandas.DataFrame(rows[name]) for name in TABLES]
@@ -132,28 +137,30 @@ def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
     return found
 
 
-class _Finished:
-    """Measures of a study's runs, cell by cell and ensemble by ensemble."""
+class _FinishedRuns:
+    """Measures of a study's runs by cell and ensemble."""
 
     def __init__(self, plans: Plans, study: Study, written: Mapping[str, Mapping[str, tuple[str, ...]]]) -> None:
+        """Store plans, finished study and values as written in the file."""
         self.plans, self.study, self.written = plans, study, written
         self.held: dict[tuple[str, str], Array] = {}
 
     def ensembles(self, cells: list[Cell]) -> list[str]:
-        """Names of those that any of these cells has, or UNNAMED."""
+        """Return the names of the ensembles that any of these cells has, or [UNNAMED]."""
         names = [name for part in dict.fromkeys(cell.part for cell in cells) for name in self._named(part)]
         return list(dict.fromkeys(names)) or [UNNAMED]
 
     def own(self, cell: Cell, ensembles: list[str]) -> bool:
-        """Whether a cell has runs of its own for each of these."""
+        """Return whether a cell has separate runs for each of these ensembles."""
         return len(ensembles) < 2 or set(ensembles) <= set(self._named(cell.part))
 
     def _named(self, part: str) -> list[str]:
+        """Return the names of the ensembles of a part."""
         plan = self.plans.each[part]
         return [str(name) for one in plan.coordinates if one.name == "ensemble" for name in one.values]
 
     def values(self, cell: Cell, measure: str, ensemble: str) -> Array:
-        """(n,); of a cell without this ensemble all that it has."""
+        """Return a measure of the runs of a cell in an ensemble, (n,); without this ensemble, of all its runs."""
         plan, key = self.plans.each[cell.part], (cell.part, measure)
         if key not in self.held:
             own = self.study.parts[cell.part] if self.plans.named else self.study
@@ -165,7 +172,8 @@ class _Finished:
         return np.asarray(found).ravel()
 
 
-def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
+def _number_rows(known: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
+    """Yield the row of a published number for each ensemble."""
     claim = known.claim
     for ensemble in runs.ensembles([known.cell]):
         values = runs.values(known.cell, str(claim.measure), ensemble)
@@ -182,27 +190,27 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
             "figure": claim.figure,
             "says": claim.says,
             "part": known.cell.part,
-            "at": _at(plan, known, runs.written[known.cell.part]),
-            "place": json.dumps(dict(zip(_dims(plan), known.cell.index, strict=True))),
+            "at": _describe_cell(plan, known, runs.written[known.cell.part]),
+            "place": json.dumps(dict(zip(_cell_dimensions(plan), known.cell.index, strict=True))),
             "measure": str(claim.measure),
             "unit": known.unit,
-            "printed": _plain(known.printed),
+            "printed": _finite_or_none(known.printed),
             "ensemble": ensemble,
             "n": len(own),
-            "q25": _plain(quartiles[0]),
-            "median": _plain(quartiles[1]),
-            "q75": _plain(quartiles[2]),
-            "deviation": _plain(off),
+            "q25": _finite_or_none(quartiles[0]),
+            "median": _finite_or_none(quartiles[1]),
+            "q75": _finite_or_none(quartiles[2]),
+            "deviation": _finite_or_none(off),
             "beside": str(claim.beside or ""),
             "note": claim.note,
             "heading": claim.heading,
         }
 
 
-def _at(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) -> str:
-    """Where a number's cell lies, as the claim or the file writes it: "scene dry, c 0.3 mm"."""
+def _describe_cell(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) -> str:
+    """Return the cell of a number in words, as the claim or the file writes it: "scene dry, c 0.3 mm"."""
     told, own = [], {str(name): as_people_write(str(text)) for name, text in known.claim.selection.at.items()}
-    for name, k in zip(_dims(plan), known.cell.index, strict=True):
+    for name, k in zip(_cell_dimensions(plan), known.cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
             said = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
@@ -210,12 +218,13 @@ def _at(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) 
     return ", ".join(told)
 
 
-def _dims(plan: Plan) -> list[str]:
-    """Those that a cell has a place along."""
+def _cell_dimensions(plan: Plan) -> list[str]:
+    """Return the dimensions of a plan along which cells lie: all but ensemble and start."""
     return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
-def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
+def _trend_rows(known: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
+    """Yield the row of a trend for each ensemble."""
     claim = known.claim
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
     if claim.not_computed:
@@ -236,13 +245,13 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     again = [cell for cell in cells if not runs.own(cell, ensembles)]
     for ensemble in ensembles:
         own = {
-            cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
+            cell: {name: runs.values(cell, name, ensemble) for name in measures if _has_measure(runs, cell, name)}
             for cell in cells
         }
         each[ensemble] = judged(known.checks, own, certain, again)
     whole, agreed = together(list(each.values()))
     for ensemble, one in each.items():
-        odds = {name: _plain(getattr(one, name)) for name in ODDS}
+        odds = {name: _finite_or_none(getattr(one, name)) for name in ODDS}
         yield common | {
             "ensemble": ensemble,
             "verdict": whole.verdict,
@@ -253,9 +262,11 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
         }
 
 
-def _has(runs: _Finished, cell: Cell, measure: str) -> bool:
+def _has_measure(runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
+    """Return whether the part of a cell has a measure."""
     return any(one.name == measure for one in runs.plans.each[cell.part].wanted.measures)
 
 
-def _plain(value: float | None) -> float | None:
+def _finite_or_none(value: float | None) -> float | None:
+    """Return a finite number as a float, anything else as None, for JSON."""
     return None if value is None or not math.isfinite(value) else float(value)

@@ -1,4 +1,4 @@
-"""What a study will take: whether disk and memory have room, runs, blocks, bytes, and seconds by runs on trial."""
+"""Estimate the needs of a study: disk, memory, numbers of runs and blocks, and seconds from trial runs."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from gudgeon.studies.ensemble.measures import series_of
 from gudgeon.studies.ensemble.plan import Part, Plan, Plans
 
 READ = 3  # times a series is there while it is measured: kept, read, and what is between
-OF_A_BLOCK = 250  # bytes, about, of what is noted of a block while a study goes on
+OF_A_BLOCK = 250  # bytes, about, of the notes of a block during a study
 TRIALS = 4  # runs a thread of each part, evenly over the part
-FIRST = 1.0  # s; what takes less is made again, for most of a first time is not its runs'
+FIRST = 1.0  # s; a shorter trial is repeated, since most of a first time is start-up
 
 
 def check_needs(plans: Plans, folder: Path, threads: int | None, here: bool) -> None:
-    """OutputError where blocks and datasets are larger than the disk has room for, beside what is there already.
+    """Raise OutputError if blocks and datasets do not fit on the disk in addition to existing ones.
 
-    MemoryError where notes of all blocks or, of runs that go on `here`, the samples of those at work do not fit.
+    Raises MemoryError if notes of all blocks, or samples of runs in this process (`here`), do not fit into memory.
     """
     cores = threads or available_threads()
     for plan in plans.each.values():
@@ -39,17 +39,17 @@ def check_needs(plans: Plans, folder: Path, threads: int | None, here: bool) -> 
         for part in plan.parts if here else ():
             _check_blocks(plan, part, cores)
     size = sum(disk_bytes(plan) for plan in plans.each.values())
-    check_disk(folder, size - _there(folder), f"the study, {plans.runs} runs,")
+    check_disk(folder, size - _existing_bytes(folder), f"the study, {plans.runs} runs,")
 
 
 def disk_bytes(plan: Plan) -> float:
-    """Of all blocks and the dataset, at least: measures, ends of runs and the series that are kept."""
+    """Return the least size of all blocks and the dataset, bytes: measures, ends of runs and stored series."""
     numbers, kept = len(plan.wanted.measures) + 2, len(plan.wanted.keep)
     return sum(8.0 * plan.each * (2 * numbers + kept * (part.samples + part.most)) for part in plan.parts)
 
 
 def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
-    """Of blocks that are under way at once: states of the runs that go on, series and times of all."""
+    """Raise MemoryError if the states and series of the blocks that run at the same time do not fit."""
     compiled, most = part.simulation.compiled, min(cores, SIDE_BY_SIDE, plan.count_of_blocks)
     names = series_of(plan.wanted.measures, plan.wanted.keep, compiled.source)
     state = sample_bytes(compiled) + evaluated_bytes(compiled, parts_of(compiled.source, names))
@@ -58,8 +58,8 @@ def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
     check_memory(size * part.samples, f"{runs} of {part.samples:.0f} samples, under way at once,")
 
 
-def _there(folder: Path) -> int:
-    """Bytes of blocks and datasets that are there: of this study, which need not be made again, or to be removed."""
+def _existing_bytes(folder: Path) -> int:
+    """Return the bytes of existing blocks and datasets in a folder, which are kept or replaced."""
     found = 0
     for place, _, names in os.walk(folder):
         for name in names:
@@ -70,7 +70,7 @@ def _there(folder: Path) -> int:
 
 @dataclass(frozen=True)
 class Estimate:
-    """All of a study, as far as a trial tells."""
+    """Size of a study and its run time, extrapolated from trial runs."""
 
     runs: int
     blocks: int
@@ -82,15 +82,15 @@ class Estimate:
 
 
 def estimate(plan: Plan, threads: int | None) -> Estimate:
-    """Make a few runs of each part, measure them, let them go."""
+    """Return the estimate of a study from a few runs of each part, which are not stored."""
     count = min(plan.each, TRIALS * (threads or available_threads()))
     runs = np.unique(np.linspace(0, plan.each - 1, count).astype(int))
     seconds, size, failures = 0.0, 0, list[str]()
     for k, part in enumerate(plan.parts):
         job = plan.job_of(0, k, runs, threads)
-        block, taken = _timed(job, part.simulation)
+        block, taken = _time_block(job, part.simulation)
         if taken < FIRST:
-            block, taken = _timed(job, part.simulation)
+            block, taken = _time_block(job, part.simulation)
         seconds += taken * plan.each / len(runs)
         numbers = len(plan.wanted.measures) + 3 + (len(plan.wanted.keep) + 1) * block.t.shape[-1]
         more = max(0, len(image(block, plan.digest)) - 8 * numbers * len(runs))  # of a file, beside its numbers
@@ -100,7 +100,7 @@ def estimate(plan: Plan, threads: int | None) -> Estimate:
     return Estimate(plan.runs, len(plan.blocks), size, seconds, len(failures), len(runs) * len(plan.parts), reasons)
 
 
-def _timed(job: Job, simulation: Simulation) -> tuple[Block, float]:
-    """A block and the seconds that it took."""
+def _time_block(job: Job, simulation: Simulation) -> tuple[Block, float]:
+    """Run a job and return its block and the seconds that it took."""
     before = time.perf_counter()
     return run_block(job, simulation=simulation), time.perf_counter() - before

@@ -1,7 +1,7 @@
-"""Measures that follow a neighbour of each run: Lyapunov exponents, until when a run may be believed, kinds of motion.
+"""Measure neighbouring trajectories of runs: Lyapunov exponents, predictability horizons, kinds of motion.
 
-What they are of is `run`, all of the motion, or a section: an event of the file, or a period by each run's own numbers.
-Measures of one section and window share what was followed.
+A measure is of `run`, the whole motion, or of a section: an event of the file, or a period by each run's own
+parameters. Measures of one section and window share one computation.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ KINDS_TOLD = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undeci
 
 
 def check_followed(study: StudyFile, source: KernelSource) -> None:
-    """An InputError at its place for a section that a scene cannot have, or for what says nothing of the runs."""
+    """Raise an InputError for a section that a scene cannot have, or for a measure that a study cannot provide."""
     for one in (one for one in study.measures if one.statistic in FOLLOWED):
         where, owner = one.of.where, f"measures.{one.name}"
         if study.wear is not None:
@@ -60,10 +60,12 @@ def check_followed(study: StudyFile, source: KernelSource) -> None:
 
 
 def _is_event(measure: Measure, source: KernelSource) -> bool:
+    """Return whether the section of a measure is an event of the scene."""
     return measure.of in [event.name for event in source.events]
 
 
 def _check_period(measure: Measure, source: KernelSource) -> None:
+    """Raise an InputError unless the section of a measure is a period: an expression of time."""
     from gudgeon.generator.study.spec import Written
 
     written = Written(parse(measure.of, measure.of.where), measure.of)
@@ -78,16 +80,17 @@ def _check_period(measure: Measure, source: KernelSource) -> None:
 def follow(
     simulation: Simulation, job: Job, table: Table, t_last: Array, failures: list[str], progress: Progress | None
 ) -> dict[str, Array]:
-    """Those measures of all runs that have not failed, (n,) by name; a neighbour that ends is why a run has failed.
+    """Return the measures of neighbouring trajectories of all runs that have not failed, (n,) by name.
 
-    `t_last` (n,) s: where each run ended, at an event or as it was meant to.
+    `t_last` (n,) s: the end of each run, at an event or as requested. The failure of a neighbour is entered in
+    `failures`.
     """
     measures = [one for one in job.wanted.measures if one.statistic in FOLLOWED]
     found = {one.name: np.full(job.n, np.nan) for one in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return found
     runs = [i for i in range(job.n) if not failures[i]]
-    each = _Each(simulation, job, table, t_last, progress)
+    each = _NeighbourComputation(simulation, job, table, t_last, progress)
     with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
         for i, own in zip(runs, pool.map(lambda i: each(i, measures), runs), strict=True):
             if isinstance(own, str):
@@ -98,12 +101,13 @@ def follow(
     return found
 
 
-class _Each:
-    """One run's neighbour, section by section."""
+class _NeighbourComputation:
+    """Computation of the neighbouring trajectories of one run, section by section."""
 
     def __init__(
         self, simulation: Simulation, job: Job, table: Table, t_last: Array, progress: Progress | None
     ) -> None:
+        """Store the job, its parameters and the ends of the runs."""
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
         self.error = RTOL if job.wanted.rtol is None else job.wanted.rtol
         self.rtol = neighbours_rtol(simulation.source, job.wanted.rtol)
@@ -111,7 +115,7 @@ class _Each:
         self.t_last = np.where(is_cut, t_last, table.t_end)
 
     def __call__(self, i: int, measures: Sequence[Measure]) -> dict[str, float] | str:
-        """Values by name, or why there are none."""
+        """Return the measures of run i by name, or the reason why there are none."""
         followed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
         with guesses(self.simulation.source, self.job.first):  # of the run itself they are told already
@@ -120,13 +124,15 @@ class _Each:
                     key = (str(one.of), one.window)
                     if key not in followed:
                         followed[key] = self._lyapunov(i, one)
-                    values[one.name] = _value(one.statistic, followed[key], self.error)
+                    values[one.name] = _statistic_value(one.statistic, followed[key], self.error)
             except GudgeonError as error:
                 return f"{one.name}: {error}"
         return values
 
     def _lyapunov(self, i: int, measure: Measure) -> Lyapunov | None:
-        """None: the run ended before the window began, or sooner than it could return."""
+        """Return the exponent of run i for the section of a measure; None if the run ended before the window or a
+        return.
+        """
         table, wanted, source = self.table, self.job.wanted, self.simulation.source
         begin, end = (None if one is None else float(one[i]) for one in table.spans.get(measure.window, (None, None)))
         last, section = float(self.t_last[i]), self._section(i, measure)
@@ -145,10 +151,11 @@ class _Each:
             rtol=self.rtol,
             parameters=parameters,
             step=None if table.step is None else float(table.step[i]),
-            progress=self._tell,
+            progress=self._report_progress,
         )
 
     def _section(self, i: int, measure: Measure) -> str | float | None:
+        """Return the section of a measure for run i: None for the whole run, an event, or a period (s)."""
         if measure.of == WHOLE:
             return None
         if _is_event(measure, self.simulation.source):
@@ -156,13 +163,14 @@ class _Each:
         expr, known = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
         return float(of_runs(self.simulation.source, expr, self.table.p, known)[i])
 
-    def _tell(self, fraction: float, text: str) -> None:
-        """Who asked may end it; the runs themselves are done."""
+    def _report_progress(self, fraction: float, text: str) -> None:
+        """Report progress, so that the caller may cancel; the runs themselves are finished."""
         if self.progress:
             self.progress(1.0, text)
 
 
-def _value(statistic: str, found: Lyapunov | None, error: float) -> float:
+def _statistic_value(statistic: str, found: Lyapunov | None, error: float) -> float:
+    """Return the value of a statistic from an exponent; NaN for None."""
     if found is None:
         return math.nan
     if statistic == "believable":

@@ -1,4 +1,4 @@
-"""The dataset of a finished study as one NetCDF-4 file, written block by block: it need not fit into memory."""
+"""Write the dataset of a finished study as one NetCDF-4 file, block by block, so that it need not fit into memory."""
 
 from __future__ import annotations
 
@@ -24,13 +24,14 @@ MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attrib
 
 
 def write_dataset(folder: StudyFolder) -> None:
-    """All blocks as `study.nc`. Raises OutputError; LookupError for a block that is not there."""
-    t, common = _times(folder)
+    """Write all blocks as `study.nc`. Raises OutputError, or LookupError for a missing block."""
+    t, common = _common_times(folder)
     with written(folder.path / DATASET, sync=True) as file:
-        _write(file, folder, t, common)
+        _write_blocks(file, folder, t, common)
 
 
 def _blocks(folder: StudyFolder) -> Iterator[Block]:
+    """Yield all blocks in order. Raises LookupError for a missing one."""
     for of in folder.plan.blocks:
         block = folder.read(of.number)
         if block is None:
@@ -38,20 +39,21 @@ def _blocks(folder: StudyFolder) -> Iterator[Block]:
         yield block
 
 
-def _joined(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Neighbours as one, as long as they are few bytes: what is written to a file at once takes little longer."""
+def _join_small_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Yield neighbouring small blocks joined to one, since a write costs about the same for any size."""
     waiting, held = list[Block](), 0
     for block in blocks:
         if waiting and (held > TOGETHER or block.t.shape[-1] != waiting[0].t.shape[-1]):
-            yield _as_one(waiting)
+            yield _concatenate_blocks(waiting)
             waiting, held = [], 0
         waiting.append(block)
         held += block.nbytes
     if waiting:
-        yield _as_one(waiting)
+        yield _concatenate_blocks(waiting)
 
 
-def _as_one(blocks: Sequence[Block]) -> Block:
+def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
+    """Return several blocks as one."""
     first = blocks[0]
     if len(blocks) == 1:
         return first
@@ -67,8 +69,8 @@ def _as_one(blocks: Sequence[Block]) -> Block:
     return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
 
 
-def _times(folder: StudyFolder) -> tuple[Array, bool]:
-    """Times of the samples where all runs have the same, (N,); else only as many as the longest run has."""
+def _common_times(folder: StudyFolder) -> tuple[Array, bool]:
+    """Return the sample times (N,) and True if all runs have the same; else NaN for the longest run and False."""
     common: Array | None = None
     alike, most = True, 0
     for block in _blocks(folder) if folder.plan.wanted.keep else ():
@@ -80,22 +82,23 @@ def _times(folder: StudyFolder) -> tuple[Array, bool]:
     return (common, True) if alike and common is not None else (np.full(most, np.nan), False)
 
 
-def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
+def _write_blocks(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
+    """Write the dataset to an open file."""
     h5py, plan = h5py_module(), folder.plan
     kinds: Counter[str] = Counter()
     first: dict[str, int] = {}
     notes: dict[str, Note] = {}
     with h5py.File(target, "w", libver=("earliest", "v110")) as file:
-        _about(file, plan)
+        _write_attributes(file, plan)
         scales = {one.name: one for one in plan.coordinates if one.over == (one.name,)}
         for one in [*scales.values(), *(one for one in plan.coordinates if one.name not in scales)]:
-            _coordinate(h5py, file, one)
+            _write_coordinate(h5py, file, one)
         if plan.wanted.keep:
             time = np.arange(len(t)) if not common else t
             told = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
-            _coordinate(h5py, file, Coordinate(told[0], (told[0],), time, *told[1:]))
-        variables = _variables(h5py, file, plan, len(t), common)
-        for block in _joined(_blocks(folder)):
+            _write_coordinate(h5py, file, Coordinate(told[0], (told[0],), time, *told[1:]))
+        variables = _create_variables(h5py, file, plan, len(t), common)
+        for block in _join_small_blocks(_blocks(folder)):
             _fill(variables, plan, block, common)
             notes = merged((notes, block.notes))
             for run, why in enumerate(block.failures, block.first):
@@ -103,27 +106,29 @@ def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> Non
                     kinds[kind := kind_of(why)] += 1
                     first.setdefault(kind, run)
         frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MOST]
-        lines = (*plan.notes, *(_noted(plan, note) for note in frequent))
+        lines = (*plan.notes, *(_format_note(plan, note) for note in frequent))
         file.attrs["notes"] = "\n".join(lines)[: MOST_TEXT // 4]
         file.attrs["failed"] = sum(kinds.values())
         file.attrs["failure_kinds"] = json.dumps(often := dict(kinds.most_common(MOST_KINDS)))
         file.attrs["failure_first"] = json.dumps([first[kind] for kind in often])
 
 
-def _noted(plan: Plan, note: Note) -> str:
-    """A note of runs in a line: how many have it, and one of them by what was varied."""
+def _format_note(plan: Plan, note: Note) -> str:
+    """Return a note as a line: number of runs that have it, and one of them by its coordinates."""
     at = dict(zip(plan.dims, np.unravel_index(note.run, plan.shape) if plan.shape else (), strict=True))
     own = (one for one in plan.coordinates if one.over and set(one.over) <= {*at} and one.over == one.over[:1])
-    values = [f"{one.name}={_said(one.values[at[one.over[0]]])}" for one in own][:MOST_COORDINATES]
+    values = [f"{one.name}={_format_value(one.values[at[one.over[0]]])}" for one in own][:MOST_COORDINATES]
     such = f" ({', '.join(values)})" if values else ""
     return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
 
 
-def _said(value: Any) -> str:
+def _format_value(value: Any) -> str:
+    """Return a value of a coordinate as text."""
     return str(value) if isinstance(value, str) else f"{value:.6g}"
 
 
-def _about(file: Any, plan: Plan) -> None:
+def _write_attributes(file: Any, plan: Plan) -> None:
+    """Write the attributes of the dataset."""
     import gudgeon
 
     source = plan.parts[0].simulation.source
@@ -141,11 +146,12 @@ def _about(file: Any, plan: Plan) -> None:
         file.attrs[name] = value
 
 
-def _coordinate(h5py: Any, file: Any, one: Coordinate) -> None:
+def _write_coordinate(h5py: Any, file: Any, one: Coordinate) -> None:
+    """Write a coordinate of the dataset."""
     values = np.asarray(one.values)
     kind = h5py.string_dtype() if values.dtype.kind in "OU" else values.dtype
     found = file.create_dataset(one.name, data=values.astype(object) if kind != values.dtype else values, dtype=kind)
-    _tell(found, one.unit, one.meaning)
+    _set_attributes(found, one.unit, one.meaning)
     if one.over == (one.name,):
         found.make_scale(one.name)
     else:
@@ -153,22 +159,24 @@ def _coordinate(h5py: Any, file: Any, one: Coordinate) -> None:
             found.dims[k].attach_scale(file[name])
 
 
-def _tell(found: Any, unit: str, meaning: str) -> None:
+def _set_attributes(found: Any, unit: str, meaning: str) -> None:
+    """Set unit and meaning of a variable."""
     if unit:
         found.attrs["units"] = unit
     if meaning:
         found.attrs["long_name"] = meaning
 
 
-def _variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bool) -> dict[str, Any]:
-    """Empty ones, over all dimensions."""
+def _create_variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bool) -> dict[str, Any]:
+    """Create the empty variables over all dimensions and return them by name."""
     found: dict[str, Any] = {}
 
     def add(name: str, over: tuple[str, ...], kind: Any, unit: str, told: str) -> None:
+        """Create one variable."""
         shape = tuple(len(file[dimension]) for dimension in over)
         more = {} if kind is not float else {"fillvalue": np.nan}
         found[name] = file.create_dataset(name, shape, dtype=kind, **more)
-        _tell(found[name], unit, told)
+        _set_attributes(found[name], unit, told)
         for k, dimension in enumerate(over):
             found[name].dims[k].attach_scale(file[dimension])
 
@@ -188,6 +196,7 @@ def _variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bool) -> 
 
 
 def _fill(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> None:
+    """Write the values of a block into the variables."""
     n = len(block.t_last)
     values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
     values |= block.series
@@ -197,20 +206,23 @@ def _fill(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> 
     for name, column in values.items():
         for at, rows in slabs(plan.shape, block.first, block.first + n):
             own = column[rows.start - block.first : rows.stop - block.first]
-            shape = _shape(plan.shape, at)
+            shape = _slice_shape(plan.shape, at)
             if column.ndim == 2:
                 variables[name][(*at, slice(0, column.shape[1]))] = own.reshape(*shape, column.shape[1])
             else:
                 variables[name][at] = own.reshape(shape) if shape or name == "failure" else own[0]
 
 
-def _shape(shape: tuple[int, ...], at: tuple[Any, ...]) -> tuple[int, ...]:
+def _slice_shape(shape: tuple[int, ...], at: tuple[Any, ...]) -> tuple[int, ...]:
+    """Return the lengths of the slices of an index into an array of this shape."""
     slices = (range(length)[one] for one, length in zip(at, shape, strict=True) if isinstance(one, slice))
     return tuple(len(one) for one in slices)
 
 
 def slabs(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple[Any, ...], slice]]:
-    """Boxes of an array of this shape that hold its elements first … last − 1 in C order, each with its elements."""
+    """Yield boxes of an array of this shape that contain its elements first … last − 1 in C order, each with its
+    elements.
+    """
     if not shape:
         yield (), slice(first, last)
         return

@@ -30,14 +30,18 @@ _CHUNK = 1 << 20
 
 
 class Study:
-    """A finished study in its folder; what is asked for is read from there."""
+    """A finished study in its folder, from which datasets and tables are read on request."""
 
     def __init__(
         self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None, whole: Study | None = None
     ) -> None:
+        """Open a study in a folder; `keeps` is a temporary folder to preserve, `whole` the study of which this is a
+        part.
+        """
         self.folder, self._keeps, self._whole = folder, keeps, whole
 
     def __repr__(self) -> str:
+        """Return mechanism, runs, dimensions and failures in one line."""
         own = self.dataset["t_last"].sizes
         sizes = " × ".join(f"{name} {size}" for name, size in own.items())
         failed = f", {self.failed} failed" if self.failed else ""
@@ -45,9 +49,9 @@ class Study:
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """Measures, kept series and `failure` over the dimensions of the study; read from the file as it is asked.
+        """Measures, stored series and `failure` over the dimensions of the study; read from the file on access.
 
-        Coordinates are what was varied, SI, with `units`; NaN is what a failed run has no value for.
+        Coordinates are the varied parameters, SI, with `units`. NaN: a failed run has no value.
         """
         import xarray
 
@@ -58,14 +62,14 @@ class Study:
 
     @property
     def parts(self) -> Mapping[str, Study]:
-        """Studies by the names that the file gives its parts; none, where it is one study."""
+        """Studies by the names of the file's parts; empty for a file without parts."""
         return {}
 
     @cached_property
     def claims(self) -> Claimed:
-        """What the file claims of the runs, judged by them: `claims.numbers` and `claims.trends`, two tables.
+        """Claims of the file, judged by the runs: `claims.numbers` and `claims.trends`, two tables.
 
-        Of a part those numbers that are about it. Raises GudgeonError where it claims nothing.
+        A part has the numbers about it. Raises GudgeonError for a file without claims.
         """
         if self._whole is None:
             return read_claims_of(self.folder)
@@ -74,50 +78,53 @@ class Study:
 
     @cached_property
     def names(self) -> Names:
-        """What people read in place of names and numbers."""
+        """Titles and values to display in place of names and numbers."""
         return read_names(self.folder) if self._whole is None else self._whole.names
 
     @property
     def tree(self) -> xarray.DataTree:
-        """The dataset as a tree of one node, or of a node for each part."""
+        """The dataset as a tree of one node, or with a node for each part."""
         import xarray
 
         return xarray.DataTree(self.dataset)
 
     @property
     def runs(self) -> int:
-        """How many there are."""
+        """Number of runs."""
         return int(self.dataset.attrs["runs"])
 
     @property
     def failed(self) -> int:
-        """How many did not come to their end; `dataset["failure"]` says why."""
+        """Number of runs that did not reach their end; `dataset["failure"]` has the reasons."""
         return int(self.dataset.attrs["failed"])
 
     @property
     def failures(self) -> dict[str, int]:
-        """What runs failed of, without their numbers, and how many of each; the most frequent first."""
+        """Kinds of failures, without the values of single runs, with the number of runs; the most frequent first."""
         return dict(json.loads(self.dataset.attrs["failure_kinds"]))
 
     @property
     def first_failures(self) -> dict[str, int]:
-        """The first run that failed of each of these, counted as `dataset["failure"].values.flat` does."""
+        """Number of the first failed run of each kind, in the order of `dataset["failure"].values.flat`."""
         return dict(zip(self.failures, json.loads(self.dataset.attrs.get("failure_first", "[]")), strict=False))
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is to be known of it, each once."""
+        """Notes on the study, without repetitions."""
         return tuple(filter(None, str(self.dataset.attrs["notes"]).split("\n")))
 
     @property
     def measures(self) -> tuple[str, ...]:
-        """Names of what was measured."""
+        """Names of the measures."""
         found, others = self.dataset, ("t_last", "failure")
         own = (name for name, one in found.data_vars.items() if one.dims == found["t_last"].dims)
         return tuple(str(name) for name in own if name not in others)
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
-        """A row a run: what was varied, all measures, `failure`; SI. With names of kept series a row a sample."""
+        """Return a table with a row for each run: varied parameters, all measures, `failure`; SI.
+
+        With names of stored series it has a row for each sample.
+        """
         asked = names(series, "series", "a list of names of kept series")
         for name in asked:
             if name not in self.dataset.data_vars or name in (*self.measures, "t_last", "failure", "t"):
@@ -133,67 +140,71 @@ class Study:
 
     @property
     def plot(self) -> StudyPlot:
-        """Figures: `study.plot.measure("peak", "c")`, `.bands("S9.y")`, `.heat_map("peak", "c", "omega")` …"""
+        """Figures of the study: `study.plot.measure("peak", "c")`, `.bands("S9.y")`, `.heat_map("peak", "c", "omega")`
+        …
+        """
         from gudgeon.studies.show.study_plots import StudyPlot
 
         return StudyPlot(self)
 
     def report(self) -> StudyReport:
-        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or in a notebook."""
+        """Return a report of variations, failures, measures and figures: `.to_html()`, or in a notebook."""
         from gudgeon.studies.show.study_page import StudyReport
 
         return StudyReport(self)
 
     def save(self, target: str | os.PathLike[str]) -> None:
-        """Write the dataset as one NetCDF file, which any reader opens. Raises OutputError."""
+        """Write the dataset as one NetCDF file. Raises OutputError."""
         with open(self.folder / DATASET, "rb") as source, written(path(target, "path")) as file:
             while data := source.read(_CHUNK):
                 file.write(data)
 
 
 class StudyOfParts(Study):
-    """A finished study whose file has parts: each is a Study of its own, all of them one DataTree."""
+    """A finished study whose file has parts: each part is a Study, all of them together one DataTree."""
 
     def __init__(
         self, folder: Path, parts: Sequence[str], keeps: tempfile.TemporaryDirectory[str] | None = None
     ) -> None:
+        """Open the studies of all parts in a folder; `keeps` is a temporary folder to preserve."""
         super().__init__(folder, keeps)
         self._parts = {name: Study(folder / name, keeps, self) for name in parts}
 
     def __repr__(self) -> str:
+        """Return parts, runs and failures in one line."""
         told = ", ".join(f"{name} {part.runs}" for name, part in self._parts.items())
         return f"<Study of {len(self._parts)} parts: {told} runs{f', {self.failed} failed' if self.failed else ''}>"
 
     @property
     def parts(self) -> Mapping[str, Study]:
-        """Studies by the names that the file gives its parts."""
+        """Studies by the names of the file's parts."""
         return dict(self._parts)
 
     @property
     def dataset(self) -> xarray.Dataset:
-        """Each part has its own. Raises GudgeonError."""
-        raise self._of_parts("dataset")
+        """Not available: each part has its own dataset. Raises GudgeonError."""
+        raise self._part_required("dataset")
 
     @property
     def tree(self) -> xarray.DataTree:
-        """A node for each part, whose dataset is the part's."""
+        """Tree with a node for each part, whose dataset is that of the part."""
         import xarray
 
         return xarray.DataTree.from_dict({name: part.dataset for name, part in self._parts.items()})
 
     @property
     def runs(self) -> int:
-        """Of all parts."""
+        """Number of runs of all parts."""
         return sum(part.runs for part in self._parts.values())
 
     @property
     def failed(self) -> int:
-        """Of all parts."""
+        """Number of failed runs of all parts."""
         return sum(part.failed for part in self._parts.values())
 
     @property
     def failures(self) -> dict[str, int]:
-        """What runs failed of in all parts, and how many of each; the most frequent first."""
+        """Kinds of failures in all parts, with the number of runs; the most frequent first."""
         every: Counter[str] = Counter()
         for part in self._parts.values():
             every.update(part.failures)
@@ -201,28 +212,29 @@ class StudyOfParts(Study):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Of all parts, each with its name in front."""
+        """Notes on all parts, each after the part's name."""
         return tuple(f"{name}: {note}" for name, part in self._parts.items() for note in part.notes)
 
     @property
     def measures(self) -> tuple[str, ...]:
-        """Names of what was measured in any part."""
+        """Names of the measures of any part."""
         return tuple(dict.fromkeys(name for part in self._parts.values() for name in part.measures))
 
     @property
     def plot(self) -> StudyPlot:
-        """Each part has its own. Raises GudgeonError."""
-        raise self._of_parts("plot")
+        """Not available: each part has its own figures. Raises GudgeonError."""
+        raise self._part_required("plot")
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
-        """Each part has its own. Raises GudgeonError."""
-        raise self._of_parts("to_dataframe()")
+        """Raise GudgeonError: each part has its own table."""
+        raise self._part_required("to_dataframe()")
 
     def save(self, target: str | os.PathLike[str]) -> None:
-        """Write all datasets as one NetCDF file, a group for each part: xarray.open_datatree reads it."""
+        """Write all datasets as one NetCDF file with a group for each part, for xarray.open_datatree."""
         with written(path(target, "path")) as file:
             file.write(bytes(self.tree.to_netcdf(engine="h5netcdf")))
 
-    def _of_parts(self, what: str) -> GudgeonError:
+    def _part_required(self, what: str) -> GudgeonError:
+        """Return the error for a request that must be made to a part."""
         name = next(iter(self._parts))
         return GudgeonError(f"this study has parts: {', '.join(self._parts)}\n  ask one: study.parts[{name!r}].{what}")

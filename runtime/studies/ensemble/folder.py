@@ -1,4 +1,6 @@
-"""The folder of a study: what it is of, finished blocks, one writer at a time; a kill at any moment loses one block."""
+"""Own the folder of a study: manifest, finished blocks, a lock for its one writer. A kill at any moment loses one
+block.
+"""
 
 from __future__ import annotations
 
@@ -29,20 +31,21 @@ if TYPE_CHECKING:
 MANIFEST, DATASET, LOCK = "study.json", "study.nc", ".lock"
 _BLOCK = re.compile(r"block-[0-9]{6,9}\.nc")
 _MOST_TOLD = 6
-RECENT = 4 << 20  # bytes of blocks that are kept
+RECENT = 4 << 20  # bytes of blocks that stay in memory
 
 
 class StudyFolder:
-    """A folder that one process writes to; a context that holds its lock."""
+    """A folder of a study that one process writes to, with its lock."""
 
     def __init__(self, path: str | os.PathLike[str], plan: Plan) -> None:
+        """Store path and plan without access to the disk."""
         self.path, self.plan = Path(path), plan
         self.recent: dict[int, Block] = {}  # written here, and read again for the dataset, as long as they are small
         self.held = 0  # bytes of these
 
     @contextmanager
     def opened(self, restart: bool) -> Iterator[StudyFolder]:
-        """Locked, made, and known to be of this plan. Raises InputError for a folder of another one."""
+        """Create and lock the folder for a plan. Raises InputError for a folder of another plan."""
         from filelock import FileLock, Timeout
 
         lock = FileLock(self.path / LOCK)
@@ -54,12 +57,13 @@ class StudyFolder:
                 told = f"another process is at work in {shortened(self.path)}"
                 raise InputError(told, hint="wait for it, or name another folder") from None
         try:
-            self._begin(restart)
+            self._prepare(restart)
             yield self
         finally:
             lock.release()
 
-    def _begin(self, restart: bool) -> None:
+    def _prepare(self, restart: bool) -> None:
+        """Check the contents of the folder, remove remains and, for a new study, write the manifest."""
         there = sorted(name for name in os.listdir(self.path) if name != LOCK)
         before = manifest(self.path)
         foreign = [name for name in there if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
@@ -85,28 +89,28 @@ class StudyFolder:
             file.write(text.encode())
 
     def has(self, number: int) -> bool:
-        """Whether a block is there, whole, and of this plan."""
+        """Return whether a block exists, is undamaged, and belongs to this plan."""
         return self.read(number) is not None
 
     def there(self) -> int:
-        """How many files of blocks there are, unread: what is told of a study that was interrupted."""
+        """Return the number of block files, unread, for the message of an interrupted study."""
         try:
             return sum(bool(_BLOCK.fullmatch(name)) for name in os.listdir(self.path))
         except OSError:
             return 0
 
     def write(self, block: Block) -> None:
-        """One file, whole on the disk when this returns. Raises OutputError."""
+        """Write a block as one file, complete on the disk on return. Raises OutputError."""
         data = image(block, self.plan.digest)
-        with written(self._file(block.number), sync=True) as file:
+        with written(self._block_path(block.number), sync=True) as file:
             file.write(data)
         if self.held + block.nbytes <= RECENT:
             self.recent[block.number] = block
             self.held += block.nbytes
 
     def read(self, number: int) -> Block | None:
-        """A block as it was written; None where there is none, or a damaged one, which is run again."""
-        path = self._file(number)
+        """Return a block as written; None if it is missing or damaged, so that it is run again."""
+        path = self._block_path(number)
         if number in self.recent and path.exists():
             return self.recent[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
@@ -114,12 +118,13 @@ class StudyFolder:
                 return from_image(data, self.plan, number)
         return None
 
-    def _file(self, number: int) -> Path:
+    def _block_path(self, number: int) -> Path:
+        """Return the path of a block's file."""
         return self.path / f"block-{number:06d}.nc"
 
 
 def manifest(folder: Path) -> dict[str, Any] | None:
-    """What a folder says of itself; None where it is no study's."""
+    """Return the manifest of a folder; None if it is not a study's."""
     try:
         data = read_regular(folder / MANIFEST)
         found = None if data is None else json.loads(data)
@@ -129,7 +134,7 @@ def manifest(folder: Path) -> dict[str, Any] | None:
 
 
 def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
-    """A folder of studies, each in a folder of its own. Raises InputError for one that holds anything else."""
+    """Create a folder of studies, each in a folder of its own. Raises InputError for a folder with other contents."""
     with telling(path):
         path.mkdir(parents=True, exist_ok=True)
         there = [name for name in sorted(os.listdir(path)) if not PART.fullmatch(name)]
@@ -144,14 +149,14 @@ def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
 
 
 def parts_of(found: Mapping[str, Any]) -> list[str]:
-    """Names of the parts that a folder says it has; what is no name of one is left out."""
+    """Return the names of the parts in a manifest; invalid names are left out."""
     named = found.get("parts")
     known = named if isinstance(named, list) else []
     return [name for name in known if isinstance(name, str) and re.fullmatch(LABEL, name)]
 
 
 def check_dataset(folder: Path, plan: Any) -> None:
-    """InputError for a dataset that cannot be opened, or is of another plan than this one, by its digest."""
+    """Raise InputError for a dataset that cannot be opened, or has another digest than this plan."""
     path = folder / DATASET
     with readable(path), h5py_module().File(path, "r") as file:
         own = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
@@ -161,7 +166,7 @@ def check_dataset(folder: Path, plan: Any) -> None:
 
 @contextmanager
 def readable(path: Path) -> Iterator[None]:
-    """What HDF5 says of a damaged file as an InputError."""
+    """Convert errors of HDF5 on a damaged file to InputError within this context."""
     try:
         yield
     except (OSError, KeyError, ValueError, RuntimeError) as error:
@@ -170,8 +175,8 @@ def readable(path: Path) -> Iterator[None]:
 
 
 def _differences(before: Any, now: Any) -> list[str]:
-    """Where two studies differ, in lines."""
-    old, new = dict(_flat(before)), dict(_flat(now))
+    """Return the differences of two studies as lines."""
+    old, new = dict(_flatten(before)), dict(_flatten(now))
     lines = []
     for key in dict.fromkeys([*old, *new]):
         if old.get(key) != new.get(key):
@@ -181,20 +186,21 @@ def _differences(before: Any, now: Any) -> list[str]:
     return lines[:_MOST_TOLD] + more
 
 
-def _flat(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+def _flatten(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield path and value of all leaves of nested mappings and lists."""
     if isinstance(node, Mapping):
         for name, below in node.items():
-            yield from _flat(below, f"{key}.{name}" if key else str(name))
+            yield from _flatten(below, f"{key}.{name}" if key else str(name))
     elif isinstance(node, list):
         for k, below in enumerate(node):
-            yield from _flat(below, f"{key}[{k}]")
+            yield from _flatten(below, f"{key}[{k}]")
     else:
         yield key, node
 
 
 @cache
 def h5py_module() -> Any:
-    """h5py, or what to install."""
+    """Return the module h5py. Raises GudgeonError if packages are missing."""
     if not all(map(find_spec, ("h5py", "xarray", "h5netcdf"))):
         raise GudgeonError("studies need xarray and h5py: pip install 'gudgeon[xarray]'")
     import h5py
@@ -203,7 +209,7 @@ def h5py_module() -> Any:
 
 
 def image(block: Block, digest: str) -> bytes:
-    """A block as the bytes of an HDF5 file, every array with checksums; few arrays, for each takes its time."""
+    """Return a block as the bytes of an HDF5 file with checksums; few arrays, since each costs time."""
     h5py, memory = h5py_module(), io.BytesIO()
     with h5py.File(memory, "w") as file:
         file.attrs["digest"], file.attrs["number"] = digest, block.number
@@ -218,17 +224,17 @@ def image(block: Block, digest: str) -> bytes:
 
 
 def from_image(data: bytes, plan: Plan, number: int) -> Block | None:
-    """The block of these bytes, None where they are another plan's. Raises OSError, ValueError, KeyError for damage."""
+    """Return the block of these bytes; None for another plan. Raises OSError, ValueError, KeyError for damage."""
     h5py = h5py_module()
     of = plan.blocks[number]
     with h5py.File(io.BytesIO(data), "r") as file:
         if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
             return None
         names, keep = [one.name for one in plan.wanted.measures], plan.wanted.keep
-        t_last, *measures = _array(file, "runs", (1 + len(names), of.runs))
+        t_last, *measures = _read_array(file, "runs", (1 + len(names), of.runs))
         t, series = np.zeros(0), np.zeros((0, of.runs, 0))
         if keep:
-            t, series = np.asarray(file["t"], dtype=float), _array(file, "series", (len(keep), of.runs, None))
+            t, series = np.asarray(file["t"], dtype=float), _read_array(file, "series", (len(keep), of.runs, None))
         failures, told = json.loads(bytes(np.asarray(file["words"], np.uint8)))
     notes = {kind: Note(*note) for kind, note in told.items()}
     if len(failures) != of.runs or not all(isinstance(told, str) for told in failures):
@@ -237,7 +243,8 @@ def from_image(data: bytes, plan: Plan, number: int) -> Block | None:
     return Block(number, of.part * plan.each + of.first, taken[0], tuple(failures), t_last, t, taken[1], notes)
 
 
-def _array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:
+def _read_array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:
+    """Return an array of the file as floats. Raises ValueError unless it has the given shape; None: any length."""
     found = np.asarray(file[name], dtype=float)
     if len(found.shape) != len(shape) or any(n not in (None, own) for n, own in zip(shape, found.shape, strict=True)):
         raise ValueError(f"{name} has shape {found.shape}")

@@ -1,8 +1,9 @@
-"""What runs say of a claim: the probability that the next run of each scene shows it, over all combinations of runs.
+"""Estimate the probability that the next run of each scene shows a claim, from all combinations of runs, and its
+verdict.
 
-Of few runs it is known to an interval only. A verdict is what the interval carries: holds, where all of it lies at 0.8
-or above, fails, where all of it lies at 1/3 or below; what lies across, or between, is undecided. So ensembles of one
-distribution contradict each other as seldom as the intervals say, wherever the probability lies.
+From few runs the probability is known as an interval only. The verdict is "holds" if the whole interval lies at 0.8 or
+above, "fails" if it lies at 1/3 or below, else "undecided". Ensembles of one distribution therefore contradict each
+other only as often as the intervals allow.
 """
 
 from __future__ import annotations
@@ -19,15 +20,15 @@ import numpy as np
 from gudgeon.results.batch import Array
 
 HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
-MOST = 1 << 20  # combinations that are looked at, one by one; of more as many drawn ones
-DOUBT = 0.05  # probability that a verdict rests on chance: each end of an interval is passed by so many
+MOST = 1 << 20  # combinations that are evaluated one by one; of more, so many random ones
+DOUBT = 0.05  # probability beyond each end of an interval
 PLACES = ""  # in the place of a measure: which runs of a cell have all that is asked of it
 VERDICTS = ("holds", "fails", "undecided")
 
 
 @dataclass(frozen=True)
 class Cell:
-    """Runs that differ in their starts alone: a part, and places along its other dimensions."""
+    """Runs that differ in their starts only: a part, and indices along its other dimensions."""
 
     part: str
     index: tuple[int, ...]
@@ -39,7 +40,7 @@ Runs: TypeAlias = Mapping[Cell, Mapping[str, Array]]  # measure -> (n,)
 
 @dataclass(frozen=True, eq=False)
 class Check:
-    """Something that one run of each of some cells shows, or does not."""
+    """A condition on one run of each of some cells."""
 
     cells: tuple[Cell, ...]
     measures: tuple[str, ...]
@@ -48,9 +49,9 @@ class Check:
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim that consists of checks: the least of their probabilities, and that single runs show all of them.
+    """Verdict on a claim of several checks: the least of their probabilities, and the chance that single runs meet all.
 
-    `low`, `high`: the interval of that check. `denied`: verdicts that the intervals rule out.
+    `low`, `high`: the interval of the least likely check. `denied`: verdicts that the intervals rule out.
     """
 
     verdict: str
@@ -64,9 +65,9 @@ class Judged:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A probability as so many independent trials would tell it; without scatter these are infinitely many.
+    """A probability with the equivalent number of independent trials; infinite if the runs do not scatter.
 
-    `runs`: of the cell that has fewest. `again`, `again_runs`: trials and runs of those cells alone whose runs are the
+    `runs`: runs of the smallest cell. `again`, `again_runs`: trials and runs of those cells alone whose runs are the
     same in every ensemble.
     """
 
@@ -77,49 +78,57 @@ class Estimate:
     again_runs: float = math.inf
 
     def bound(self, side: float, doubt: float = DOUBT) -> float:
-        """The end of the interval below (-1) or above (1) that is passed with a probability of about `doubt`.
+        """Return the end of the interval below (side −1) or above (1) that is exceeded with probability `doubt`.
 
-        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. Nothing is surer than what all of the runs show, or none.
+        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The interval is at least that of runs that all, or none, meet the
+        condition.
         """
         if not math.isfinite(self.trials) or math.isnan(self.p):
             return self.p
-        ends = _wilson(self.p, self.trials, side, doubt), _wilson(0.5 - 0.5 * side, self.runs, side, doubt)
+        ends = _wilson_bound(self.p, self.trials, side, doubt), _wilson_bound(0.5 - 0.5 * side, self.runs, side, doubt)
         return max(ends) if side > 0 else min(ends)
 
 
-def _wilson(p: float, n: float, side: float, doubt: float) -> float:
+def _wilson_bound(p: float, n: float, side: float, doubt: float) -> float:
+    """Return an end of Wilson's interval for a probability p from n trials."""
     z = NormalDist().inv_cdf(1.0 - doubt)
     middle, reach = p + z * z / (2.0 * n), z * math.sqrt(p * (1.0 - p) / n + (z / (2.0 * n)) ** 2)
     return min(max((middle + side * reach) / (1.0 + z * z / n), 0.0), 1.0)
 
 
 def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), again: Container[Cell] = ()) -> Judged:
-    """Holds where each check is likely, fails where one is unlikely, as far as that is known.
+    """Return the verdict on a claim: it holds if each check is likely, fails if one is unlikely, as far as is known.
 
-    A probability is that of independent runs, one of each cell, estimated by all combinations of the runs that there
-    are: of two cells by all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947), ties count as not larger.
-    NaN, and undecided, where a cell has no run with all of the measures. certain: cells whose runs do not scatter;
-    again: cells whose runs are those of other ensembles too.
+    A probability is that of independent runs, one of each cell, estimated from all combinations of runs: for two cells
+    from all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947); ties count as not larger. It is NaN, and the
+    verdict undecided, if a cell has no run with all measures. certain: cells whose runs do not scatter; again: cells
+    whose runs other ensembles share.
     """
-    whole = _complete(checks, runs)
-    chance = math.prod(_seen(group, whole)[0] for group in _together(checks))
-    return _of([_estimated(check, whole, certain, again) for check in checks], chance)
+    whole = _complete_runs(checks, runs)
+    chance = math.prod(_evaluate_combinations(group, whole)[0] for group in _group_checks(checks))
+    return _verdict_of([_estimate_check(check, whole, certain, again) for check in checks], chance)
 
 
 def together(each: Sequence[Judged]) -> tuple[Judged, bool]:
-    """What several ensembles say of one claim, and whether they agree: what one carries no other rules out.
+    """Return the verdict of several ensembles on one claim, and whether no ensemble rules out the verdict of another.
 
-    Probabilities are means over the ensembles, and their trials add up, but for runs that several of them have;
-    ensembles that do not agree decide nothing.
+    Probabilities are means over the ensembles. Their trials add up, except for shared runs. Without agreement the
+    verdict is undecided.
     """
     mean = math.fsum(one.chance for one in each) / len(each)
-    both = _of([_mean(several) for several in zip(*(one.estimates for one in each), strict=True)], mean)
+    both = _verdict_of(
+        [_mean_estimate(several) for several in zip(*(one.estimates for one in each), strict=True)], mean
+    )
     agreed = not any(one.verdict in other.denied for one in each for other in each)
     return (both if agreed else replace(both, verdict="undecided")), agreed
 
 
-def _mean(several: Sequence[Estimate]) -> Estimate:
-    """Variances of what each ensemble has for itself, 1/trials - 1/again, shrink as ensembles are many."""
+def _mean_estimate(several: Sequence[Estimate]) -> Estimate:
+    """Return the mean of the estimates of several ensembles.
+
+    Variances of the ensembles' separate runs, 1/trials − 1/again, decrease with their number; those of shared runs do
+    not.
+    """
     p, again = (math.fsum(values) / len(several) for values in zip(*((x.p, x.again) for x in several), strict=True))
     rests = [1.0 / one.trials - 1.0 / one.again for one in several]
     alone = math.inf if min(rests) <= 0.0 else math.fsum(1.0 / rest for rest in rests)
@@ -128,8 +137,11 @@ def _mean(several: Sequence[Estimate]) -> Estimate:
     return Estimate(p, trials, min(math.fsum(one.runs for one in several), again_runs), again, again_runs)
 
 
-def _of(each: Sequence[Estimate], chance: float) -> Judged:
-    """All checks are likely where each is; that any of many is unlikely is sooner so by chance (Bonferroni)."""
+def _verdict_of(each: Sequence[Estimate], chance: float) -> Judged:
+    """Return the verdict from the estimates of all checks.
+
+    It holds if each check is likely; to fail, the bound of each check is corrected for their number (Bonferroni).
+    """
     if not each or any(math.isnan(one.p) for one in each):
         return Judged("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(each))
     low = min(one.bound(-1.0) for one in each)
@@ -140,8 +152,8 @@ def _of(each: Sequence[Estimate], chance: float) -> Judged:
     return Judged(verdict, least.p, least.bound(-1.0), least.bound(1.0), chance, denied, tuple(each))
 
 
-def _complete(checks: Sequence[Check], runs: Runs) -> Runs:
-    """Runs of each cell that have all that is asked of it."""
+def _complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
+    """Return the runs of each cell that have all measures of the checks."""
     asked: dict[Cell, dict[str, None]] = {}
     for check in checks:
         for cell in check.cells:
@@ -154,29 +166,37 @@ def _complete(checks: Sequence[Check], runs: Runs) -> Runs:
     return found
 
 
-def _estimated(check: Check, runs: Runs, certain: Container[Cell], again: Container[Cell]) -> Estimate:
-    """As many trials as the shares of single runs of each cell vary like (W. Hoeffding, Ann. Math. Stat. 19, 1948)."""
-    p, shown, chosen = _seen([check], runs)
-    shares = {cell: _shares(own, shown, runs[cell][PLACES]) for cell, own in chosen.items() if cell not in certain}
+def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], again: Container[Cell]) -> Estimate:
+    """Return the estimate of a check.
+
+    The number of trials follows from the variance of the fractions of single runs of each cell (W. Hoeffding, Ann.
+    Math. Stat. 19, 1948).
+    """
+    p, shown, chosen = _evaluate_combinations([check], runs)
+    shares = {
+        cell: _fractions_by_run(own, shown, runs[cell][PLACES]) for cell, own in chosen.items() if cell not in certain
+    }
     if not shares or math.isnan(p):
         return Estimate(p, math.inf)
     most = sum(int(np.isfinite(own).sum()) for own in shares.values())
     several = [own for cell, own in shares.items() if cell in again]
-    return Estimate(p, *_trials(p, list(shares.values()), most), *_trials(p, several, most))
+    return Estimate(p, *_effective_trials(p, list(shares.values()), most), *_effective_trials(p, several, most))
 
 
-def _shares(chosen: Array, shown: Array, places: Array) -> Array:
-    """Of each run of a cell the share of its combinations that shows it; NaN where the run is not there."""
+def _fractions_by_run(chosen: Array, shown: Array, places: Array) -> Array:
+    """Return for each run of a cell the fraction of its combinations that meets the check; NaN for a missing run."""
     found, seen = np.full(int(places.max()) + 1, np.nan), np.bincount(chosen, minlength=len(places))
     with np.errstate(invalid="ignore"):
         found[places] = np.bincount(chosen, shown, len(places)) / seen
     return found
 
 
-def _trials(p: float, shares: Sequence[Array], most: int) -> tuple[float, float]:
-    """Independent trials, and runs of the cell that has fewest, of a probability with these shares of its cells.
+def _effective_trials(p: float, shares: Sequence[Array], most: int) -> tuple[float, float]:
+    """Return the independent trials, and the runs of the smallest cell, for a probability with these fractions of its
+    cells.
 
-    Runs of two cells may have the same deviations: where their shares go the same way, their variances add up to more.
+    Runs of two cells may have the same deviations: if their fractions are correlated, the covariance adds to the
+    variance.
     """
     if not shares:
         return math.inf, math.inf
@@ -189,7 +209,7 @@ def _trials(p: float, shares: Sequence[Array], most: int) -> tuple[float, float]
 
 
 def _covariance(a: Array, b: Array) -> float:
-    """Of two means, of what has the same place in both."""
+    """Return the covariance of the means of two arrays, from entries with the same index."""
     counts, length = (np.isfinite(a).sum(), np.isfinite(b).sum()), min(len(a), len(b))
     both = np.isfinite(a[:length]) & np.isfinite(b[:length])
     n = int(both.sum())
@@ -198,8 +218,10 @@ def _covariance(a: Array, b: Array) -> float:
     return float(np.cov(a[:length][both], b[:length][both])[0, 1]) * n / float(counts[0] * counts[1])
 
 
-def _seen(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:
-    """Of the combinations of one run of each cell: the share that shows all of the checks, which do, which runs."""
+def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:
+    """Return the fraction of combinations of runs that meet all checks, which ones do, and the chosen runs of each
+    cell.
+    """
     cells = list(dict.fromkeys(cell for check in checks for cell in check.cells))
     sizes = [len(next(iter(runs[cell].values()))) for cell in cells]
     if not all(sizes):
@@ -209,6 +231,7 @@ def _seen(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell,
     for check in checks:
 
         def look(k: int, name: str, check: Check = check) -> Array:
+            """Return a measure of the runs of a check's cell k in all combinations."""
             cell = check.cells[k]
             return runs[cell][name][chosen[cell]]
 
@@ -217,7 +240,7 @@ def _seen(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell,
 
 
 def _combinations(sizes: Sequence[int]) -> Sequence[Array]:
-    """Of each cell which run: all combinations, or MOST of them drawn."""
+    """Return for each cell the run in each combination: all combinations, or MOST random ones."""
     count = math.prod(sizes)
     if count <= MOST:
         return np.unravel_index(np.arange(count), tuple(sizes)) if sizes else ()
@@ -225,8 +248,8 @@ def _combinations(sizes: Sequence[int]) -> Sequence[Array]:
     return [rng.integers(0, size, MOST) for size in sizes]
 
 
-def _together(checks: Sequence[Check]) -> list[list[Check]]:
-    """Checks that share cells, directly or by others: what one group shows is independent of the next."""
+def _group_checks(checks: Sequence[Check]) -> list[list[Check]]:
+    """Return groups of checks that share cells, directly or by others; different groups are independent."""
     groups: list[tuple[set[Cell], list[Check]]] = []
     for check in checks:
         cells, own = set(check.cells), [check]

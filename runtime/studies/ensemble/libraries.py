@@ -1,4 +1,6 @@
-"""Libraries of a study's scenes: which it needs, made by two processes at once, loaded where its blocks run."""
+"""Own the libraries of a study's scenes: which it needs, compiled by two processes at once, loaded where its blocks
+run.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,7 @@ OTHER = f"from {__name__} import make; make()"
 
 
 class Structure(NamedTuple):
-    """What a library is of."""
+    """Identity of a library: mechanism, scene, and overrides."""
 
     mechanism: str
     scene: str
@@ -41,7 +43,9 @@ class Structure(NamedTuple):
 
 
 def mechanism_of(study: StudyFile) -> str:
-    """The shipped mechanism's name, or the path of a file; one that a study file names lies beside it or below."""
+    """Return the shipped mechanism's name, or the path of a file, which must lie in the study file's folder or
+    below.
+    """
     name = str(study.mechanism)
     is_file = "/" in name or name.endswith((".yaml", ".yml"))
     try:
@@ -59,7 +63,7 @@ def mechanism_of(study: StudyFile) -> str:
 
 
 def structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
-    """Every scene with every combination of options: what these set, as it is written and as it is asked for."""
+    """Yield every scene with every combination of options: overrides as texts with locations, and as pairs."""
     choices = [list(choice.options.values()) for choice in study.choices]
     for scene, chosen in itertools.product(study.scenes, itertools.product(*choices)):
         texts = {address: text for own in chosen for address, text in own.items()}
@@ -67,11 +71,12 @@ def structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[
 
 
 def origins(study: StudyFile) -> list[Text]:
+    """Return the scenes that measures subtract, without repetitions."""
     return list(dict.fromkeys(one.origin for one in study.measures if one.origin is not None))
 
 
 def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
-    """What `resolve` of these loads, each once, in its order; nothing of a study whose mechanism is not to be found."""
+    """Return the libraries that `resolve` loads for these studies, in its order; none for an unknown mechanism."""
     found: dict[Structure, None] = {}
     for study in studies:
         try:
@@ -86,10 +91,10 @@ def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
 
 @contextmanager
 def made_beside(structures: Sequence[Structure]) -> Iterator[None]:
-    """While this process loads the libraries from the first on, another one makes them from the last on.
+    """Compile libraries in another process from the last on, while this one loads them from the first on.
 
-    Who needs one that the other is at waits for it. Nothing but the cache is in common: where there is none, or the
-    other process cannot be begun, this one makes them all.
+    A process that needs a library that the other is compiling waits for it. They share only the cache. Without a cache
+    or a second process, this one compiles all.
     """
     new = [one for one in structures if not is_known(one.mechanism, one.scene, dict(one.overrides))]
     with Programs() as programs:
@@ -109,7 +114,9 @@ def made_beside(structures: Sequence[Structure]) -> Iterator[None]:
 
 
 def make() -> None:
-    """In the other process: what cannot be made is told by the process that needs it."""
+    """Compile the libraries of the command line in the other process; the process that needs a library reports its
+    errors.
+    """
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # compilers and folders of what is under way go with it
     laws, structures = json.loads(sys.argv[1])
     begin_worker(laws)
@@ -123,7 +130,9 @@ def make() -> None:
 
 @lru_cache(maxsize=16)
 def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
-    """The library of a part, in a worker's own process. Raises InputError for a file that was edited since."""
+    """Return the library of a part in a worker's process. Raises InputError for a file that changed since the study
+    began.
+    """
     found = load(mechanism, scene, overrides=dict(overrides), quick=False)
     if found.source.whole_sha256 != sha256:
         told = f"{mechanism} was edited after the study began"
@@ -132,5 +141,5 @@ def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], s
 
 
 def method_in(source: KernelSource, method: str) -> str:
-    """The method that a scene is run with: one without a degree of freedom follows its drives, whatever is asked."""
+    """Return the method for a scene: "auto" for a kinematically driven one, else the requested one."""
     return method if source.degrees_of_freedom else "auto"

@@ -1,4 +1,4 @@
-"""All blocks of a study that are not there yet, run here or by an executor; one writer, a block at a time."""
+"""Run all missing blocks of a study, here or by an executor; one writer stores a block at a time."""
 
 from __future__ import annotations
 
@@ -25,27 +25,28 @@ SIDE_BY_SIDE = 4  # blocks at once here, at most: while Python has one, and the 
 FUTILE = 3  # times that workers die one after the other, and no block is done
 
 
-class _Done:
-    """How far a study is: runs of blocks that are written, and shares of those that are under way."""
+class _StudyProgress:
+    """Progress of a study: runs of written blocks, and fractions of the running ones."""
 
     def __init__(self, runs: int, done: int, progress: Progress | None) -> None:
+        """Begin at `done` of `runs` runs."""
         self.runs, self.done, self.progress = runs, done, progress
         self.shares: dict[int, float] = {}  # of blocks by their number, in runs
 
     def add(self, block: BlockOf) -> None:
-        """A block is written."""
+        """Count a written block."""
         self.shares.pop(block.number, None)
         self.done += block.runs
 
     def tell(self) -> None:
-        """In the calling thread."""
+        """Report the progress in the calling thread."""
         if self.progress:
             under_way = sum(self.shares.copy().values())
             self.progress((self.done + under_way) / self.runs, f"{self.done} of {self.runs} runs")
 
 
 def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, progress: Progress | None) -> None:
-    """Run what is missing, then write the dataset. KeyboardInterrupt leaves what is there."""
+    """Run the missing blocks, then write the dataset. KeyboardInterrupt preserves the finished blocks."""
     plan, futile = folder.plan, 0
     while True:
         missing = [block for block in plan.blocks if not folder.has(block.number)]
@@ -53,20 +54,20 @@ def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, 
             with suppress(InputError):  # a damaged one is written anew
                 check_dataset(folder.path, plan.identity)
                 return
-        done = _Done(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
+        done = _StudyProgress(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
         if done.done:  # a bar measures its speed from here on
             done.tell()
         try:
             if executor is None:
-                _here(folder, missing, done, threads)
+                _run_in_threads(folder, missing, done, threads)
             else:
-                _there(folder, missing, done, threads, executor)
+                _run_by_executor(folder, missing, done, threads, executor)
         except Exception as error:
             if not is_lost(error):
                 raise
             futile = 0 if any(folder.has(block.number) for block in missing) else futile + 1
             if not isinstance(executor, Processes) or futile >= FUTILE:
-                raise _told(folder, error) from error
+                raise _lost_worker_error(folder, error) from error
             executor.renew()
             continue
         with suppress(LookupError):  # a block that was taken away meanwhile
@@ -74,20 +75,22 @@ def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, 
             return
 
 
-def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None) -> None:
-    """In threads of this process; what ends the waiting ends all runs where they are.
+def _run_in_threads(folder: StudyFolder, missing: list[BlockOf], done: _StudyProgress, threads: int | None) -> None:
+    """Run blocks in threads of this process; an exception while waiting stops all runs.
 
-    Runs of a block that go side by side leave lanes empty at its end, once in each of its threads: it has few of them,
-    but for the last blocks, whose end nobody else's begin covers.
+    Lanes are empty at the end of a block, in each of its threads. A block therefore has few threads, except for the
+    last blocks, whose end no other block fills.
     """
     cores, ended = threads or available_threads(), Event()
     most = min(cores, SIDE_BY_SIDE)  # more threads than cores cost more than they save: they change places
     last = {block.number for block in missing[-most:]}
 
     def run(block: BlockOf) -> Block:
+        """Run one block."""
         own = cores if block.number in last else math.ceil(cores / most)
 
         def report(fraction: float, text: str) -> None:
+            """Note the progress of the block. Raises KeyboardInterrupt after the end."""
             if ended.is_set():
                 raise KeyboardInterrupt
             done.shares[block.number] = fraction * block.runs
@@ -96,15 +99,18 @@ def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int
 
     with ThreadPoolExecutor(most, thread_name_prefix="gudgeon") as pool:
         try:
-            _all(folder, missing, done, lambda block: pool.submit(run, block), lambda: most)
+            _run_all(folder, missing, done, lambda block: pool.submit(run, block), lambda: most)
         finally:
             ended.set()
 
 
-def _there(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None, executor: Executor) -> None:
-    """By whoever the executor gives them to."""
+def _run_by_executor(
+    folder: StudyFolder, missing: list[BlockOf], done: _StudyProgress, threads: int | None, executor: Executor
+) -> None:
+    """Run blocks by the workers of an executor."""
 
     def submit(block: BlockOf) -> Future[Block]:
+        """Submit one block to the executor."""
         try:
             return executor.submit(run_block, folder.plan.job(block, threads or 1))
         except RuntimeError as error:  # one that was shut down, or that cannot
@@ -112,20 +118,20 @@ def _there(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: in
                 raise
             raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
-    _all(folder, missing, done, submit, lambda: room(executor))
+    _run_all(folder, missing, done, submit, lambda: room(executor))
 
 
-def _all(
+def _run_all(
     folder: StudyFolder,
     missing: list[BlockOf],
-    done: _Done,
+    done: _StudyProgress,
     submit: Callable[[BlockOf], Future[Block]],
     most: Callable[[], int],
 ) -> None:
-    """Blocks are written as they come, and never more are out than there is room for: the next begin before that."""
+    """Submit blocks as workers become free, and write each as it is finished."""
     left = iter(missing)
     out: dict[Future[Block], BlockOf] = {}
-    with _cancelled(out):
+    with _cancel_at_end(out):
         over: list[tuple[Future[Block], BlockOf]] = []
         while True:
             if over or not out:
@@ -143,7 +149,8 @@ def _all(
 
 
 @contextmanager
-def _cancelled(out: dict[Future[Block], BlockOf]) -> Iterator[None]:
+def _cancel_at_end(out: dict[Future[Block], BlockOf]) -> Iterator[None]:
+    """Cancel the waiting blocks at the end of the context."""
     try:
         yield
     finally:
@@ -151,7 +158,8 @@ def _cancelled(out: dict[Future[Block], BlockOf]) -> Iterator[None]:
             future.cancel()
 
 
-def _told(folder: StudyFolder, error: Exception) -> GudgeonError:
+def _lost_worker_error(folder: StudyFolder, error: Exception) -> GudgeonError:
+    """Return the error for a worker that ended early, with the number of finished blocks."""
     there = sum(folder.has(block.number) for block in folder.plan.blocks)
     told = f"a worker ended before its runs did ({type(error).__name__}): {there} of {len(folder.plan.blocks)}"
     return GudgeonError(f"{told} blocks are there\n  the same call goes on from them")

@@ -1,4 +1,4 @@
-"""One number a run: statistics of series in a window, peaks over all steps, contacts, events."""
+"""Compute one number for each run: statistics of series in a window, peaks over all steps, contacts, events."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ UNITS = {
 
 
 def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
-    """Series whose samples a scene's runs must give."""
+    """Return the series whose samples the measures and stored series of a scene need."""
     known = catalogue(source)
     others = (*OF_JOINTS, *CROSSINGS, *STEPS, *FOLLOWED)
     wanted = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
@@ -55,38 +55,40 @@ def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: Kern
 
 
 def steps_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
-    """Series whose peaks over all steps are wanted; a scene's deviation from itself is nowhere sought."""
+    """Return the series whose peaks over all steps are measured; not the deviation of a scene from itself."""
     known = catalogue(source)
     wanted = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
     return [name for name in dict.fromkeys(wanted) if name in known]
 
 
 def rubs_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[Rubbing, ...]:
-    """Joints whose rubbing over all steps is wanted."""
-    own = _joints(source, rubs=True)
+    """Return the requests for sliding loads of joints whose wear is measured."""
+    own = _joint_names(source, rubs=True)
     wanted = (str(one.of) for one in measures if one.statistic in WEAR)
     return tuple(Rubbing(name) for name in dict.fromkeys(wanted) if name in own)
 
 
 def unit_of(measure: Measure, source: KernelSource) -> str | None:
-    """The unit of a measure, None in a scene that has no such thing."""
+    """Return the unit of a measure; None in a scene that does not have its object."""
     if measure.statistic in OF_JOINTS:
-        return UNITS[measure.statistic] if measure.of in _joints(source, measure.statistic in WEAR) else None
+        return UNITS[measure.statistic] if measure.of in _joint_names(source, measure.statistic in WEAR) else None
     if measure.statistic in CROSSINGS:
-        return UNITS[measure.statistic] if measure.of in _events(source) else None
+        return UNITS[measure.statistic] if measure.of in _event_names(source) else None
     if measure.statistic in FOLLOWED:
         return FOLLOWED[measure.statistic] if source.degrees_of_freedom > 0 else None
     return catalogue(source)[measure.of].unit if measure.of in catalogue(source) else None
 
 
 def unknown_of(measure: Measure, source: KernelSource) -> InputError:
-    """What is said of a measure of something that no scene has."""
+    """Return the error for a measure of an object that no scene has."""
     from gudgeon.language.names import unknown_name
 
     if measure.statistic in OF_JOINTS:
-        return unknown_name("joint with play", measure.of, _joints(source, measure.statistic in WEAR), measure.of.where)
+        return unknown_name(
+            "joint with play", measure.of, _joint_names(source, measure.statistic in WEAR), measure.of.where
+        )
     if measure.statistic in CROSSINGS:
-        return unknown_name("event", measure.of, _events(source), measure.of.where)
+        return unknown_name("event", measure.of, _event_names(source), measure.of.where)
     if measure.statistic in FOLLOWED:
         told = f"scene {source.scene} has no degree of freedom: no difference can grow"
         return BadValueError(told, measure.of.where, "expected a scene whose drives do not decide all of the motion")
@@ -98,7 +100,7 @@ def unknown_of(measure: Measure, source: KernelSource) -> InputError:
 
 
 def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
-    """UnknownNameError at its place for a series that the scene that is to be subtracted has not."""
+    """Raise UnknownNameError at the measure for a series that the scene to subtract lacks."""
     for one in measures:
         if one.origin == source.scene and one.of not in catalogue(source):
             try:
@@ -108,16 +110,18 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
                 raise UnknownNameError(told, one.of.where, error.hint) from None
 
 
-def _joints(source: KernelSource, rubs: bool = False) -> list[str]:
+def _joint_names(source: KernelSource, rubs: bool = False) -> list[str]:
+    """Return the names of the joints with play; with `rubs` those whose wear can be measured."""
     return [joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint) and not joint.at_wall]
 
 
-def _events(source: KernelSource) -> list[str]:
+def _event_names(source: KernelSource) -> list[str]:
+    """Return the names of the events of a scene."""
     return [event.name for event in source.events]
 
 
 def meaning(measure: Measure) -> str:
-    """In a line: "peak of slider.ax in window last"."""
+    """Return a measure in words: "peak of slider.ax in window last"."""
     told = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
     told = f"{told} ({KINDS_TOLD})" if measure.statistic == "motion" else told
     told = f"{told} from scene {measure.origin}" if measure.origin is not None else told
@@ -125,7 +129,10 @@ def meaning(measure: Measure) -> str:
 
 
 def measured(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
-    """The values of all runs, (n,); NaN where a run has none. `origins`: what series are less than."""
+    """Return the values of a measure for all runs of a batch, (n,); NaN for a run without one.
+
+    `origins`: series of other scenes to subtract.
+    """
     source, none = batch.source, np.full(len(batch), np.nan)
     if unit_of(measure, source) is None or measure.statistic in FOLLOWED:  # which exponents.py has
         return none
@@ -133,30 +140,31 @@ def measured(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> 
     begin = np.full(len(batch), -np.inf) if begin is None else begin
     end = np.full(len(batch), np.inf) if end is None else end
     if measure.statistic in STEPS:
-        return _of_steps(batch, measure)
+        return _peaks_over_steps(batch, measure)
     if measure.statistic in JOINT:
-        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _joints(source).index(measure.of)])
+        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _joint_names(source).index(measure.of)])
     if measure.statistic in WEAR:
-        return _worn(batch, measure)
+        return _bearing_wear(batch, measure)
     if measure.statistic in CONTACTS:
-        return _contacts(batch, measure, begin, end)
+        return _contact_values(batch, measure, begin, end)
     if measure.statistic in CROSSINGS:
-        return _crossings(batch, measure, begin, end)
+        return _event_values(batch, measure, begin, end)
     values = batch.kept[str(measure.of)]
     if measure.origin is not None:
         values = values - (values if measure.origin == source.scene else origins[measure.origin][measure.of])
     return STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
 
 
-def _of_steps(batch: Batch, measure: Measure) -> Array:
+def _peaks_over_steps(batch: Batch, measure: Measure) -> Array:
+    """Return a peak over all steps, (n,)."""
     if measure.origin is not None and measure.origin == batch.source.scene:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
     found = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
     return np.asarray(getattr(found, STEPS[measure.statistic]))
 
 
-def _worn(batch: Batch, measure: Measure) -> Array:
-    """Of the bearing's surface: the deepest cell's load times slip over its area, and the arc that is worn."""
+def _bearing_wear(batch: Batch, measure: Measure) -> Array:
+    """Return the wear of the bearing for a unit wear coefficient, (n,): depth of the deepest cell, or worn arc."""
     out = np.full(len(batch), np.nan)
     for i, found in enumerate(batch.rubbed):
         for rubbed in (one for one in found if one.asked.joint == measure.of):
@@ -164,9 +172,10 @@ def _worn(batch: Batch, measure: Measure) -> Array:
     return out
 
 
-def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    joint, counted = _joints(batch.source).index(measure.of), measure.statistic == "impacts"
-    out = _none(batch, counted, begin)
+def _contact_values(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+    """Return number, first time or largest approach speed of the contacts of a joint in the window, (n,)."""
+    joint, counted = _joint_names(batch.source).index(measure.of), measure.statistic == "impacts"
+    out = _values_without_occurrence(batch, counted, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         own = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
@@ -177,9 +186,10 @@ def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array
     return out
 
 
-def _crossings(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    number, counted = _events(batch.source).index(measure.of), measure.statistic == "crossings"
-    out = _none(batch, counted, begin)
+def _event_values(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+    """Return number or first time of an event in the window, (n,)."""
+    number, counted = _event_names(batch.source).index(measure.of), measure.statistic == "crossings"
+    out = _values_without_occurrence(batch, counted, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
         t = events["t"][events["event"] == number]
         t = t[(t >= begin[i]) & (t <= end[i])]
@@ -190,14 +200,16 @@ def _crossings(batch: Batch, measure: Measure, begin: Array, end: Array) -> Arra
     return out
 
 
-def _none(batch: Batch, counted: bool, begin: Array) -> Array:
-    """Of runs in which nothing happened, (n,): 0 where that is counted, but for those that ended before the window."""
+def _values_without_occurrence(batch: Batch, counted: bool, begin: Array) -> Array:
+    """Return values for runs without an occurrence, (n,): 0 for counts, NaN for times and for runs that ended before
+    the window.
+    """
     seen = np.asarray(batch.t_last) * (1.0 + ROUNDING) >= begin
     return np.where(seen & counted, 0.0, np.nan)
 
 
 def sampled(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
-    """From when to when samples of these runs are read, (n,) each; None where one is read from begin to end."""
+    """Return the interval in which samples of these runs are needed, (n,) each; None if a measure needs a whole run."""
     windows = {one.window for one in measures if one.statistic in STATISTICS}
     if not (windows and all(windows)):
         return None
@@ -207,38 +219,44 @@ def sampled(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Arr
 
 
 def within(t: Array, begin: Array | float, end: Array | float) -> Array:
-    """Which samples lie in a window."""
+    """Return which samples lie in a window, with a tolerance for rounding."""
     slack = ROUNDING * np.abs(t)
     return np.asarray((t >= begin - slack) & (t <= end + slack))
 
 
-def _inside(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Which samples, (n, N), lie in each run's window."""
+def _in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return which samples, (n, N), lie in each run's window and are not NaN."""
     with np.errstate(invalid="ignore"):
         return within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
 
 
-def _extreme(reduce: Callable[..., Array], outside: float, change: Callable[[Array], Array]) -> Callable[..., Array]:
+def _make_extreme(
+    reduce: Callable[..., Array], outside: float, change: Callable[[Array], Array]
+) -> Callable[..., Array]:
+    """Return a statistic that reduces the samples in the window; `outside` replaces other samples."""
+
     def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
-        inside = _inside(t, x, begin, end)
+        """Return the reduced value of each run, (n,)."""
+        inside = _in_window(t, x, begin, end)
         found = reduce(np.where(inside, change(x), outside), axis=1)
         return np.asarray(np.where(inside.any(axis=1), found, np.nan))
 
     return statistic
 
 
-_largest = _extreme(np.max, -np.inf, lambda x: x)
-_smallest = _extreme(np.min, np.inf, lambda x: x)
-_peak = _extreme(np.max, -np.inf, np.abs)
+_largest = _make_extreme(np.max, -np.inf, lambda x: x)
+_smallest = _make_extreme(np.min, np.inf, lambda x: x)
+_peak = _make_extreme(np.max, -np.inf, np.abs)
 
 
 def _range(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return the largest less the smallest sample in the window, (n,)."""
     return np.asarray(_largest(t, x, begin, end) - _smallest(t, x, begin, end))
 
 
 def _mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """Over time, by trapezoids between the samples in the window; of one sample that itself."""
-    inside = _inside(t, x, begin, end)
+    """Return the mean over time in the window, (n,), by the trapezoidal rule; of one sample its value."""
+    inside = _in_window(t, x, begin, end)
     both = inside[:, 1:] & inside[:, :-1]
     dt = np.where(both, np.diff(t, axis=1), 0.0)
     middle = np.where(both, (x[:, 1:] + x[:, :-1]) / 2, 0.0)
@@ -248,12 +266,13 @@ def _mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
 
 
 def _rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Return the root mean square over time in the window, (n,)."""
     return np.asarray(np.sqrt(_mean(t, x * x, begin, end)))
 
 
 def _final(t: Array, x: Array, begin: Array, end: Array) -> Array:
-    """The last sample in the window."""
-    inside = _inside(t, x, begin, end)
+    """Return the last sample in the window, (n,)."""
+    inside = _in_window(t, x, begin, end)
     last = inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)
     return np.asarray(np.where(inside.any(axis=1), x[np.arange(len(x)), last], np.nan))
 

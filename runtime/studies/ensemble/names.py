@@ -1,4 +1,6 @@
-"""What people read of a study: words on it, titles of its names, numbers as the file writes them; in JSON."""
+"""Own the texts that a study displays: titles of its names, values as the file writes them, paragraphs; stored as
+JSON.
+"""
 
 from __future__ import annotations
 
@@ -25,9 +27,9 @@ MOST_IN_A_ROW, NOTHING = 1000, 1e-12  # values of which texts are made; of the l
 
 
 class Names(NamedTuple):
-    """titles: {name: title}. values: {part: {coordinate: (text, …)}}, of numbers that all have a unit in the file.
+    """Texts of a study: titles {name: title}; values {part: {coordinate: (text, …)}} of numbers with units in the file.
 
-    about: paragraphs on the whole.
+    about: paragraphs on the whole study.
     """
 
     titles: Mapping[str, str]
@@ -38,14 +40,14 @@ class Names(NamedTuple):
 NONE = Names({}, {})
 
 
-def _quantity(text: str) -> re.Match[str] | None:
-    """Number, power of ten, π and unit; "pi rad/s" has the number 1."""
+def _match_quantity(text: str) -> re.Match[str] | None:
+    """Return the match of a number with unit: number, power of ten, π and unit; "pi rad/s" has the number 1."""
     return _QUANTITY.fullmatch(_PI.sub(r"\g<1>1*pi", text.strip()))
 
 
 def as_people_write(text: str) -> str:
-    """ "3*pi rad/s" as "3π rad/s"; "" of what is no number with a unit."""
-    found = _quantity(text)
+    """Return a number with unit in typographic form: "3*pi rad/s" as "3π rad/s"; "" for other texts."""
+    found = _match_quantity(text)
     if found is None:
         return ""
     number, power, pi, unit = found.groups()
@@ -56,9 +58,9 @@ def as_people_write(text: str) -> str:
     return f"{number.replace('-', '−')}{'π' if pi else ''} {shown}"
 
 
-def _in_a_row(numbers: Numbers) -> tuple[str, ...]:
-    """Values from one text to another one in the unit of both; none where that is none, or not the same."""
-    ends = [_quantity(text) for text in numbers.texts]
+def _format_range(numbers: Numbers) -> tuple[str, ...]:
+    """Return the texts of evenly spaced values between two texts, in their common unit; empty without one."""
+    ends = [_match_quantity(text) for text in numbers.texts]
     of = {(bool(end[3]), end[4]) for end in ends if end}
     if None in ends or len(of) > 1 or numbers.count > MOST_IN_A_ROW:
         return ()
@@ -71,13 +73,13 @@ def _in_a_row(numbers: Numbers) -> tuple[str, ...]:
 
 
 def names_of(plans: Plans) -> Names:
-    """Of a file whose names are resolved."""
+    """Return the texts of a resolved study file."""
     values: dict[str, dict[str, tuple[str, ...]]] = {}
     for part, plan in plans.each.items():
         every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
             every |= {
-                str(name): _in_a_row(own) if own.count else tuple(map(str, own.texts))
+                str(name): _format_range(own) if own.count else tuple(map(str, own.texts))
                 for name, own in axis.columns.items()
             }
         shown = {name: tuple(map(as_people_write, texts)) for name, texts in every.items()}
@@ -86,13 +88,13 @@ def names_of(plans: Plans) -> Names:
 
 
 def write_names(folder: Path, plans: Plans) -> None:
-    """Beside the runs: names decide none of them. Raises OutputError."""
+    """Write the texts into the study's folder; they do not affect the runs. Raises OutputError."""
     with written(folder / FILE) as file:
         file.write(json.dumps(names_of(plans)._asdict(), indent=1, ensure_ascii=False).encode())
 
 
 def read_names(folder: Path) -> Names:
-    """What write_names left, NONE where there is nothing."""
+    """Return the texts that write_names wrote; NONE if there are none."""
     try:
         data = read_regular(folder / FILE)
         found = {} if data is None else json.loads(data)

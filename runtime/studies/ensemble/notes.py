@@ -1,4 +1,4 @@
-"""What the runs of a study say of themselves: each kind once, in how many runs, with one of them."""
+"""Collect the notes of a study's runs: each kind once, with the number of runs and an example."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MOST = 50  # kinds that are told
 
 @dataclass(frozen=True)
 class Note:
-    """A kind of note: runs that have it, the first of them (of the study) and its words."""
+    """A kind of note: number of runs that have it, the first of them in the study, and its text."""
 
     runs: int
     run: int
@@ -32,18 +32,18 @@ class Note:
 
 
 def kind_of(told: str) -> str:
-    """The first line of what is told of a run without its numbers: the same of many."""
+    """Return the first line of a note without numbers, by which equal notes of many runs are recognised."""
     return _NUMBER.sub("…", _WITH.sub("", told.partition("\n")[0]))[:200]
 
 
 def gathered(told: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
-    """Of runs with their notes, without what a study has them choose: coordinates say that."""
+    """Return the notes of runs by kind, without those on choices, which coordinates show."""
     own = ((run, text) for run, texts in told for text in texts if not tells_choice(text))
     return merged({kind_of(text): Note(1, run, text)} for run, text in own)
 
 
 def merged(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
-    """Of notes of different runs."""
+    """Return the notes of different runs as one table by kind."""
     found: dict[str, Note] = {}
     for kind, note in (item for one in several for item in one.items()):
         before = found.get(kind)
@@ -54,7 +54,7 @@ def merged(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
 
 @contextmanager
 def guesses(source: KernelSource, run: int) -> Iterator[dict[str, Note]]:
-    """Guesses that runs from here do not follow, which would be a warning a block."""
+    """Collect notes on guesses that runs do not follow, instead of a warning for each block."""
     noted: list[Mapping[str, float]] = []
     found: dict[str, Note] = {}
     token = NOTED.set(noted)

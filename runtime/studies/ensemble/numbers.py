@@ -1,4 +1,4 @@
-"""Texts of a study file as numbers of a scene: SI, with places; expressions by the numbers of each run."""
+"""Convert texts of a study file to parameter values in SI, with locations for errors, and evaluate its expressions."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ if TYPE_CHECKING:
     from gudgeon.generator.yaml import Text
 
 GEOMETRIC = "geometric"
-ROUNDING = 1e-12  # of a time: a sample this near to the end of a window lies in it
+ROUNDING = 1e-12  # relative tolerance of times at the ends of a window
 
 
 def slot_of(source: KernelSource, name: str) -> Slot | None:
-    """The number that a scene has under an address, a parameter's short name or a name for several; None: none."""
+    """Return the parameter of a scene with an address, a short name or a group name; None if there is none."""
     by_address = {slot.address: slot for slot in source.slots}
     called = (name, f"parameters.{name}", *TOGETHER.get(name, ()))
     return next((by_address[one] for one in called if one in by_address), None)
 
 
 def key_of(source: KernelSource, name: str) -> str:
-    """What the runs of a scene are given it as, however it is spelled; "": the scene has no such number."""
+    """Return the name by which the runs of a scene are given a parameter; "" if the scene lacks it."""
     slot = slot_of(source, name)
     return "" if slot is None else name if name in TOGETHER and slot.address in TOGETHER[name] else slot.address
 
 
 def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
-    """The same of the first of several scenes that has it. Raises UnknownNameError at the name."""
+    """Return the parameter of the first of several scenes that has it. Raises UnknownNameError at the name."""
     for source in sources:
         if (found := slot_of(source, name)) is not None:
             return found
@@ -56,7 +56,7 @@ def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
 
 
 def in_si(text: Text, slot: Slot) -> float | str:
-    """The number that a text says for a slot, of a choice its name. Raises an InputError at the text."""
+    """Return the value of a text for a parameter, SI, or the name for a choice. Raises an InputError at the text."""
     if slot.words:
         try:
             place_of_word(str(text), slot)
@@ -75,7 +75,7 @@ def in_si(text: Text, slot: Slot) -> float | str:
 
 
 def real(text: Text, slot: Slot) -> float:
-    """The same of a slot that is no choice. Raises BadValueError."""
+    """Return the value of a text for a parameter that is not a choice. Raises BadValueError."""
     value = in_si(text, slot)
     if isinstance(value, str):
         hint = "list the names that it takes, under parameters:"
@@ -84,9 +84,9 @@ def real(text: Text, slot: Slot) -> float:
 
 
 def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
-    """All values of a dimension, (n,), SI, or names; whether one may stand there again.
+    """Return all values of a dimension, (n,), SI or names; `again`: whether values may repeat.
 
-    Raises BadValueError for ends that leave nothing between.
+    Raises BadValueError for equal ends.
     """
     if not numbers.count:
         found = [in_si(text, slot) for text in numbers.texts]
@@ -108,16 +108,17 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
 
 
 def within_doubles(values: Array, text: Text) -> Array:
-    """Values between two ends, or BadValueError at the second where doubles do not reach."""
+    """Return the values. Raises BadValueError at the second end unless all are finite."""
     if not np.isfinite(values).all():
         raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
     return values
 
 
 def check_expression(source: KernelSource, written: Written, wanted: Dimension, more: Mapping[str, Dimension]) -> None:
-    """An InputError at its place for an expression that has no such dimension in a scene; `more` names it may use."""
+    """Raise an InputError at its location for an expression without the wanted dimension; `more` are further names."""
 
     def dimension_of(path: str) -> Dimension | None:
+        """Return the dimension of a name in the expression."""
         if path in more:
             return more[path]
         slot = slot_of(source, path)
@@ -142,14 +143,14 @@ def _check_units(written: Written, known: Sequence[str]) -> None:
 
 
 def constant(written: Written | None, known: Mapping[str, float]) -> float | None:
-    """The value of an expression that is the same in all runs: of numbers, and of what is known by name; else None."""
+    """Return the value of an expression that is the same in all runs, from `known` names; else None."""
     if written is None or any(name.path not in known for name in names(written.expr)):
         return None
     return float(evaluate(written.expr, known.get))
 
 
 def impossible(name: str, values: Array) -> tuple[Array, str]:
-    """Which values of t_end, step or (rounded) output no run can have, and what is expected."""
+    """Return which values of t_end, step or (rounded) output are not possible, and a text of what is expected."""
     if name == "output":
         expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
         return ~((values >= 1.0) & (values <= MOST_OUTPUT)), expected
@@ -157,7 +158,7 @@ def impossible(name: str, values: Array) -> tuple[Array, str]:
 
 
 def check_constants(study: StudyFile) -> None:
-    """BadValueError at its place for an end, an output, a step or a window that no run can have."""
+    """Raise BadValueError at its location for a constant end, output, step or window that no run can have."""
     known: dict[str, float] = {}
     for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
         if written is None or (value := constant(written, known)) is None:
@@ -177,10 +178,13 @@ def check_constants(study: StudyFile) -> None:
 
 
 def of_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:
-    """The values of an expression, (n,), by the numbers p (n, ...) of the runs; not finite where there is none."""
+    """Return the values of an expression, (n,), from the parameters p (n, ...) of the runs; not finite where
+    undefined.
+    """
     place = {slot.address: k for k, slot in enumerate(source.slots)}
 
     def value_of(path: str) -> Any:
+        """Return the values of a name in the expression."""
         if path in more:
             return more[path]
         slot = slot_of(source, path)

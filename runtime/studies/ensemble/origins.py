@@ -1,4 +1,4 @@
-"""What a series is less than: that of another scene with the same numbers, at the very samples of each run."""
+"""Compute the series to subtract: those of another scene with the same parameters, at the samples of each run."""
 
 from __future__ import annotations
 
@@ -32,29 +32,29 @@ if TYPE_CHECKING:
     from gudgeon.results.batch import Batch
     from gudgeon.studies.ensemble.block import Job, Table
 
-KEPT = 1 << 26  # bytes of series that the next blocks of a process may need again
+KEPT = 1 << 26  # bytes of series in the cache, which next blocks of a process may need
 
 
 def origins_of(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
-    """Scenes that are subtracted, each once; but for one's own."""
+    """Return the scenes that measures subtract, without repetitions and without `scene` itself."""
     return tuple(dict.fromkeys(str(one.origin) for one in measures if one.origin is not None and one.origin != scene))
 
 
 def of_steps(measures: Sequence[Measure], source: KernelSource) -> str:
-    """The one that is subtracted at every step; "": none is."""
+    """Return the scene that measures over all steps subtract; "" if there is none."""
     own = (one for one in measures if one.statistic in STEPS and one.of in catalogue(source))
     return next(iter(origins_of(own, source.scene)), "")
 
 
 def origin_of(job: Job, scene: str) -> Simulation:
-    """The library of another scene of a job's structure."""
+    """Return the library of another scene of a job's structure."""
     return loaded(job.mechanism, scene, job.overrides, job.sha256)
 
 
 def idle(source: KernelSource) -> Array:
-    """Which numbers of p a motion does not read of itself, (n,): parameters that stand in no expression of t or motion.
+    """Return which entries of p do not affect a motion directly, (n,): parameters in no expression of t or motion.
 
-    What else they decide, lengths or masses that follow them, stands in p beside them.
+    Lengths or masses that follow them are entries of p themselves.
     """
     trees = [json.loads(one.tree) for one in source.written] + list(source.outputs.values())
     read = {f"parameters.{name.path.removeprefix('parameters.')}" for tree in trees for name in names(from_json(tree))}
@@ -64,7 +64,7 @@ def idle(source: KernelSource) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Alike:
-    """Runs of another scene, told apart by what decides them."""
+    """Runs of another scene with keys by which equal runs are recognised."""
 
     columns: Mapping[str, Array]  # its own numbers, (n,)
     whole: Array  # p, (n, ...)
@@ -73,26 +73,27 @@ class Alike:
     step: Array | None
 
     def key(self, i: int) -> tuple[bytes, bytes, float]:
-        """The same for runs that are the same."""
+        """Return the key of run i; equal runs have equal keys."""
         return self.p[i].tobytes(), self.t[i].tobytes(), 0.0 if self.step is None else float(self.step[i])
 
 
 class Recent:
-    """Series that were taken last, at most so many bytes of them."""
+    """Cache of the most recently used series, with a limit of bytes."""
 
     def __init__(self) -> None:
+        """Create an empty cache."""
         self._held: OrderedDict[Any, Mapping[str, Array]] = OrderedDict()
         self._bytes, self._lock = 0, Lock()
 
     def get(self, key: Any) -> Mapping[str, Array] | None:
-        """None where they are gone."""
+        """Return the series of a key; None if they are not in the cache."""
         with self._lock:
             if key in self._held:
                 self._held.move_to_end(key)
             return self._held.get(key)
 
     def put(self, key: Any, series: Mapping[str, Array]) -> None:
-        """Older ones go where there is no place."""
+        """Store series, and remove the oldest ones beyond the limit."""
         with self._lock:
             if key in self._held:
                 return
@@ -106,9 +107,9 @@ _recent, _making = Recent(), Lock()
 
 
 def at_samples(job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]) -> dict[str, dict[str, Array]]:
-    """Of each scene that is subtracted its series at the samples of these runs of a job, (n, N), NaN where none are.
+    """Return for each scene to subtract its series at the samples of these runs, (n, N), NaN where missing.
 
-    A scene that cannot be run with the numbers of a run is what that run fails of.
+    A run whose parameters the other scene cannot use is entered in `failures`.
     """
     found: dict[str, dict[str, Array]] = {}
     wanted = [one for one in job.wanted.measures if one.statistic not in STEPS]
@@ -117,17 +118,18 @@ def at_samples(job: Job, table: Table, runs: Array, batch: Batch, failures: list
         known = catalogue(simulation.source).keys() & catalogue(batch.source).keys()
         own = dict.fromkeys(str(one.of) for one in wanted if one.origin == scene and one.of in known)
         if own:
-            found[scene] = _series(job, simulation, table, runs, batch, list(own), failures)
+            found[scene] = _series_at_samples(job, simulation, table, runs, batch, list(own), failures)
     return found
 
 
-def _series(
+def _series_at_samples(
     job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, wanted: list[str], failures: list[str]
 ) -> dict[str, Array]:
+    """Return the wanted series of another scene at the samples of these runs, (n, N) each."""
     times = batch.kept["t"]
     out = {name: np.full(times.shape, np.nan) for name in wanted}
     good = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
-    alike = _alike(simulation, table, runs, [row[np.isfinite(row)] for row in times])
+    alike = _make_runs(simulation, table, runs, [row[np.isfinite(row)] for row in times])
     common = (
         job.mechanism,
         job.overrides,
@@ -142,7 +144,7 @@ def _series(
         held = {keys[i]: _recent.get(keys[i]) for i in good}
         missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
         made = _followed(job, simulation, alike, sorted(missing), wanted)
-        for i, series in (made | _made(job, simulation, alike, sorted({*missing} - {*made}), wanted)).items():
+        for i, series in (made | _simulate_runs(job, simulation, alike, sorted({*missing} - {*made}), wanted)).items():
             if isinstance(series, str):
                 for k in (k for k in good if keys[k] == keys[i]):
                     failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
@@ -155,32 +157,35 @@ def _series(
     return out
 
 
-def _alike(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> Alike:
+def _make_runs(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> Alike:
+    """Return the runs of another scene with the parameters and times of these runs."""
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := key_of(source, name))}
-    rows = [{name: _plain(values[i]) for name, values in columns.items()} for i in range(len(runs))]
+    rows = [{name: _as_python_value(values[i]) for name, values in columns.items()} for i in range(len(runs))]
     given, is_given = given_each(source, rows)
     p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
     return Alike(columns, p, np.where(idle(source), 0.0, p), tuple(times), step)
 
 
-def _plain(value: Any) -> float | str:
+def _as_python_value(value: Any) -> float | str:
+    """Return a Python float or text from an entry of an array."""
     return value if isinstance(value, str) else float(value)
 
 
 def _followed(
     job: Job, simulation: Simulation, alike: Alike, runs: list[int], wanted: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Series of runs that follow their drives, of the motion alone; the others, and what works tell, take a whole run.
+    """Return the series of kinematically driven runs from their motion alone, without the runs that fail.
 
-    Works are two thirds of such a run, for an energy balance that nobody reads here.
+    A whole run would spend two thirds of its time on works for an energy balance that is not used.
     """
     source, compiled, parts = simulation.source, simulation.compiled, parts_of(simulation.source, wanted)
     if source.degrees_of_freedom or not runs:
         return {}
 
     def follow(i: int) -> Mapping[str, Array] | None:
+        """Return the series of run i; None if they cannot be computed from the motion alone."""
         t, p = alike.t[i], alike.whole[i]
         try:
             start = assemble(compiled, p)
@@ -197,10 +202,10 @@ def _followed(
     return {i: series for i, series in found.items() if series is not None}
 
 
-def _made(
+def _simulate_runs(
     job: Job, simulation: Simulation, alike: Alike, runs: list[int], wanted: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
-    """Series of each run, or why there are none."""
+    """Return the series of each run from a simulation, or the reason why there are none."""
     if not runs:
         return {}
     source, moves = simulation.source, bool(simulation.source.degrees_of_freedom)
@@ -208,7 +213,8 @@ def _made(
     same = all(np.array_equal(one, t[0]) for one in t)
     try:
         batch = simulation.simulate_many(
-            {name: [_plain(values[i]) for i in runs] for name, values in alike.columns.items()} or [{}] * len(runs),
+            {name: [_as_python_value(values[i]) for i in runs] for name, values in alike.columns.items()}
+            or [{}] * len(runs),
             output=t[0] if same else t,
             method=method_in(source, job.wanted.method),
             rtol=job.wanted.rtol if moves else None,
@@ -221,7 +227,7 @@ def _made(
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        each = [_made(job, simulation, alike, [i], wanted) for i in runs]
+        each = [_simulate_runs(job, simulation, alike, [i], wanted) for i in runs]
         return {i: series for own in each for i, series in own.items()}
     if batch.interrupted:
         raise KeyboardInterrupt

@@ -1,4 +1,6 @@
-"""The table of a study's runs, never written out: dimensions, parts of one structure each, and their blocks."""
+"""Own the table of a study's runs, which is never written out: dimensions, parts with one structure each, and their
+blocks.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,7 @@ MOST_RUNS, MOST_STRUCTURES = 100_000_000, 10_000
 
 @dataclass(frozen=True, eq=False)
 class Coordinate:
-    """Values over some dimensions of the study, SI, or names."""
+    """A coordinate: values over some dimensions of the study, SI, or names."""
 
     name: str
     over: tuple[str, ...]
@@ -38,7 +40,7 @@ class Coordinate:
 
 @dataclass(frozen=True, eq=False)
 class Dimension:
-    """What varies along it: numbers of the runs by their addresses, (length,) each."""
+    """A dimension of a study: the parameters that vary along it by address, (length,) each."""
 
     name: str
     length: int
@@ -47,7 +49,7 @@ class Dimension:
 
 @dataclass(frozen=True, eq=False)
 class Deviations:
-    """How far numbers are off their place: relative and absolute (SI), (n_ensembles, n_starts) each."""
+    """Deviations of perturbed starts: relative and absolute (SI), (n_ensembles, n_starts) each."""
 
     relative: dict[str, Array]
     absolute: dict[str, Array]
@@ -55,7 +57,7 @@ class Deviations:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Runs of one scene with one structure: one library."""
+    """Runs of one scene with one structure, hence of one library."""
 
     simulation: Simulation
     mechanism: str
@@ -66,12 +68,12 @@ class Part:
 
     @property
     def sha256(self) -> str:
-        """Of all that its library was made from."""
+        """Digest of everything that its library was made from."""
         return self.simulation.source.whole_sha256
 
 
 class BlockOf(NamedTuple):
-    """Which runs a block has."""
+    """The runs of a block: a range of the runs of a part."""
 
     number: int
     part: int
@@ -81,7 +83,7 @@ class BlockOf(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A study whose names are resolved; dimensions of structure first, then those of numbers."""
+    """A study with resolved names; dimensions of structure come first, then those of parameters."""
 
     study: StudyFile
     structure: tuple[Dimension, ...]
@@ -101,27 +103,27 @@ class Plan:
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Their names."""
+        """Names of all dimensions."""
         return tuple(one.name for one in (*self.structure, *self.numbers))
 
     @property
     def each(self) -> int:
-        """Runs of a part."""
+        """Number of runs of a part."""
         return math.prod(one.length for one in self.numbers)
 
     @property
     def runs(self) -> int:
-        """All of them."""
+        """Number of runs of all parts."""
         return self.each * len(self.parts)
 
     @property
     def count_of_blocks(self) -> int:
-        """How many they are, without a list of them."""
+        """Number of blocks, without a list of them."""
         return sum(-(-self.each // part.block) for part in self.parts)
 
     @cached_property
     def blocks(self) -> tuple[BlockOf, ...]:
-        """All of them, part by part."""
+        """All blocks, part by part."""
         each = self.each
         places = (
             (k, first, min(part.block, each - first))
@@ -131,19 +133,19 @@ class Plan:
         return tuple(BlockOf(number, *place) for number, place in enumerate(places))
 
     def job(self, block: BlockOf, threads: int | None) -> Job:
-        """All that a process needs to run a block."""
+        """Return the job of a block, which contains all that a process needs to run it."""
         runs = np.arange(block.first, block.first + block.runs)
         return self.job_of(block.number, block.part, runs, threads, self.each - block.first - block.runs)
 
     def job_of(self, number: int, k: int, runs: Array, threads: int | None, later: int = 0) -> Job:
-        """The same of any runs of a part."""
+        """Return the job of any runs of part k; `later`: runs of the part in later blocks."""
         part, shape = self.parts[k], tuple(one.length for one in self.numbers)
         index = np.unravel_index(runs, shape) if shape else ()
         columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
         for one, at in zip(self.numbers, index, strict=True):
             columns |= {name: values[at] for name, values in one.columns.items()}
         by_name = {one.name: at for one, at in zip(self.numbers, index, strict=True)}
-        relative, absolute = self._off(by_name, len(runs))
+        relative, absolute = self._deviations_of(by_name, len(runs))
         return Job(
             part.mechanism,
             part.simulation.source.scene,
@@ -160,7 +162,8 @@ class Plan:
             later,
         )
 
-    def _off(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
+    def _deviations_of(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Return the relative and absolute deviations of runs with these indices."""
         if self.deviations is None:
             return {}, {}
         at = index.get("ensemble", np.zeros(n, dtype=int)), index["start"]
@@ -170,7 +173,7 @@ class Plan:
 
     @cached_property
     def said(self) -> dict[str, Any]:
-        """All that decides the results: two studies are the same where this is."""
+        """Description of all inputs of the results; two studies are the same if it is equal."""
         import gudgeon
 
         parts = {
@@ -181,18 +184,18 @@ class Plan:
 
     @cached_property
     def identity(self) -> str:
-        """A digest of `said`."""
-        return _digest(self.said)
+        """Digest of `said`."""
+        return _sha256_of(self.said)
 
     @cached_property
     def digest(self) -> str:
-        """The same with how runs are put into blocks: what a block's file is of."""
-        return _digest([self.said, [part.block for part in self.parts]])
+        """Digest of `said` and of the sizes of blocks, to identify files of blocks."""
+        return _sha256_of([self.said, [part.block for part in self.parts]])
 
 
 @dataclass(frozen=True, eq=False)
 class Plans:
-    """All of a file: the plan of each of its parts, or one, ""."""
+    """The plans of a study file: one for each of its parts, or one with the name ""."""
 
     file: StudySet
     each: Mapping[str, Plan]
@@ -205,12 +208,12 @@ class Plans:
 
     @property
     def runs(self) -> int:
-        """Of all parts."""
+        """Number of runs of all parts."""
         return sum(plan.runs for plan in self.each.values())
 
 
 def check_size(study: StudyFile) -> None:
-    """BadValueError for more runs or structures than are ever made, at the longest dimension, before any is loaded."""
+    """Raise BadValueError at the longest dimension for too many runs or structures, before any is loaded."""
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
     numbers = [(axis.length, axis.where) for axis in study.axes]
@@ -228,5 +231,6 @@ def check_size(study: StudyFile) -> None:
             raise BadValueError(f"the study has {found} {what}", where, f"expected {most:.0e} at most")
 
 
-def _digest(told: Any) -> str:
+def _sha256_of(told: Any) -> str:
+    """Return the SHA-256 of a value as JSON."""
     return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()

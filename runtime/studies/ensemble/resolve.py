@@ -1,4 +1,6 @@
-"""A study file to a plan: its mechanism loaded once a structure, every name and unit checked at its place."""
+"""Resolve a study file to a plan: load its mechanism for each structure, and check every name and unit at its
+location.
+"""
 
 from __future__ import annotations
 
@@ -42,21 +44,21 @@ if TYPE_CHECKING:
 
 BLOCK = 128  # runs of a block at most
 BYTES = 1 << 26  # of states and series of a block, about
-LOOKED_AT = 64  # runs of a part whose samples are counted for that
+LOOKED_AT = 64  # runs of a part whose samples are counted to size its blocks
 RANDOM, LATIN, HALTON = "random", "latin_hypercube", "halton"
 NORMAL, GEOMETRIC = "normal", "geometric"
 
 
 def resolve(study: StudyFile) -> Plan:
-    """Load every structure, check every name. Raises an InputError at its place in the study's file."""
+    """Load every structure and check every name of a study file. Raises an InputError at its location in the file."""
     check_size(study)
-    structure, coordinates = _structure(study)
-    parts = tuple(_parts(study, structure))
+    structure, coordinates = _resolve_structure(study)
+    parts = tuple(_load_parts(study, structure))
     sources = [part.simulation.source for part in parts]
-    numbers, found = _numbers(study, sources)
-    off, of_starts, starts = _starts(study.starts, sources)
+    numbers, found = _resolve_numbers(study, sources)
+    off, of_starts, starts = _resolve_starts(study.starts, sources)
     coordinates += found + of_starts
-    wanted = _wanted(study, parts)
+    wanted = _resolve_wanted(study, parts)
     fixed = {str(name): in_si(text, known_slot(sources, name)) for name, text in study.fixed.items()}
     coordinates += [
         Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
@@ -71,14 +73,14 @@ def resolve(study: StudyFile) -> Plan:
         tuple(coordinates),
         parts,
         wanted,
-        _units(study, sources),
-        tuple(_notes(study, sources)),
+        _resolve_units(study, sources),
+        tuple(_find_notes(study, sources)),
     )
-    return replace(plan, parts=tuple(_in_blocks(plan, k) for k in range(len(parts))))
+    return replace(plan, parts=tuple(_size_blocks(plan, k) for k in range(len(parts))))
 
 
-def _structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
-    """Scenes and choices."""
+def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
+    """Return dimensions and coordinates of scenes and choices."""
     named = [("scene", [str(name) for name in study.scenes], "scene of the mechanism")] if not study.one_scene else []
     named += [(choice.name, list(choice.options), "choice of structure") for choice in study.choices]
     found = [Coordinate(name, (name,), np.array(words, object), "", told) for name, words, told in named]
@@ -87,16 +89,19 @@ def _structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
     return [Dimension(name, len(words)) for name, words, _ in named], found
 
 
-def _parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
-    """Every combination of scene and options, loaded."""
+def _load_parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
+    """Yield the part of every combination of scene and options, loaded."""
     mechanism = mechanism_of(study)
     for scene, texts, overrides in structures(study):
         for origin in origins(study):
-            check_origin(study.measures, _load(mechanism, origin, texts, overrides).source)
-        yield Part(_load(mechanism, scene, texts, overrides), mechanism, overrides)
+            check_origin(study.measures, _load_scene(mechanism, origin, texts, overrides).source)
+        yield Part(_load_scene(mechanism, scene, texts, overrides), mechanism, overrides)
 
 
-def _load(mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]) -> Simulation:
+def _load_scene(
+    mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]
+) -> Simulation:
+    """Return the loaded scene. Raises errors of overrides at their location in the study file."""
     try:
         return load(mechanism, str(scene), overrides=dict(overrides), quick=False)
     except InputError as error:
@@ -108,8 +113,8 @@ def _load(mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tup
         raise type(error)(error.message, (text or scene).where, error.hint) from None
 
 
-def _numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
-    """Dimensions of `parameters:`, `zip:` and `draw:`."""
+def _resolve_numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
+    """Return dimensions and coordinates of `parameters:`, `zip:` and `draw:`."""
     dimensions, coordinates = [], []
     for axis in study.axes:
         columns = {}
@@ -122,7 +127,7 @@ def _numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Di
             coordinates.append(Coordinate(axis.name, (axis.name,), np.arange(length), "", f"place in zip {axis.name}"))
         dimensions.append(Dimension(axis.name, length, columns))
     if study.draw is not None:
-        columns = _drawn(study.draw, sources)
+        columns = _draw_values(study.draw, sources)
         dimensions.append(Dimension("draw", study.draw.count, columns))
         told = f"point of {study.draw.method}, seed {study.draw.seed}"
         coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", told))
@@ -132,7 +137,8 @@ def _numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Di
     return dimensions, coordinates
 
 
-def _drawn(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
+def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
+    """Return the random or quasi-random values of each drawn parameter, (count,)."""
     points = shares(draw.method, draw.count, len(draw.names), draw.seed)
     found = {}
     for name, spread in draw.numbers.items():
@@ -151,10 +157,10 @@ def _drawn(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
     return found
 
 
-def _starts(
+def _resolve_starts(
     starts: Starts | None, sources: Sequence[KernelSource]
 ) -> tuple[Deviations | None, list[Coordinate], list[Dimension]]:
-    """Perturbed starts: how far each number is off in each, the sizes as coordinates, one or two dimensions."""
+    """Return deviations, coordinates and dimensions of perturbed starts."""
     if starts is None:
         return None, [], []
     names = sorted({str(name): name for own in starts.ensembles.values() for name in own}.values())
@@ -176,7 +182,9 @@ def _starts(
     for k, name in enumerate(names):
         slot = known_slot(sources, name)
         for relative, column in ((True, off.relative), (False, off.absolute)):
-            sizes = _sizes(ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative)
+            sizes = _deviation_sizes(
+                ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative
+            )
             if sizes is None:
                 continue
             column[str(name)] = by = sizes[:, None] * points[:, :, k]
@@ -190,8 +198,12 @@ def _starts(
     return off, coordinates, [*dimensions, Dimension("start", starts.count)]
 
 
-def _sizes(ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool) -> Array | None:
-    """How far a number is off in each ensemble, 0 where it is not; None where it is not in any, in this way."""
+def _deviation_sizes(
+    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool
+) -> Array | None:
+    """Return the size of the deviation of a parameter in each ensemble, 0 where it has none; None if it has none of
+    this kind.
+    """
     sizes, found = np.zeros(len(ensembles)), False
     for k, own in enumerate(ensembles):
         if name in own and own[name].relative == relative:
@@ -202,10 +214,10 @@ def _sizes(ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot
     return sizes if found else None
 
 
-def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
-    """What is asked of the runs, checked in every scene."""
+def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
+    """Return the requested outputs of the runs, checked in every scene."""
     ends = {"t_end": TIME}
-    rtol = None if study.rtol is None else _tolerance(study.rtol)
+    rtol = None if study.rtol is None else _parse_tolerance(study.rtol)
     for part in parts:
         source = part.simulation.source
         for written, dimension, more in (
@@ -232,7 +244,7 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
-    """An InputError at its place for a method or a tolerance that a scene cannot have."""
+    """Raise an InputError at its location for a method or tolerance that a scene does not allow."""
     method, where = method_in(source, str(study.method)), study.method.where
     moves = bool(source.degrees_of_freedom)
     fixed, rtol = moves and study.step is not None, rtol if moves else None
@@ -244,12 +256,13 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
         raise type(error)(f"scene {source.scene}: {error.message}", where, error.hint) from None
 
 
-def _tolerance(text: Text) -> float:
+def _parse_tolerance(text: Text) -> float:
+    """Return the value of rtol."""
     return real(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
 
 
-def _units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
-    """Units of measures and kept series. UnknownNameError for one that no scene has."""
+def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
+    """Return the units of measures and stored series by name. Raises UnknownNameError for one that no scene has."""
     found = {}
     for measure in study.measures:
         units = [unit for source in sources if (unit := unit_of(measure, source)) is not None]
@@ -267,8 +280,8 @@ def _units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
     return found
 
 
-def _notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
-    """What a study cannot do in some of its scenes, once for each."""
+def _find_notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
+    """Yield a sentence for each setting or measure that has no effect in some scenes."""
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
     names += [*study.draw.numbers] if study.draw else []
     names += [name for own in study.starts.ensembles.values() for name in own] if study.starts else []
@@ -290,8 +303,8 @@ def _notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
             yield f"{name} is NaN in scene {', '.join(lacking)}, which has no such series"
 
 
-def _in_blocks(plan: Plan, k: int) -> Part:
-    """Part k in blocks of so few runs that their samples fit into BYTES, by those of some of its runs."""
+def _size_blocks(plan: Plan, k: int) -> Part:
+    """Return part k with a block size whose samples fit into BYTES, estimated from some of its runs."""
     runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, LOOKED_AT)).astype(int))
     job: Job = plan.job_of(0, k, runs, None)
     counts = Table(plan.parts[k].simulation, job).output
@@ -303,7 +316,9 @@ def _in_blocks(plan: Plan, k: int) -> Part:
 
 
 def shares(method: str, count: int, width: int, seed: int) -> Array:
-    """Points of the unit cube, (count, width): independent ones, or scipy.stats.qmc's, scrambled where they can be."""
+    """Return points of the unit cube, (count, width): independent ones, or those of scipy.stats.qmc, scrambled if
+    possible.
+    """
     if method == RANDOM:
         return np.random.default_rng(seed).random((count, width))
     from scipy.stats import qmc
@@ -316,7 +331,7 @@ def shares(method: str, count: int, width: int, seed: int) -> Array:
 
 
 def spread_over(spread: Spread, first: float, second: float, share: Array) -> Array:
-    """Values at shares (n,) of a distribution: mean and standard deviation, or two ends (SI)."""
+    """Return values at fractions (n,) of a distribution, from mean and standard deviation, or from two ends (SI)."""
     if spread.kind == NORMAL:
         from scipy.special import ndtri
 
@@ -327,7 +342,8 @@ def spread_over(spread: Spread, first: float, second: float, share: Array) -> Ar
 
 
 def deviations(starts: Starts, names: list[str]) -> Array:
-    """Of each ensemble, start and number, (n_ensembles, count, n_names): within −1 and 1, or normal with σ = 1.
+    """Return deviations of each ensemble, start and parameter, (n_ensembles, count, n_names): in [−1, 1], or normal
+    with σ = 1.
 
     They are the same at every other coordinate of the study, so that runs can be compared start by start.
     """

@@ -1,4 +1,4 @@
-"""`gudgeon.study` and `gudgeon.load_study`: a study as one Dataset."""
+"""Run a study file and return it as one Dataset: `gudgeon.study` and `gudgeon.load_study`."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def plans_of(
     starts: int | None = None,
     seed: int | None = None,
 ) -> Plans:
-    """The plans of a study, as `study` takes it, mechanisms loaded. Raises InputError."""
+    """Return the plans of a study, with mechanisms loaded; arguments as in `study`. Raises InputError."""
     from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
     from gudgeon.generator.study.read import read_studies
 
@@ -56,16 +56,16 @@ def plans_of(
     starts = None if starts is None else whole(starts, "starts", 1, MOST_COUNT)
     seed = None if seed is None else whole(seed, "seed", 0, MOST_SEED)
     if isinstance(study, Mapping):
-        return _resolved(read_studies(study, "", given).begun(starts, seed))
+        return _resolve_parts(read_studies(study, "", given).begun(starts, seed))
     file = os.fspath(path(study, "study"))
     if not (os.path.splitext(file)[1] or os.path.dirname(file) or os.path.lexists(file)):
         file = str(shipped_study(file))
     data = read_named(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return _resolved(read_studies(data, file, given).begun(starts, seed))
+    return _resolve_parts(read_studies(data, file, given).begun(starts, seed))
 
 
-def _resolved(studies: StudySet) -> Plans:
-    """Mistakes of all parts at once, each once where parts share what the file says."""
+def _resolve_parts(studies: StudySet) -> Plans:
+    """Return the resolved plans. Raises the errors of all parts together, without repetitions."""
     from gudgeon.studies.ensemble.claims import known_claims
     from gudgeon.studies.ensemble.libraries import made_beside, structures_of
     from gudgeon.studies.ensemble.plan import Plans
@@ -100,18 +100,18 @@ def study(
     starts: int | None = None,
     seed: int | None = None,
 ) -> Study:
-    """Make all runs of a study, and what it measures of them.
+    """Run all runs of a study and compute its measures.
 
-    study: a YAML file (docs/studies.md), the name of one that comes with gudgeon, or a mapping that says the same.
-    folder: where finished blocks of runs go at once; the same call goes on from what is there, whatever ended it, to
-    the same dataset. None: a temporary folder, which goes with the Study. threads: in each process, None for the cores
-    there are (1 with an executor). executor: any of concurrent.futures, or a Client of dask.distributed; its workers
-    are given blocks and load their own libraries. restart: begin anew. settings: {address: number or text} for all
-    runs, over the study's own, rows and draws too. starts, seed: another number of perturbed starts, or another seed
-    of them, than the study says. A run that fails is a row with its reason and NaN, and stops no other.
+    study: a YAML file (docs/studies.md), the name of one that comes with gudgeon, or a mapping with the same contents.
+    folder: finished blocks of runs are stored there at once; the same call resumes an interrupted study to the same
+    dataset. None: a temporary folder, deleted with the Study. threads: in each process, None for the number of cores (1
+    with an executor). executor: any of concurrent.futures, or a Client of dask.distributed; its workers receive blocks
+    and load their own libraries. restart: begin anew. settings: {address: number or text} for all runs, which override
+    the study's own values, rows and draws. starts, seed: number and seed of perturbed starts instead of those of the
+    study. A failed run has its reason and NaN, and does not stop others.
 
-    Raises InputError, with its place, for a mistake in the study or a folder of another study; OutputError for a
-    disk that takes no more. Ctrl-C is passed on: what is in the folder stays.
+    Raises InputError with its location for a mistake in the study or a folder of another study; OutputError for a full
+    disk. Ctrl-C is passed on, and finished blocks stay in the folder.
     """
     threads = None if threads is None else whole(threads, "threads", 1, MOST_THREADS)
     pool, progress = executor_of(executor), function(progress, "progress")
@@ -131,7 +131,7 @@ def run_plans(
     restart: bool = False,
     keeps: tempfile.TemporaryDirectory[str] | None = None,
 ) -> Study:
-    """The study of a file in a folder, each part in one of its own."""
+    """Run the plans of a study file in a folder, each part in a subfolder, and return the finished study."""
     check_needs(plans, folder, threads, executor is None)
     if plans.named:
         open_parts(folder, list(plans.each), restart)
@@ -139,6 +139,7 @@ def run_plans(
     for name, plan in plans.each.items():
 
         def report(fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done) -> None:
+            """Report the progress of a part as a fraction of the whole study."""
             if progress:
                 progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
 
@@ -153,7 +154,7 @@ def run_plans(
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
-    """The finished study of a folder. Raises InputError for a folder that holds none, or one that is not finished."""
+    """Return the finished study in a folder. Raises InputError for a folder without one, or with an unfinished one."""
     place = Path(path(folder, "folder"))
     if (found := manifest(place)) is None:
         raise InputError(f"{shortened(place)} is no folder of a study: it has no {MANIFEST}")

@@ -1,4 +1,4 @@
-"""Who makes blocks elsewhere: processes of this machine, a cluster of dask, any executor of concurrent.futures."""
+"""Own the executors of blocks: local processes, a cluster of dask, any executor of concurrent.futures."""
 
 from __future__ import annotations
 
@@ -17,33 +17,38 @@ from gudgeon.language.wanted import instance
 
 AHEAD = 2  # blocks for each worker that wait or run
 UNKNOWN = 4  # workers of an executor that does not say how many it has
-PATIENCE = 10  # s, until a cluster that does not answer is told
+PATIENCE = 10  # s, timeout of a cluster
 
 
 class Processes(Executor):
-    """Worker processes that are started anew, not forked: each loads its own libraries. `renew` where one has died."""
+    """Executor with spawned worker processes, each of which loads its own libraries; `renew` replaces them after a
+    death.
+    """
 
     def __init__(self, count: int, laws: tuple[str, ...] = ()) -> None:
+        """Start `count` processes that know the user-defined laws."""
         self.count, self.laws = count, laws
-        self.pool = self._begun()
+        self.pool = self._new_pool()
 
-    def _begun(self) -> ProcessPoolExecutor:
+    def _new_pool(self) -> ProcessPoolExecutor:
+        """Return a pool of new processes."""
         return ProcessPoolExecutor(self.count, get_context("spawn"), begin_worker, (self.laws,))
 
     def renew(self) -> None:
-        """Other processes, for what these have not done."""
-        self._end()
-        self.pool = self._begun()
+        """Replace the processes, so that unfinished work can be submitted again."""
+        self._terminate()
+        self.pool = self._new_pool()
 
     def submit(self, work: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """As of any executor."""
+        """Submit work, as for any executor."""
         return self.pool.submit(work, *args, **kwargs)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Ends the processes, whatever they are at: nobody waits for it any more."""
-        self._end()
+        """End the processes, whatever they are doing."""
+        self._terminate()
 
-    def _end(self) -> None:
+    def _terminate(self) -> None:
+        """Terminate all processes."""
         processes = dict(getattr(self.pool, "_processes", None) or {})
         for process in processes.values():
             process.terminate()
@@ -51,7 +56,7 @@ class Processes(Executor):
 
 
 def begin_worker(laws: tuple[str, ...]) -> None:
-    """In a new worker: Ctrl-C is the calling process's own, it ends with that, and it knows the user's laws."""
+    """Prepare a new worker: it ignores Ctrl-C, ends with its parent, and knows the user-defined laws."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     Thread(target=_end_with_parent, daemon=True).start()
     for law in laws:
@@ -61,14 +66,14 @@ def begin_worker(laws: tuple[str, ...]) -> None:
 
 
 def _end_with_parent() -> None:
-    """A worker whose parent was killed would wait for work for ever."""
+    """End this process when its parent ends, for example if that is killed."""
     if (parent := parent_process()) is not None:
         parent.join()
         os._exit(1)
 
 
 def executor_of(given: Any) -> Executor | None:
-    """An executor, or that of a dask Client. Raises BadValueError for anything else."""
+    """Return an executor, or that of a dask Client. Raises BadValueError for anything else."""
     distributed = sys.modules.get("distributed")
     if distributed is not None and isinstance(given, distributed.Client):
         found: Executor = given.get_executor(pure=False)
@@ -77,15 +82,15 @@ def executor_of(given: Any) -> Executor | None:
 
 
 def room(executor: Executor) -> int:
-    """Blocks that are to be out at once: no worker waits, and memory stays as it is."""
+    """Return the number of blocks to submit at once, so that no worker waits and memory stays bounded."""
     count = getattr(executor, "count", None) or getattr(executor, "_max_workers", None)
-    if count is None and (client := getattr(executor, "_client", None)) is not None:
+    if count is None and (client := getattr(executor, "_connect", None)) is not None:
         count = sum(client.ncores().values())  # of a cluster that grows and shrinks
     return AHEAD * max(1, UNKNOWN if count is None else count)
 
 
 def is_lost(error: BaseException) -> bool:
-    """Whether it says that a worker ended before its work did."""
+    """Return whether an error means that a worker ended before its work did."""
     distributed = sys.modules.get("distributed")
     killed = (distributed.KilledWorker,) if distributed is not None else ()
     return isinstance(error, (BrokenExecutor, CancelledError, *killed))
@@ -93,27 +98,31 @@ def is_lost(error: BaseException) -> bool:
 
 @contextmanager
 def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]:
-    """So many processes, or a cluster of dask at an address; None for neither. Raises InputError, GudgeonError."""
+    """Provide an executor with `count` processes, or of a dask cluster at an address; None for neither.
+
+    Raises InputError, GudgeonError.
+    """
     if count is not None and cluster is not None:
         raise InputError("--workers and --dask: a cluster has its own workers", hint="give one of them")
     if count is not None:
         with Processes(count, law_files()) as executor:
             yield executor
     elif cluster is not None:
-        with _client(cluster) as client:
+        with _connect(cluster) as client:
             yield executor_of(client)
     else:
         yield None
 
 
 def law_files() -> tuple[str, ...]:
-    """Files of the laws that this process knows beside the house's."""
+    """Return the files of the user-defined laws that this process knows."""
     module = sys.modules.get("gudgeon.generator.kinds.laws.registered")
     return () if module is None else tuple(origin.file for origin in module.ORIGINS.values() if origin.file)
 
 
 @contextmanager
-def _client(address: str) -> Iterator[Any]:
+def _connect(address: str) -> Iterator[Any]:
+    """Provide a dask Client of an address. Raises InputError if no scheduler answers."""
     try:
         from distributed import Client
     except ModuleNotFoundError as error:
