@@ -52,6 +52,7 @@ lint: setup-test
 	@.venv/bin/ruff check .
 	@.venv/bin/ruff format --check -q .
 	@.venv/bin/lint-imports
+	@.venv/bin/python tools/prose.py
 	@.venv/bin/codespell *.md docs engine generator runtime templates tools mechanisms studies benchmarks
 
 types: setup-test

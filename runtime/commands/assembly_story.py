@@ -1,4 +1,4 @@
-"""What `gudgeon check` finds by assembling: what can move, whether guesses are followed, which assemblies there are."""
+"""Assemble every scene for `gudgeon check`: degrees of freedom, guesses, assemblies, and remarks on them."""
 
 from __future__ import annotations
 
@@ -26,14 +26,15 @@ if TYPE_CHECKING:
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
     from gudgeon.model.compiled import Array
 
-LARGEST = 50.0  # m: machines that are larger are rare, and bare numbers meant in mm are not
-QUICK = 45  # coordinates up to which assemblies are looked for unasked
-ALIKE = math.radians(5.0)  # rad, or share of the size: guesses that two assemblies follow so nearly alike pick neither
+LARGEST = 50.0  # m: larger lengths are probably numbers without a unit that were meant in mm
+QUICK = 45  # number of coordinates up to which assemblies are searched without --branches
+# Assemblies whose deviations from the guesses differ by less are ambiguous; rad, or fraction of the size.
+ALIKE = math.radians(5.0)
 
 
 @dataclass(frozen=True)
 class Assembled:
-    """A scene at its default numbers: `closed` is the linkage without play, `scene` what its own rows let move."""
+    """Result of assembling one scene at its default parameters."""
 
     linkage: NumPyLinkage
     q: Array
@@ -44,7 +45,7 @@ class Assembled:
 
 @dataclass(frozen=True)
 class Findings:
-    """Of each scene how it assembles, or why it does not; the assemblies of the first that does."""
+    """Results of assembling all scenes, and the assemblies of the first scene that assembles."""
 
     scenes: Mapping[str, Assembled]
     failed: Mapping[str, GudgeonError]
@@ -52,7 +53,7 @@ class Findings:
 
     @property
     def alike(self) -> list[Assembly]:
-        """Assemblies that follow the file's guesses as well as the start does."""
+        """Return the assemblies that follow the guesses of the file as well as the start does."""
         first = next(iter(self.scenes.values()), None)
         if first is None or not self.assemblies:
             return []
@@ -62,9 +63,10 @@ class Findings:
 
 
 def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
-    """Assemble every scene; other assemblies are looked for where that is quick, or asked for.
+    """Assemble every scene; find other assemblies too if `branches` is set or the linkage is small (`QUICK`).
 
-    given: numbers in place of the file's, by address; those of a scene alone hold for it.
+    given: values in place of the file's, by address. An address of one scene holds for that scene. An error of a scene
+    is stored in `failed`. Raises UnknownNameError for an address that no scene has.
     """
     from gudgeon.generator.pipeline import closed_linkage
 
@@ -82,15 +84,19 @@ def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, fl
             failed[name] = error
             continue
         found = scenes[name]
-        if (wanted := mechanism.freedoms) is not None and isinstance(wanted.value, Number):
-            check_freedoms(wanted.value.value, wanted.where, found.closed)
+        if (expected := mechanism.freedoms) is not None and isinstance(expected.value, Number):
+            check_freedoms(expected.value.value, expected.where, found.closed)
         if not assemblies and (branches or linkage.n <= QUICK):
             assemblies = tuple(find_assemblies(linkage, linkage.p, found.q, found.closed.along))
     return Findings(scenes, failed, assemblies)
 
 
 def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
-    """Raises AssemblyError, AssemblyError of velocities too."""
+    """Assemble one linkage and return its position, mobility and guesses that are not followed.
+
+    rows: indices of the scene's own constraint equations; joints with play have none. Raises AssemblyError if positions
+    or velocities have no solution.
+    """
     p = linkage.p
     check_places(linkage, p)
     closure = Closure(linkage, p, 0.0)
@@ -105,7 +111,7 @@ def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
 
 
 def summary(found: Findings) -> str:
-    """For the one line: "degrees of freedom 0 (ideal), 4 (dry, lubricated)"."""
+    """Return the degrees of freedom as text, grouped by scene: "degrees of freedom 0 (ideal), 4 (dry, lubricated)"."""
     by_count: dict[int, list[str]] = {}
     for name, scene in found.scenes.items():
         by_count.setdefault(scene.scene.freedoms, []).append(name)
@@ -116,27 +122,29 @@ def summary(found: Findings) -> str:
 
 
 def without_masses(mechanism: Mechanism, found: Findings) -> list[str]:
-    """Scenes that move by forces in a file that lacks a mass."""
+    """Return the names of the scenes that have degrees of freedom, if a body of the file has no mass."""
     moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
     return moved if any(body.lacks for body in mechanism.bodies.values()) else []
 
 
 def verdict(mechanism: Mechanism, found: Findings) -> str:
-    """ "valid", and which scenes cannot be run all the same."""
+    """Return "valid", with the scenes that cannot be run although the file is valid."""
     unable = {*found.failed, *without_masses(mechanism, found)}
     names = ", ".join(name for name in mechanism.scenes if name in unable)
     return f"valid, but scene{'s' if len(unable) > 1 else ''} {names} cannot be run" if unable else "valid"
 
 
 def _masses(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
-    """What is missing where a scene moves by forces."""
+    """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
     lacking = [f"{b.name} has no {' and no '.join(b.lacks)} ({b.where})" for b in mechanism.bodies.values() if b.lacks]
     if moved := without_masses(mechanism, found):
         yield "masses", f"scene {', '.join(moved)} moves by forces and cannot be run: {', '.join(lacking)}"
 
 
 def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
-    """(whose, what) that a user should know: freedoms, loose bodies, redundant rows, guesses, other assemblies."""
+    """Yield (subject, remark) pairs for the user: sizes, degrees of freedom, loose bodies, redundancy, guesses,
+    assemblies.
+    """
     first = next(iter(found.scenes.values()), None)
     if first is None:
         return
@@ -175,7 +183,7 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
 
 
 def _without_shaft(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str, str]]:
-    """Bodies whose angle is driven, and that no joint ties to what they turn against, while they may move away."""
+    """Yield a remark for each driven body that can move away because no joint connects it to the drive's reference."""
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
         other = drive.reference or "ground"
@@ -186,7 +194,7 @@ def _without_shaft(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str
 
 
 def _too_large(mechanism: Mechanism, scene: Assembled) -> str | None:
-    """A word on the largest length of the file where it is a hundred times what machines have."""
+    """Return a remark on the largest length of the file if it exceeds `LARGEST`, otherwise None."""
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
         slot.address: abs(float(p[k]))
@@ -204,6 +212,7 @@ def _too_large(mechanism: Mechanism, scene: Assembled) -> str | None:
 
 
 def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
+    """Yield a remark if several assemblies follow the guesses of the file equally well."""
     if not (alike := found.alike):
         return
     start = found.assemblies[0]
@@ -220,16 +229,17 @@ def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
 
 
 def _differs(name: str, one: Assembly, other: Assembly) -> bool:
+    """Return whether two assemblies have different printed values of the guess `name`."""
     return _value(name, one.guess[name]) != _value(name, other.guess[name])
 
 
 def _value(name: str, x: float) -> str:
-    """As it may stand in the file."""
+    """Return a guess as text with its unit, as a mechanism file may contain it: x in rad or m."""
     return f"{math.degrees(x):.4g} deg" if name.endswith(".theta") else f"{1e3 * x:.4g} mm"
 
 
 def branches(found: Findings) -> Iterator[str]:
-    """Each assembly with the guess that picks it."""
+    """Yield a line for each assembly, with the guess that selects it."""
     if not found.assemblies:
         return
     count = len(found.assemblies)
@@ -242,19 +252,20 @@ def branches(found: Findings) -> Iterator[str]:
 
 
 def guess_text(one: Assembly) -> str:
-    """What picks an assembly, as it may stand in the file."""
+    """Return the guess that selects an assembly, as text for a mechanism file."""
     guess = ", ".join(f"{name}: {_value(name, x)}" for name, x in one.guess.items())
     return f"{{{guess}}}" if guess else "none needed"
 
 
 def data(found: Findings) -> dict[str, Any]:
-    """The same for --json, by scene; angles in rad, lengths in m."""
+    """Return the results of all scenes for `--json`, by scene; angles in rad, lengths in m."""
     return {name: _scene_data(scene) for name, scene in found.scenes.items()} | {
         name: {"assembles": False, "message": str(error)} for name, error in found.failed.items()
     }
 
 
 def _scene_data(scene: Assembled) -> dict[str, Any]:
+    """Return the results of one assembled scene as a dictionary for `--json`."""
     return {
         "assembles": True,
         "degrees of freedom": scene.scene.freedoms,
@@ -268,5 +279,5 @@ def _scene_data(scene: Assembled) -> dict[str, Any]:
 
 
 def branches_data(found: Findings) -> list[dict[str, Any]]:
-    """Assemblies for --json."""
+    """Return all assemblies with their guesses for `--json`."""
     return [{"guess": one.guess, "start": one.is_start} for one in found.assemblies]

@@ -1,4 +1,4 @@
-"""`gudgeon bench`: scenes from the command line, measured, shown, written."""
+"""Run `gudgeon bench`: measure run time against error for each scene, show the table and write it."""
 
 from __future__ import annotations
 
@@ -15,18 +15,19 @@ EVERY = f"leave it out for all that fit; or {','.join(OFFERED)}"
 
 
 def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
-    """Measure, print, write the table and the picture; the exit code."""
+    """Measure all scenes of a request, print the table, write it with the picture, and return the exit code."""
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
     loaded = load_scenes(request)
-    wanted = [name.strip() for text in methods for name in text.split(",") if name.strip()] if methods else None
-    if wanted == []:
+    method_names = [name.strip() for text in methods for name in text.split(",") if name.strip()] if methods else None
+    if method_names == []:
         raise BadValueError(f"--methods {', '.join(map(repr, methods))}: expected names of methods", hint=EVERY)
     for simulation in loaded:
         if simulation.source.degrees_of_freedom != 0:
-            choice(simulation, wanted, request.quick)  # a name that is none is told before anything is run
+            choice(simulation, method_names, request.quick)  # raises for an unknown method before anything is run
     table = request.table(loaded[0].source.mechanism, "bench")
 
     def one(simulation: Simulation, report: Report | None) -> SceneBench:
+        """Measure one scene; its steps include the step of `--mark-step`."""
         parameters, steps = request.of(simulation), None
         if step is not None and simulation.source.degrees_of_freedom != 0:
             steps = {*usual_steps(simulation, parameters, request.quick), step}
@@ -36,7 +37,7 @@ def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
             t_end=t_end,
             parameters=parameters,
             quick=request.quick,
-            methods=wanted,
+            methods=method_names,
             progress=report,
         )
 

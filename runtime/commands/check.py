@@ -1,8 +1,8 @@
-"""`gudgeon check`: read a mechanism file and say whether it is valid; with -v, what each scene becomes.
+"""Run `gudgeon check`: read a mechanism file and report whether it is valid; with -v, what each scene becomes.
 
-With -v each scene is derived anew: a table of numbers, then the story of each scene: what went
-step by step and why, what is left and solved, operations before and after, which methods fit, what was skipped, and
-how long each stage of the derivation took. No line is longer than 100 columns.
+With -v each scene is derived anew. The output has a table of counts and then, for each scene, the reduction log: each
+step with its reason, the solved equations, operations before and after, methods, notes, and the time of each stage of
+the derivation. No line is longer than 100 columns.
 """
 
 from __future__ import annotations
@@ -32,13 +32,17 @@ if TYPE_CHECKING:
     from gudgeon.generator.mechanism import Mechanism
 
 WIDTH = 100  # columns of what is printed
-HANGING = 14  # columns that what follows is set in by, at most
-MARGIN, GAP = 4, 3  # of a table, and between its columns
-CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
+MAX_INDENT = 14  # maximum indentation of continuation lines, in columns
+MARGIN, GAP = 4, 3  # columns left of a table, and between its columns
+REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # reference solvers that fit wherever something is integrated
 
 
 def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()) -> int:
-    """Read, tell, and return the exit code; numbers: ADDRESS=VALUE, in place of the file's."""
+    """Check a mechanism file, print the result, and return the exit code.
+
+    numbers: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an invalid file (with `as_json`
+    it is printed), AssemblyError if a scene does not assemble.
+    """
     from gudgeon.generator.reader.read import read_mechanism
 
     given, file = settings(numbers), find_mechanism(name)
@@ -56,27 +60,28 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, 
         scenes = {scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose}
     if as_json:
         print_json(_document(mechanism, scenes, seconds, found))
-        return _code(mechanism, found)
-    print(_wrapped(story.verdict(mechanism, found), f"{_counts(mechanism)}; {story.summary(found)}"))
+        return _exit_code(mechanism, found)
+    print(_wrap_lines(story.verdict(mechanism, found), f"{_counts(mechanism)}; {story.summary(found)}"))
     for whose, remark in story.remarks(mechanism, found):
-        print(_wrapped(f"  {whose}", remark))
+        print(_wrap_lines(f"  {whose}", remark))
     for line in story.branches(found) if branches else ():
         print(line)
     if scenes:
-        _print(mechanism, scenes, seconds)
+        _print_scenes(mechanism, scenes, seconds)
     for scene, problem in found.failed.items():
         told = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
         raise AssemblyError(f"{told}{problem}")
-    return _code(mechanism, found)
+    return _exit_code(mechanism, found)
 
 
-def _code(mechanism: Mechanism, found: story.Findings) -> int:
-    """That of the first scene that does not assemble; as `run` has it where a mass is missing."""
+def _exit_code(mechanism: Mechanism, found: story.Findings) -> int:
+    """Return the exit code: that of the first scene that does not assemble, or that of a missing mass, or 0."""
     lacking = MissingKeyError.exit_code if story.without_masses(mechanism, found) else 0
     return next((error.exit_code for error in found.failed.values()), lacking)
 
 
 def _errors(error: InputError) -> list[dict[str, Any]]:
+    """Return the errors of a file as dictionaries with kind, location, message and hint."""
     errors = error.errors if isinstance(error, InputErrors) else (error,)
     return [
         {
@@ -92,6 +97,7 @@ def _errors(error: InputError) -> list[dict[str, Any]]:
 
 
 def _counts(mechanism: Mechanism) -> str:
+    """Return the numbers of bodies, joints and drives, and the scenes, as text."""
     numbers = [
         (len(mechanism.bodies), "body", "bodies"),
         (len(mechanism.joints), "joint", "joints"),
@@ -101,7 +107,8 @@ def _counts(mechanism: Mechanism) -> str:
     return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
 
 
-def _facts(source: KernelSource) -> dict[str, int]:
+def _count_facts(source: KernelSource) -> dict[str, int]:
+    """Return the counts of the table by label: unknowns, constraint equations, degrees of freedom, operations."""
     facts = {
         "unknowns": len(source.coordinates),
         "rows": len(source.rows),
@@ -115,20 +122,23 @@ def _facts(source: KernelSource) -> dict[str, int]:
 
 
 def driven(source: KernelSource) -> tuple[str, ...]:
-    """Drives whose rows the tree solves: what they prescribe is a function of time and no unknown."""
+    """Return the drives whose constraint equations the tree solves: their coordinates are functions of time."""
     if source.formulation == "full":
         return ()
     rows = (source.rows[drive.row].name for drive in source.drives if drive.row >= 0)
     return tuple(row for row in rows if row not in source.closures)
 
 
-def _takes_checks(source: KernelSource) -> bool:
-    """Friction that sticks, impulses, inner states of laws are the C methods' own (integrators/peers)."""
+def _fits_reference_solvers(source: KernelSource) -> bool:
+    """Return whether the integrators of SciPy and SUNDIALS can run the scene.
+
+    Sticking friction, impulses and inner states of laws are supported by the C methods only (integrators/peers).
+    """
     return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.explicit)
 
 
 def _reduction(source: KernelSource) -> dict[str, Any]:
-    """What is integrated, and the operations of its accelerations beside those in absolute coordinates."""
+    """Return what is integrated, the operations of the accelerations in both formulations, and the methods that fit."""
     operations = {"full": source.operations["dynamics"]}
     if "reduced_dynamics" in source.operations:
         operations["reduced"] = source.operations["reduced_dynamics"]
@@ -138,13 +148,13 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
         "closures": list(source.closures),
         "driven": list(driven(source)),
         "operations of the accelerations": operations,
-        "methods": [*source.methods, *(CHECKS if _takes_checks(source) else ())],
+        "methods": [*source.methods, *(REFERENCE_SOLVERS if _fits_reference_solvers(source) else ())],
         "auto begins with": begins_with(source),
     }
 
 
-def _rest(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-    """Lines below the story: methods, what is watched, what this scene does without, how long it took."""
+def _further_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+    """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
     yield "methods", f"{', '.join(_reduction(source)['methods'])}; auto begins with {begins_with(source)}"
     if source.events:
         yield "events", ", ".join(_events(source))
@@ -155,12 +165,13 @@ def _rest(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[
 
 
 def _events(source: KernelSource) -> list[str]:
-    """What is watched: "top (falling, recorded)"."""
+    """Return each event as text: "top (falling, recorded)"."""
     does = {"record": "recorded", "stop": "ends the run"}
     return [f"{event.name} ({event.direction}, {does[event.action]})" for event in source.events]
 
 
 def _label(kernel: str) -> str:
+    """Return the label of a kernel's operations in the table."""
     return kernel if " " in kernel else f"operations in {kernel}"
 
 
@@ -170,6 +181,7 @@ def _document(
     seconds: Mapping[str, Mapping[str, float]],
     found: story.Findings,
 ) -> dict[str, Any]:
+    """Return the whole result for `--json`."""
     return {
         "valid": True,
         "name": mechanism.name,
@@ -181,44 +193,46 @@ def _document(
         "assembled": story.data(found),
         "assemblies": story.branches_data(found),
         "scenes": {
-            name: _of_scene(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
+            name: _scene_data(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
             for name in mechanism.scenes
         },
     }
 
 
-def _of_scene(source: KernelSource) -> dict[str, Any]:
+def _scene_data(source: KernelSource) -> dict[str, Any]:
+    """Return the counts, reduction, events, notes and reduction log of one scene for `--json`."""
     told = {"events": _events(source), "notes": list(source.notes), "story": story_data(source.story)}
-    return {**_facts(source), **_reduction(source), **told}
+    return {**_count_facts(source), **_reduction(source), **told}
 
 
-def _print(
+def _print_scenes(
     mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]]
 ) -> None:
+    """Print the tables of counts and the reduction logs of all scenes."""
     from gudgeon.language.shown import one_line, plain_console
 
-    facts = {scene: _facts(source) for scene, source in scenes.items()}
+    facts = {scene: _count_facts(source) for scene, source in scenes.items()}
     names = [
         name
         for name in dict.fromkeys(name for found in facts.values() for name in found)
         if not name.startswith("operations") or any(found.get(name) for found in facts.values())
-    ]  # without the kernels that are zeros in every scene
+    ]  # without kernels that are zero in every scene
     console, title = plain_console(WIDTH), one_line(mechanism.title or mechanism.name)
-    for some in _beside(scenes, max(map(len, names))):
+    for some in _group_columns(scenes, max(map(len, names))):
         console.print(_table(title, names, {scene: facts[scene] for scene in some}))
-    for part in tell(scenes, lambda source: _rest(source, seconds[source.scene])):
+    for part in tell(scenes, lambda source: _further_lines(source, seconds[source.scene])):
         console.print(part)
 
 
-def _wrapped(name: str, text: str) -> str:
-    """ "name: text" in lines of WIDTH columns, those that follow below the text."""
-    below = " " * min(len(name) + 2, HANGING)
+def _wrap_lines(name: str, text: str) -> str:
+    """Return "name: text" in lines of at most WIDTH columns; continuation lines are indented."""
+    below = " " * min(len(name) + 2, MAX_INDENT)
     lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=below, break_on_hyphens=False)
     return "\n".join(lines)
 
 
-def _beside(scenes: Mapping[str, KernelSource], label: int) -> Iterator[list[str]]:
-    """Scenes by so many as fit beside each other."""
+def _group_columns(scenes: Mapping[str, KernelSource], label: int) -> Iterator[list[str]]:
+    """Yield groups of scenes whose columns fit next to each other in one table."""
     some: list[str] = []
     for scene in scenes:
         widths = [max(len(name), len("999,999")) + GAP for name in [*some, scene]]
@@ -230,7 +244,7 @@ def _beside(scenes: Mapping[str, KernelSource], label: int) -> Iterator[list[str
 
 
 def _table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, int]]) -> Table:
-    """A column a scene, a row a fact."""
+    """Return a table with one column for each scene and one row for each count."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -246,7 +260,10 @@ def _table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, in
 def tell(
     scenes: Mapping[str, KernelSource], rest: Callable[[KernelSource], Iterable[tuple[str, str]]]
 ) -> Iterator[Text | Table]:
-    """Scene by scene the ledger, what it comes to, and `rest` below; of a ledger told before what differs."""
+    """Yield the reduction log of each scene, its outcome, and the lines of `rest`.
+
+    If an earlier scene has the same log, only the lines that differ are shown.
+    """
     from rich.text import Text
 
     known: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
@@ -263,7 +280,7 @@ def tell(
 
 
 def _ledger_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
-    """Without rules; the ledger's columns are as wide in a table without one."""
+    """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text."""
     from rich.table import Table
     from rich.text import Text
 
@@ -280,7 +297,7 @@ def _ledger_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[
 
 
 def story_data(story: Story) -> dict[str, Any]:
-    """For scripts: the story, with the coordinates and rows that each step leaves."""
+    """Return the reduction log for `--json`, with the coordinates and constraint equations that each step leaves."""
     left = [{"coordinates left": n, "rows left": m} for _, n, m in story.ledger()]
     data = asdict(story)
     data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]

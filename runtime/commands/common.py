@@ -1,4 +1,4 @@
-"""What several commands need: a file's scenes, numbers as they are typed, files written as a whole."""
+"""Check and read what several commands share: names of scenes, values of --set, targets of output."""
 
 from __future__ import annotations
 
@@ -25,13 +25,14 @@ SCENES = "scenes.json"
 
 
 def scene_names(mechanism: str) -> tuple[str, ...]:
-    """All scenes of a mechanism file in its order; on a warm start without reading the YAML."""
+    """Return all scenes of a mechanism file in its order. The names come from the cache if the file is known there."""
     from gudgeon.loading.cache import default_cache, digest
 
     file = find_mechanism(mechanism)
     data = read_bytes(file)
 
     def make(folder: Path) -> None:
+        """Write the names of the scenes into the new cache entry `folder`."""
         from gudgeon.generator.reader.read import read_mechanism
 
         names = list(read_mechanism(data, str(file)).scenes)
@@ -42,7 +43,10 @@ def scene_names(mechanism: str) -> tuple[str, ...]:
 
 
 def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
-    """The wanted scenes, each once; all if none is named. UnknownNameError names the nearest."""
+    """Return the requested scenes, each once, or all scenes if none is named.
+
+    Raises UnknownNameError, which names the nearest.
+    """
     names = scene_names(mechanism)
     for scene in wanted:
         if scene not in names:
@@ -51,7 +55,7 @@ def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def settings(texts: Iterable[str]) -> dict[str, float | str]:
-    """--set ADDRESS=VALUE, each number once. Raises BadValueError."""
+    """Return the values of `--set ADDRESS=VALUE` by address. Raises BadValueError for bad forms and repetitions."""
     found: dict[str, float | str] = {}
     written: dict[str, str] = {}  # a parameter may be called with its section or without
     for text in texts:
@@ -67,7 +71,8 @@ def settings(texts: Iterable[str]) -> dict[str, float | str]:
 
 
 def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSource]) -> None:
-    """Raise UnknownNameError for a name of --set that no scene has: with the nearest, or with what stands there."""
+    """Raise UnknownNameError for an address of `--set` that no scene has, with the nearest names or what stands
+    there."""
     known = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
     for name in names:
         if name in known:
@@ -83,22 +88,25 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
 
 
 def known_here(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
-    """The numbers of --set that a scene knows: an ideal scene has no viscosity."""
+    """Return the values of `--set` whose addresses the scene has: an ideal scene has no viscosity."""
     known = set(addresses(source))
     return {address: number for address, number in given.items() if address in known}
 
 
 def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
-    """The closed linkage of a scene at other numbers, as far as it has them. Raises BadValueError."""
+    """Return the closed linkage of a scene at other parameter values; addresses of other scenes are ignored.
+
+    Raises BadValueError.
+    """
     from gudgeon.generator.pipeline import closed_linkage
 
     source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
     known, p = known_here(source, given), linkage.p[:count].copy()
     values, is_given = given_slots(source, known)
     p[: len(values)][is_given] = values[is_given]
-    check(source, p, is_given)  # before anything follows from them
+    check(source, p, is_given)  # before derived values are computed
     gains = {*TOGETHER, *(name for names in TOGETHER.values() for name in names)}
-    own = {name: x for name, x in known.items() if name not in gains}  # these move no start
+    own = {name: x for name, x in known.items() if name not in gains}  # gains do not change the start
     if not own:
         return linkage
     try:
@@ -111,7 +119,10 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
 
 
 def check_folder(option: str, out: Path) -> None:
-    """What can be known about a folder is told before anything is run, not after an hour."""
+    """Raise InputError before a run if the folder `out` cannot be created or written.
+
+    option: the command-line option for the message.
+    """
     import tempfile
 
     try:
@@ -125,7 +136,7 @@ def check_folder(option: str, out: Path) -> None:
     if not there.is_dir():
         raise InputError(f"{option} {shortened(out)}: {shortened(there)} is a file", hint="name a folder")
     try:
-        with tempfile.TemporaryFile(dir=there):  # permissions alone do not tell: a folder may be read-only or made up
+        with tempfile.TemporaryFile(dir=there):  # permissions are not sufficient: the file system may be read-only
             pass
     except OSError as error:
         told = f"{option} {shortened(out)}: nothing can be written to {shortened(there)} ({error.strerror or error})"
@@ -133,13 +144,13 @@ def check_folder(option: str, out: Path) -> None:
 
 
 def check_file(option: str, path: Path) -> None:
-    """The same of a file that will be written, or replaced."""
+    """Raise InputError before a run if the file `path` cannot be written or replaced."""
     check_folder(option, path.parent)
     check_name(option, path)
 
 
 def check_name(option: str, path: Path) -> None:
-    """The same of a name in a folder that was looked at already."""
+    """Raise InputError if `path` is not a possible target; its folder has been checked before."""
     try:
         check_target(path)
     except OutputError as error:
@@ -147,14 +158,14 @@ def check_name(option: str, path: Path) -> None:
 
 
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
-    """InputError for a file whose name does not say what is to be written."""
+    """Raise InputError if the suffix of `path` is not one of `suffixes`."""
     if path.suffix.lower() not in suffixes:
         ends = f"{', '.join(suffixes[:-1])} or {suffixes[-1]}"
         raise InputError(f"{shortened(path)}: expected a name that ends in {ends}")
 
 
 def have(what: str, *packages: str) -> bool:
-    """Whether the packages are installed that `what` is made with; a note on the error stream where not."""
+    """Return whether the packages are installed that write `what`; print a note to stderr if not."""
     missing = [package for package in packages if find_spec(package) is None]
     if missing:
         print(f"note: no {what}: {' and '.join(missing)} not installed", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""What a shell proposes when a user presses the tabulator: mechanisms, their scenes, methods, laws."""
+"""Propose completions in a shell: mechanisms, their scenes, methods, laws."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gudgeon.contract.methods import OFFERED
 
 
 def files(incomplete: str) -> list[str]:
-    """Shipped mechanisms, YAML files, and folders to look for more."""
+    """Return shipped mechanisms, YAML files and folders that begin with the text."""
     from gudgeon.loading.shipped import shipped
 
     folder, _, begun = incomplete.rpartition("/")
@@ -29,25 +29,25 @@ def files(incomplete: str) -> list[str]:
 
 
 def scenes(context: typer.Context, incomplete: str) -> list[str]:
-    """Of the mechanism that stands before; none where it cannot be read."""
+    """Return the scenes of the mechanism on the command line, or only `ideal` if its file cannot be read."""
     from gudgeon.generator.yaml import parse_yaml
     from gudgeon.loading.shipped import shipped, shipped_file
 
     found = {"ideal"}
     with suppress(Exception):
-        name = str(context.params.get("file") or context.args[0])  # behind an option without its value it is left over
+        name = str(context.params.get("file") or context.args[0])  # args: after an option without value
         path = shipped_file(name) if name in shipped() else Path(name)
         found |= {str(scene) for scene in parse_yaml(path.read_bytes(), name).part("scenes").names()}
     return sorted(scene for scene in found if scene.startswith(incomplete))
 
 
 def methods(incomplete: str) -> list[str]:
-    """By which a run may be integrated."""
+    """Return the integration methods that begin with the text."""
     return [method for method in OFFERED if method.startswith(incomplete)]
 
 
 def laws(incomplete: str) -> list[str]:
-    """Of contact, friction and film, by every name that they have."""
+    """Return the names of contact, friction and film laws that begin with the text, including alternative names."""
     from gudgeon.generator.kinds.laws.law import RESULTS, called
 
     return sorted(name for role in RESULTS for name in called(role) if name.startswith(incomplete))

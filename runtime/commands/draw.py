@@ -1,7 +1,7 @@
-"""`gudgeon draw`: a mechanism at its start, at a time of its motion, or in all its assemblies, as a picture.
+"""Run `gudgeon draw`: write a picture of a mechanism at its start, at a time of its motion, or in all its assemblies.
 
-The start needs no compiler: the linkage is closed as `check` closes it. What would stop `check` is drawn, and raised
-once the picture is written.
+The start needs no compiler: the linkage is closed as `gudgeon check` closes it. A linkage that does not close is drawn
+too, and its error is raised after the picture is written.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ SUFFIXES = (".svg", ".png", ".pdf", ".dxf")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Sketches side by side, a title each, and what stands above."""
+    """Sketches in one row, a title for each, and a caption above them."""
 
     sketches: Sequence[Sketch]
     titles: Sequence[str]
     caption: str
 
     def as_bytes(self, suffix: str) -> bytes:
-        """A file of the kind that its suffix names."""
+        """Return the picture as the bytes of a file; suffix: one of SUFFIXES."""
         if suffix == ".dxf":
             from gudgeon.drawing.dxf import as_dxf
 
@@ -57,7 +57,7 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Request:
-    """The command line, as typed."""
+    """Arguments of the command line, as typed."""
 
     file: str
     scene: str
@@ -68,10 +68,13 @@ class Request:
 
 
 def draw_file(request: Request) -> int:
-    """Draw and write; what `check` would complain of is raised afterwards."""
+    """Draw the mechanism, write the picture, and return the exit code.
+
+    Raises the error of `check` for a linkage that does not close, after the picture is written.
+    """
     if request.at is not None and request.branches:
         raise BadValueError("--branches with --at: assemblies are those of the start", hint="leave one of them out")
-    wanted = settings(request.settings)
+    values = settings(request.settings)
     chosen_scenes(request.file, (request.scene,))
     file = find_mechanism(request.file)
     target = request.target or Path("out") / f"{file.stem}_{request.scene}.svg"
@@ -85,12 +88,12 @@ def draw_file(request: Request) -> int:
     at = 0.0 if request.at is None else number_of_text(spaced(request.at), "--at", (0, 0, 1))
     if at < 0.0:
         raise BadValueError(f"--at is {at:g} s: the motion starts at 0 s", hint="take a time of the motion")
-    with _drawable(target):
+    with _report_undrawable(target):
         if at > 0.0:
-            drawn, failure = _moved(request, at, wanted), None
+            drawn, failure = _draw_moved(request, at, values), None
         else:
             with status_line(), working(f"deriving {file.stem}, scene {request.scene}"):
-                drawn, failure = _start(request, file, wanted)
+                drawn, failure = _draw_start(request, file, values)
         data = drawn.as_bytes(target.suffix.lower())
     write_bytes(target, data)
     wrote("picture", target)
@@ -100,8 +103,8 @@ def draw_file(request: Request) -> int:
 
 
 @contextmanager
-def _drawable(target: Path) -> Iterator[None]:
-    """Numbers near the largest one end in an error, and in no warnings of NumPy's."""
+def _report_undrawable(target: Path) -> Iterator[None]:
+    """Raise GudgeonError if values are too large to be drawn, and suppress NumPy's warnings about them."""
     try:
         with np.errstate(all="ignore"):
             yield
@@ -112,17 +115,17 @@ def _drawable(target: Path) -> Iterator[None]:
         raise GudgeonError(f"{told}\n  look for a length or a start that is far too large") from error
 
 
-def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Drawn:
-    """At a time of the motion."""
+def _draw_moved(request: Request, at: float, values: Mapping[str, float | str]) -> Drawn:
+    """Return the picture at the time `at` in s, after a run until then."""
     from gudgeon.results.figures.mechanism_plots import sketch_at
     from gudgeon.simulation.from_file import load
 
     with status_line():
         simulation = load(request.file, request.scene)
-    check_addresses(wanted, request.file, [simulation.source])
+    check_addresses(values, request.file, [simulation.source])
     with progress_bar() as bar:
         try:
-            run = simulation.simulate(at, parameters=wanted, progress=bar(request.scene), peaks=())
+            run = simulation.simulate(at, parameters=values, progress=bar(request.scene), peaks=())
         except SolverError as error:  # its advice is for who keeps a run
             why, _, _ = str(error).partition("\n")
             hint = "draw an earlier time, or let gudgeon run show the motion until then"
@@ -138,33 +141,35 @@ def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Dr
 
 
 def _caption(title: str, scene: str, t: float) -> str:
+    """Return the text above a picture: title, scene, time t in s."""
     return f"{title}: {scene}, t = {quantity(t, 's', 6)}"
 
 
-def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> tuple[Drawn, GudgeonError | None]:
-    """At the start, or as near to it as the linkage closes; with what is wrong with it."""
+def _draw_start(request: Request, file: Path, values: Mapping[str, float | str]) -> tuple[Drawn, GudgeonError | None]:
+    """Return the picture at the start, or as near to it as the linkage closes, and the error if there is one."""
     from gudgeon.assembly.closure import Closure
     from gudgeon.generator.pipeline import closed_linkage
     from gudgeon.generator.reader.read import read_mechanism
 
     mechanism = read_mechanism(read_bytes(file), str(file))
     linkage, _ = closed_linkage(mechanism, request.scene)
-    check_addresses(wanted, request.file, [linkage.source])
-    linkage = at_numbers(mechanism, linkage, wanted)
+    check_addresses(values, request.file, [linkage.source])
+    linkage = at_numbers(mechanism, linkage, values)
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
         q, closed = closure.nearest()
     caption = _caption(mechanism.title or mechanism.name, request.scene, 0.0)
     if not closed:
-        return _open(mechanism, closure, q, caption)
-    v, failure = _velocities(closure, q)
+        return _draw_open(mechanism, closure, q, caption)
+    v, failure = _find_velocities(closure, q)
     if request.branches:
-        sketches, titles = _assemblies(mechanism, closure, q)
+        sketches, titles = _draw_assemblies(mechanism, closure, q)
         return Drawn(sketches, titles, caption), failure
-    return Drawn(_sketches(mechanism, closure, [_posture(linkage, q, v)]), [""], caption), failure
+    return Drawn(_make_sketches(mechanism, closure, [_make_posture(linkage, q, v)]), [""], caption), failure
 
 
-def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
+def _find_velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
+    """Return the velocities at the position q, or None and the error if there are none."""
     from gudgeon.assembly.start import velocities
 
     try:
@@ -173,7 +178,8 @@ def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError
         return None, error
 
 
-def _posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
+def _make_posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
+    """Return the positions, velocities and loads of a linkage for drawing; v: None where there are no velocities."""
     from gudgeon.drawing.posture import Posture
     from gudgeon.results.figures.postures import loads_at
 
@@ -181,8 +187,11 @@ def _posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
     return Posture(linkage.source, linkage.p, q, 0.0, v, loads)
 
 
-def _sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture]) -> list[Sketch]:
-    """Closed linkages, with what may move without being meant to; all to one scale."""
+def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture]) -> list[Sketch]:
+    """Return a sketch of each posture of a closed linkage, all with one scale.
+
+    Unexpected degrees of freedom and loose bodies are marked.
+    """
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.drawing.failures import freedoms
     from gudgeon.drawing.plan import make_plan
@@ -202,8 +211,8 @@ def _sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture
     return sketches
 
 
-def _open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
-    """As near to closing as it comes, with what does not reach."""
+def _draw_open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
+    """Return the picture of a linkage that does not close, with its gaps marked, and its error."""
     from gudgeon.assembly.failures import not_closed
     from gudgeon.drawing.failures import gaps
     from gudgeon.drawing.sketch import make_sketch
@@ -211,14 +220,14 @@ def _open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tup
     failure = not_closed(closure, q)
     if not (np.isfinite(q).all() and np.isfinite(closure.residual(q)).all()):
         raise failure
-    posture = _posture(closure.linkage, q, None)  # type: ignore[arg-type]
+    posture = _make_posture(closure.linkage, q, None)  # type: ignore[arg-type]
     shapes, labels = gaps(closure, posture)
     sketch = make_sketch(posture, more=shapes, labels=labels)
     return Drawn([sketch], [""], f"{caption}: it does not close"), failure
 
 
-def _assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:
-    """Of each a sketch and what picks it, the start first."""
+def _draw_assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:
+    """Return a sketch of each assembly and the guess that selects it, the start first."""
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.commands.assembly_story import guess_text
@@ -227,7 +236,7 @@ def _assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[
     with np.errstate(all="ignore"):
         along = find_mobility(linkage, linkage.p, q).along
     found = find_assemblies(linkage, linkage.p, q, along)
-    postures = [_posture(linkage, one.q, _velocities(closure, one.q)[0]) for one in found]
+    postures = [_make_posture(linkage, one.q, _find_velocities(closure, one.q)[0]) for one in found]
     here = {True: " (as the file has it)", False: ""}
     titles = [f"{k}  {guess_text(one)}{here[one.is_start]}" for k, one in enumerate(found, 1)]
-    return _sketches(mechanism, closure, postures), titles
+    return _make_sketches(mechanism, closure, postures), titles

@@ -1,4 +1,4 @@
-"""`gudgeon emit`: the generated C as files, a folder a scene, and the engine beside them."""
+"""Run `gudgeon emit`: write the generated C, one folder for each scene and one for the engine."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 
-ENGINE = "engine"  # the folder of what all scenes share
+ENGINE = "engine"  # folder of the files that all scenes share
 REST = "kernel.json"  # the description of a scene, without its texts
-LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
-_LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is plain: it leads nowhere else
+LIST = "emitted.sha256"  # list of the written files in the format of `sha256sum -c`
+_LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a plain name, without a path
 
 
-def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
-    """Write `folder/<scene>/*` and `folder/engine/*`; nothing is written if any folder holds something else.
+def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
+    """Write `folder/<scene>/*` and `folder/engine/*`, and return the exit code.
 
-    A name that ends in .fmu is that of an FMU, of one scene.
+    A name that ends in .fmu is that of an FMU of one scene. Nothing is written if a folder contains other files.
     """
     if folder.suffix.lower() == ".fmu":
-        return _emit_fmu(mechanism, folder, wanted)
+        return _emit_fmu(mechanism, folder, scene_names)
     check_folder("--out", folder)
-    scenes, rooms = chosen_scenes(mechanism, wanted), _rooms()
+    scenes, rooms = chosen_scenes(mechanism, scene_names), _engine_folders()
     _refuse_one_folder(scenes)
     for scene in scenes:
         refuse_foreign(folder / scene)
@@ -54,8 +54,9 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
     return 0
 
 
-def _emit_fmu(mechanism: str, target: Path, wanted: tuple[str, ...]) -> int:
-    scenes = chosen_scenes(mechanism, wanted or ("ideal",))
+def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int:
+    """Write an FMU of one scene, and return the exit code."""
+    scenes = chosen_scenes(mechanism, scene_names or ("ideal",))
     if len(scenes) != 1:
         raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
     check_target(target)
@@ -69,7 +70,7 @@ def _emit_fmu(mechanism: str, target: Path, wanted: tuple[str, ...]) -> int:
     why = kept_from_exchange(simulation.source)
     kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
     wrote("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
-    if others := [scene for scene in chosen_scenes(mechanism, ()) if scene not in scenes and not wanted]:
+    if others := [scene for scene in chosen_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
         note(f"other scenes, by --scene: {', '.join(others)}")
     if not compiler.is_there():
         note("no C compiler was found: it holds the sources alone, which importers compile")
@@ -77,7 +78,10 @@ def _emit_fmu(mechanism: str, target: Path, wanted: tuple[str, ...]) -> int:
 
 
 def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
-    """InputError for scenes whose folder would be another's: some file systems know no capitals."""
+    """Raise InputError if two scenes, or a scene and the engine, would share a folder.
+
+    Names are compared without case, because some file systems ignore it.
+    """
     known = {ENGINE: ""}
     for scene in scenes:
         other = known.setdefault(scene.casefold(), scene)
@@ -87,8 +91,8 @@ def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
             raise InputError(f"scene {scene!r} cannot be emitted: {told}", hint=hint)
 
 
-def _rooms() -> dict[str, dict[str, str]]:
-    """The engine's texts and their README by folder, "engine/run", and name; a folder before those in it."""
+def _engine_folders() -> dict[str, dict[str, str]]:
+    """Return the engine's texts and README files by folder ("engine/run") and file name, outer folders first."""
     rooms: dict[str, dict[str, str]] = {}
     for path, text in sorted((*engine_files().items(), engine_readme())):
         room, _, name = path.rpartition("/")
@@ -97,32 +101,34 @@ def _rooms() -> dict[str, dict[str, str]]:
 
 
 def _write(folder: Path, texts: dict[str, bytes]) -> None:
-    """The texts and a list of them, all or none; what an earlier version wrote and this one does not is removed.
+    """Write all texts and their list of checksums into a folder, or none.
 
-    A list of old and new goes before, so that at each moment what is there is listed, whatever ends this process.
+    Files that an earlier version wrote and this one does not are removed. A list of old and new files is written first,
+    so that every file is listed even if the process is killed.
     """
-    old, new = _listed(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
+    old, new = _read_list(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
     both = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
     with Aside(folder, follow=False) as aside:
-        aside.write(LIST, _list(both))
+        aside.write(LIST, _format_list(both))
         for name, text in texts.items():
             aside.write(name, text)
-        aside.write(LIST, _list(new))
+        aside.write(LIST, _format_list(new))
         aside.move(1 + len(texts))
         for name in old.keys() - new.keys():
             aside.remove(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
         for path in folder.iterdir():
-            if PART.fullmatch(path.name):  # what a process that was killed left; not the list, which is there aside
+            if PART.fullmatch(path.name):  # a temporary file of a killed process
                 aside.remove(path.name, lambda data: any(text.startswith(data) for text in texts.values()))
         aside.move()
 
 
-def _list(sums: Mapping[str, set[str]]) -> bytes:
+def _format_list(sums: Mapping[str, set[str]]) -> bytes:
+    """Return the list of checksums in the format of `sha256sum -c`."""
     return "".join(f"{total}  {name}\n" for name, totals in sums.items() for total in sorted(totals)).encode()
 
 
-def _listed(folder: Path) -> dict[str, set[str]]:
-    """Names and checksums of what an earlier `emit` wrote, plain names alone; nothing if its list is none."""
+def _read_list(folder: Path) -> dict[str, set[str]]:
+    """Return the checksums of files that an earlier `emit` wrote, by name; empty if there is no valid list."""
     found: dict[str, set[str]] = {}
     for line in (read_regular(folder / LIST) or b"").decode(errors="replace").splitlines():
         parts = _LINE.fullmatch(line)
@@ -133,9 +139,9 @@ def _listed(folder: Path) -> dict[str, set[str]]:
 
 
 def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
-    """InputError if the folder holds anything but what an earlier `emit` has written there, unchanged.
+    """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`.
 
-    `inner`: folders in it that are looked at by themselves.
+    inner: names of subfolders that are checked separately.
     """
     shown = shortened(folder)
     try:
@@ -145,7 +151,7 @@ def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
             return
         if not folder.is_dir():
             raise InputError(f"{shown} is a file", hint="name another folder")
-        listed = _listed(folder)
+        listed = _read_list(folder)
         if not listed and read_regular(folder / LIST):
             told = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
             raise InputError(told, hint="put the list back as it was, remove the folder, or name another one")
@@ -163,11 +169,13 @@ def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
 
 
 def _is_folder(path: Path, names: Collection[str]) -> bool:
+    """Return whether `path` is a folder, not a link, with one of the names."""
     return path.name in names and path.is_dir() and not path.is_symlink()
 
 
 def _is_own(path: Path, listed: Mapping[str, set[str]]) -> bool:
-    """A file with the bytes that are listed under its name, the list itself, or what a killed `emit` left aside."""
+    """Return whether a file is unchanged since `emit` wrote it, is the list, or is a temporary file of a killed
+    `emit`."""
     if path.is_symlink() or not path.is_file():
         return False
     if path.name == LIST:

@@ -1,4 +1,5 @@
-"""`gudgeon equations`: a scene's equations as LaTeX, text, a notebook, a page that runs, or on the terminal."""
+"""Run `gudgeon equations`: write a scene's equations as LaTeX, text, a notebook, a page that runs, or on the
+terminal."""
 
 from __future__ import annotations
 
@@ -24,10 +25,12 @@ SUFFIXES = (".tex", ".txt", ".html", ".ipynb")
 
 
 def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> int:
-    """Write one scene's equations to x.tex, x.txt, x.html or x.ipynb, pages of several to a folder; of "-" print the
-    text."""
+    """Write the equations of one scene to a .tex, .txt, .html or .ipynb file, and return the exit code.
+
+    target: a folder receives a page of each scene; "-" prints the text.
+    """
     if os.path.isdir(target) or not (target.suffix or target == TERMINAL):
-        return _pages(mechanism, target, scenes)
+        return _write_pages(mechanism, target, scenes)
     if target != TERMINAL:
         need_suffix(target, SUFFIXES)
         check_file("--out", target)
@@ -36,7 +39,7 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
         raise BadValueError(told, hint="name a folder: -o pages/")
     (scene,) = chosen_scenes(mechanism, scenes or (DEFAULT,))
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
-        text = _written(mechanism, scene, target)
+        text = _format_equations(mechanism, scene, target)
     if target == TERMINAL:
         show("equations", text.removesuffix("\n"))
         return 0
@@ -48,7 +51,7 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
 
 
 def _run_once(mechanism: str, scene: str, notebook: Path) -> None:
-    """The run of a notebook's last cells, so that one that cannot be is told now. Raises GudgeonError."""
+    """Run what the last cells of a notebook run, so that a failure is reported now. Raises GudgeonError."""
     from gudgeon.simulation.from_file import load
 
     try:
@@ -65,8 +68,8 @@ def _run_once(mechanism: str, scene: str, notebook: Path) -> None:
         raise KeyboardInterrupt
 
 
-def _pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
-    """A page of each scene; from each the others can be chosen."""
+def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
+    """Write a page of each scene into a folder; every page has links to the others."""
     from gudgeon.simulation.from_file import load
     from gudgeon.web.page import write
 
@@ -84,15 +87,16 @@ def _pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
     return 0
 
 
-def _model(mechanism: str, scene: str) -> Model:
+def _derive_model(mechanism: str, scene: str) -> Model:
+    """Derive the equations of a scene."""
     from gudgeon.generator.pipeline import derive
 
     file = find_mechanism(mechanism)
     return derive(read_bytes(file), str(file), scene)
 
 
-def _written(mechanism: str, scene: str, target: Path) -> str:
-    """In the form that the target's suffix says; text without one."""
+def _format_equations(mechanism: str, scene: str, target: Path) -> str:
+    """Return the equations in the format of the target's suffix; text if there is none."""
     suffix = target.suffix.lower()
     if suffix == ".html":
         from gudgeon.simulation.from_file import load
@@ -101,16 +105,16 @@ def _written(mechanism: str, scene: str, target: Path) -> str:
         return write(load(mechanism, scene))
     from gudgeon.generator.targets.latex import equations_tex, equations_text
 
-    model = _model(mechanism, scene)
+    model = _derive_model(mechanism, scene)
     if suffix == ".ipynb":
         from gudgeon.teaching.notebook import notebook
 
-        return notebook(model, _from_beside(mechanism, target))
+        return notebook(model, _mechanism_from_notebook(mechanism, target))
     return equations_tex(model) if suffix == ".tex" else equations_text(model)
 
 
-def _from_beside(mechanism: str, target: Path) -> str:
-    """What `load` finds the mechanism by where the notebook is run: in its own folder."""
+def _mechanism_from_notebook(mechanism: str, target: Path) -> str:
+    """Return the path or name by which `load` finds the mechanism from the notebook's folder."""
     file = find_mechanism(mechanism)
     if file.is_absolute():  # a shipped one has its name
         return mechanism

@@ -1,4 +1,4 @@
-"""`gudgeon exercise`: an exercise sheet of a scene, and its solutions in a second file."""
+"""Run `gudgeon exercise`: write an exercise sheet of a scene, and its solutions to a second file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SUFFIXES = (".html", ".tex", ".txt", ".md")
 
 
 def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str | None) -> int:
-    """Write x.html, x.tex, x.txt or x.md, and x-solutions beside it."""
+    """Write an exercise sheet (.html, .tex, .txt or .md) and NAME-solutions next to it, and return the exit code."""
     need_suffix(target, SUFFIXES)
     solutions = target.with_name(f"{target.stem}-solutions{target.suffix}")
     for file in (target, solutions):
@@ -30,8 +30,8 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
     chosen_scenes(mechanism, (scene,))
     with status_line():
         sheet, solved, drawn = make(mechanism, scene, seed, at)
-        texts = [_text(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
-    with Aside(target.parent) as aside:  # both or neither: a sheet beside another one's solutions helps nobody
+        texts = [_format_document(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
+    with Aside(target.parent) as aside:  # both files or neither: a sheet needs its own solutions
         for file, text in zip((target, solutions), texts, strict=True):
             aside.write(file.name, text.encode())
         aside.move()
@@ -41,7 +41,7 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
 
 
 def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Document, Document, Drawn]:
-    """The sheet, its solutions, and the numbers that were drawn for them."""
+    """Return the sheet, its solutions, and the drawn parameter values with their run. Raises GudgeonError."""
     from gudgeon.simulation.from_file import load
     from gudgeon.teaching.draw_numbers import draw_numbers
 
@@ -66,8 +66,8 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
         return *make_sheets(subject, make_questions(subject), seed), drawn
 
 
-def _text(document: Document, suffix: str, drawn: Drawn) -> str:
-    """In the format of a suffix; a page and a .tex show the mechanism too, where matplotlib is."""
+def _format_document(document: Document, suffix: str, drawn: Drawn) -> str:
+    """Return a document in the format of a suffix; .html and .tex include a picture if matplotlib is installed."""
     from gudgeon.generator.targets.latex.render import render
     from gudgeon.teaching.notebook import markdown
 
@@ -78,8 +78,9 @@ def _text(document: Document, suffix: str, drawn: Drawn) -> str:
 
 
 def _page_slots(drawn: Drawn) -> dict[str, str]:
+    """Return the texts that the template of a page needs: the sketch as SVG."""
     found = {"head": "", "app": "", "scripts": ""}
-    if (sketch := _sketch(drawn)) is not None:
+    if (sketch := _make_sketch(drawn)) is not None:
         from gudgeon.drawing.picture import as_bytes, figure_of
 
         svg = as_bytes(figure_of([sketch], [""], f"at {drawn.t:g} s"), ".svg").decode()
@@ -88,7 +89,8 @@ def _page_slots(drawn: Drawn) -> dict[str, str]:
 
 
 def _tex_slots(drawn: Drawn) -> dict[str, str]:
-    if (sketch := _sketch(drawn)) is None:
+    """Return the texts that the LaTeX template needs: the sketch as TikZ and its caption."""
+    if (sketch := _make_sketch(drawn)) is None:
         return {}
     from gudgeon.drawing.tikz import tikz_of
     from gudgeon.generator.targets.latex.render import tex
@@ -96,8 +98,8 @@ def _tex_slots(drawn: Drawn) -> dict[str, str]:
     return {"drawing": tikz_of(sketch, tex), "caption": f"at {drawn.t:g} s"}
 
 
-def _sketch(drawn: Drawn) -> Sketch | None:
-    """The mechanism at the moment of the sheet; None without matplotlib, which places the names."""
+def _make_sketch(drawn: Drawn) -> Sketch | None:
+    """Return a sketch of the mechanism at the time of the sheet; None without matplotlib, which places the names."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:

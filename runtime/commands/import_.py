@@ -1,4 +1,4 @@
-"""`gudgeon import`: a linkage of another program becomes a mechanism's file."""
+"""Run `gudgeon import`: convert a linkage of another program into a mechanism file."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ MAX_TRIED = 40  # bodies up to which it is tried at once whether the linkage ass
 
 
 def import_linkage(file: Path, target: Path | None) -> int:
-    """Write the mechanism's file, beside where one is or where `target` says. InputError where it is there already.
+    """Write the mechanism file to `target`, or to NAME.yaml in the working directory, and return the exit code.
 
-    Raises InputError for a file that is not read too, or for a linkage that does not assemble.
+    Raises InputError if the target exists, the file cannot be read, or the linkage does not assemble.
     """
     text = mechanism_of(file)
-    tried = _assembles(text, file)
+    is_tried = _try_assembly(text, file)
     name = next(line.partition(": ")[2] for line in text.splitlines() if line.startswith("name: "))
     target = target or Path(f"{name}.yaml")
     if target.is_symlink() or target.exists():
@@ -28,14 +28,15 @@ def import_linkage(file: Path, target: Path | None) -> int:
     for line in (line for line in text.splitlines()[1:] if line.startswith("# ")):
         note(line[2:])
     wrote("mechanism", target)
-    if not tried:
+    if not is_tried:
         note(f"More than {MAX_TRIED} bodies: whether they assemble was not tried.")
     note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0
 
 
-def _assembles(text: str, file: Path) -> bool:
-    """Whether its scenes assemble: InputError where they do not, False where it is too large to try."""
+def _try_assembly(text: str, file: Path) -> bool:
+    """Return True if all scenes assemble, False if the linkage is too large to try. Raises InputError if they do
+    not."""
     from gudgeon.commands.assembly_story import assemble_scenes
     from gudgeon.generator.reader.read import read_mechanism
 

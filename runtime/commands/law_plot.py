@@ -1,4 +1,4 @@
-"""`gudgeon laws NAME --plot`: what a law of force is, as curves: over penetration, slip or eccentricity."""
+"""Run `gudgeon laws NAME --plot`: draw a force law over penetration, slip or eccentricity."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from gudgeon.generator.kinds.laws.law import Law
 
 SUFFIXES = (".svg", ".png", ".pdf")
-POINTS = 241
+POINTS = 241  # samples of a curve
 STEEL = {"R_i": 10e-3, "R_j": 9.9e-3, "c": 0.1e-3, "L": 20e-3, "E_i": 207e9, "nu_i": 0.3, "E_j": 207e9, "nu_j": 0.3}
 PAIR = "steel, R_i = 10 mm, c = 0.1 mm, L = 20 mm"
-# What a number is taken to be that must be given and is not: by its name, else by its dimension (m, kg, s).
+# Values of required keys that are not set: by name, otherwise by dimension (exponents of m, kg, s).
 USUAL = {"restitution": 0.9, "roughness": 5e-7, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
 BY_DIMENSION: Mapping[tuple[float, ...], float] = {
     (0, 0, 0): 0.1,
@@ -39,17 +39,17 @@ BY_DIMENSION: Mapping[tuple[float, ...], float] = {
     (-1, 1, -1): 0.05,
     (-1, 1, -2): 1e9,
 }
-DEEPEST, SPEED = 0.05, 0.1  # share of c; m/s, of an approach, and of a slip where the law names none
+MAX_PENETRATION, SPEED = 0.05, 0.1  # largest δ/c; approach speed in m/s, also slip velocity if the law has none
 RATIOS = {1.0: "approach", 0.0: "rest", -1.0: "parting"}
-SHOWN = {"restitution"}  # of which the default, 1, would draw the same curve thrice
-# What an elastic force is taken to be that the file of a mechanism would give.
+SHOWN = {"restitution"}  # its default, 1, would give three equal curves
+# Elastic force of laws that read it from the mechanism file.
 FORCE = "1e7 N/m * delta + 1e18 N/m^3 * delta**3"
 Function = Callable[..., Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
 class Chosen:
-    """A law with all its numbers and options; `told`: those that are not the law's own defaults."""
+    """A law with all its parameter values and options; `told` is the text of those that are not the law's defaults."""
 
     law: Law
     name: str
@@ -59,7 +59,7 @@ class Chosen:
 
 
 def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | str]) -> None:
-    """Writes the picture. Raises BadValueError, MissingKeyError, UnknownNameError for what is set wrongly."""
+    """Write the picture of a law. Raises BadValueError, MissingKeyError, UnknownNameError for wrong settings."""
     from gudgeon.drawing.picture import as_bytes
 
     write_bytes(target, as_bytes(figure_of(law, name, settings), target.suffix.lower()))
@@ -67,7 +67,8 @@ def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | s
 
 
 def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:
-    """The law under one of its names, its numbers told above; errors as `plot_law`."""
+    """Return a figure of the law under one of its names, with its parameter values in the title. Raises as
+    `plot_law`."""
     from gudgeon.results.figures import plots  # says where matplotlib is missing
 
     if law.rigid:
@@ -75,7 +76,7 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
             f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
             f"  gudgeon laws {name} tells what it does"
         )
-    chosen = _chosen(law, name, settings)
+    chosen = _choose_values(law, name, settings)
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
@@ -92,7 +93,8 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     return figure
 
 
-def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
+def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
+    """Return the law with defaults, usual values and the settings of the user. Raises as `plot_law`."""
     from gudgeon.generator.field import with_dimensions
 
     fields = {own.name: own for own in with_dimensions(law.fields_as(name), settings)}
@@ -106,13 +108,13 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
     for own in fields.values():
         if own in law.options:
             if own.name in settings:
-                options[own.name] = _option(own, settings[own.name])
+                options[own.name] = _read_option(own, settings[own.name])
                 told.append(f"{own.name}: {settings[own.name]}")
         elif own.varies:
             text = str(settings.get(own.name, FORCE))
-            numbers[own.name] = _of_variable(own, text)
+            numbers[own.name] = _read_expression(own, text)
             told.append(f"{own.name} = {text}")
-        elif (value := _number(own, settings)) is not None:
+        elif (value := _find_value(own, settings)) is not None:
             numbers[own.name] = value
             if value != own.default or own.name in settings:
                 told.append(f"{own.name} = {quantity(value, _unit(own))}")
@@ -121,12 +123,12 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
 
 
 def chosen_numbers(law: Law) -> dict[str, float | str]:
-    """Its numbers under its own name where nothing is set: defaults, else what is usual; SI, an expression as text."""
-    return {**_chosen(law, law.name, {}).numbers, **dict.fromkeys((own.name for own in law.expressions), FORCE)}
+    """Return the parameter values of a law without settings: defaults or usual values in SI; expressions as text."""
+    return {**_choose_values(law, law.name, {}).numbers, **dict.fromkeys((own.name for own in law.expressions), FORCE)}
 
 
-def _of_variable(own: Field, text: str) -> Any:
-    """An expression of the variable that the key names, as SymPy. Raises what it would raise in a file."""
+def _read_expression(own: Field, text: str) -> Any:
+    """Return an expression of the variable that the key names, as SymPy. Raises the errors of a mechanism file."""
     import sympy as sp
 
     from gudgeon.errors import Location
@@ -145,14 +147,18 @@ def _of_variable(own: Field, text: str) -> Any:
 
 
 def _unit(own: Field) -> str:
+    """Return the SI unit of a key as text, "" if it has none."""
     from gudgeon.language.units import si_unit
 
     unit = "" if own.dimension is None else si_unit(own.dimension)
     return "" if unit == "-" else unit
 
 
-def _number(own: Field, settings: Mapping[str, float | str]) -> float | None:
-    """As set, the law's default, or what is usual."""
+def _find_value(own: Field, settings: Mapping[str, float | str]) -> float | None:
+    """Return the value of a key: the setting, the law's default, or the usual value; None for an optional key.
+
+    Raises MissingKeyError.
+    """
     from gudgeon.language.quantities import number_of_text
 
     exponents = None
@@ -169,7 +175,8 @@ def _number(own: Field, settings: Mapping[str, float | str]) -> float | None:
     return usual
 
 
-def _option(own: Field, given: float | str) -> str | bool:
+def _read_option(own: Field, given: float | str) -> str | bool:
+    """Return the option value that `given` names. Raises UnknownNameError."""
     words: dict[str, str | bool] = {
         str(value).lower() if isinstance(value, bool) else value: value for value in own.values
     }
@@ -178,8 +185,13 @@ def _option(own: Field, given: float | str) -> str | bool:
     return words[str(given)]
 
 
-def _line(ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str, str], up: tuple[str, str]) -> None:
-    """Curves in units that read well; no number is a gap, and nothing but gaps a BadValueError."""
+def _draw_curves(
+    ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str, str], up: tuple[str, str]
+) -> None:
+    """Draw curves with scaled units; values that are not finite are gaps.
+
+    across, up: symbol and unit of the axes. Raises BadValueError if a curve has no finite value.
+    """
     found = [(np.where(np.isfinite(y), y, np.nan), told) for y, told in lines]
     for y, told in found:
         if np.isnan(y).all():
@@ -191,11 +203,11 @@ def _line(ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str,
     ax.set(xlabel=label(across[0], x_unit), ylabel=label(up[0], y_unit))
 
 
-def _normal(ax: Axes, law: Function, chosen: Chosen) -> None:
-    """The force while the surfaces approach, rest and part."""
+def _draw_normal(ax: Axes, law: Function, chosen: Chosen) -> None:
+    """Draw the normal force over penetration during approach, rest and separation."""
     from gudgeon.generator.kinds.laws.built import reads_besides
 
-    delta = np.linspace(0.0, DEEPEST * STEEL["c"], POINTS)
+    delta = np.linspace(0.0, MAX_PENETRATION * STEEL["c"], POINTS)
     further = [SPEED] * reads_besides(chosen.law)
     curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
     same = np.array_equal(curves[1.0], curves[-1.0])
@@ -204,34 +216,39 @@ def _normal(ax: Axes, law: Function, chosen: Chosen) -> None:
         if same
         else [(curve, f"{RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()]
     )
-    _line(ax, delta, iter(lines), ("δ", "m"), ("F_n", "N"))
+    _draw_curves(ax, delta, iter(lines), ("δ", "m"), ("F_n", "N"))
     by_speed = bool(further) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
     ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
 
 
-def _friction(ax: Axes, law: Function, chosen: Chosen) -> None:
-    """F_t/F_n over the slip; with inner states over a slip that goes to and fro, and again."""
+def _draw_friction(ax: Axes, law: Function, chosen: Chosen) -> None:
+    """Draw F_t/F_n over the slip velocity; for laws with inner states over two oscillations of the slip."""
     speeds = [chosen.numbers[own.name] for own in chosen.law.parameters if _unit(own) == "m/s"]
     fastest = 3.0 * max(speeds, default=SPEED / 3.0)
     if not chosen.law.states:
         v_t = np.linspace(-fastest, fastest, 2 * POINTS)
-        _line(ax, v_t, iter([(law(1.0, v_t)["F_t"], "F_t/F_n")]), ("v_t", "m/s"), ("F_t/F_n", ""))
+        _draw_curves(ax, v_t, iter([(law(1.0, v_t)["F_t"], "F_t/F_n")]), ("v_t", "m/s"), ("F_t/F_n", ""))
         ax.set_title("the force on the journal by the slip of its surface on the bearing's")
         return
-    for way in (2e-5, 2e-4):
-        v_t, force = _to_and_fro(law, chosen.law, fastest, way)
-        told = f"to and fro, {quantity(2 * way, 'm', 2)} apart"
-        _line(ax, v_t, iter([(force, told)]), ("v_t", "m/s"), ("F_t/F_n", ""))
+    for amplitude in (2e-5, 2e-4):
+        v_t, force = _oscillate_slip(law, chosen.law, fastest, amplitude)
+        told = f"to and fro, {quantity(2 * amplitude, 'm', 2)} apart"
+        _draw_curves(ax, v_t, iter([(force, told)]), ("v_t", "m/s"), ("F_t/F_n", ""))
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
 
 
-def _to_and_fro(law: Function, of: Law, fastest: float, way: float) -> tuple[Any, Any]:
-    """v_t and F_t where the surfaces slip by ±way, at `fastest` in the middle; the states begin with none."""
+def _oscillate_slip(law: Function, of: Law, fastest: float, amplitude: float) -> tuple[Any, Any]:
+    """Return v_t and F_t for a slip that oscillates like a cosine, in its third period.
+
+    fastest: largest slip velocity in m/s. amplitude: in m. The inner states start at 0. Raises BadValueError if they
+    diverge.
+    """
     from scipy.integrate import solve_ivp
 
-    omega = fastest / way
+    omega = fastest / amplitude
 
     def rates(t: float, z: Any) -> list[float]:
+        """Return the rates of the inner states z at the time t."""
         found = law(1.0, fastest * np.cos(omega * t), *z)
         return [float(found[f"{state.name}_rate"]) for state in of.states]
 
@@ -248,8 +265,8 @@ def _to_and_fro(law: Function, of: Law, fastest: float, way: float) -> tuple[Any
     return v_t, law(1.0, v_t, *found.y)["F_t"]
 
 
-def _film(ax: Axes, law: Function, chosen: Chosen) -> None:
-    """Of a journal that turns, closes the gap, opens it; w = 1 1/s."""
+def _draw_film(ax: Axes, law: Function, chosen: Chosen) -> None:
+    """Draw the film force of a journal that turns, closes the gap, or opens it (w = 1 1/s)."""
     epsilon = np.linspace(0.01, 0.95, POINTS)
     turning, closing, opening = (law(epsilon, *w) for w in ((0.0, -0.5 * epsilon), (1.0, 0.0), (-1.0, 0.0)))
     lines = [
@@ -260,18 +277,18 @@ def _film(ax: Axes, law: Function, chosen: Chosen) -> None:
     ]
     if not any((y > 0.0).any() for y, _ in lines):
         raise BadValueError("nothing to draw: with these numbers all forces are 0")
-    _line(ax, epsilon, iter(lines), ("ε", ""), ("F", "N"))
+    _draw_curves(ax, epsilon, iter(lines), ("ε", ""), ("F", "N"))
     ax.set_yscale("log")
     ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
 
 
-def _mixed(ax: Axes, law: Function, chosen: Chosen) -> None:
-    """The share of the dry contact over how deep the tips of the roughness lie in each other."""
-    deepest = 7.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
-    delta = np.linspace(0.0, deepest, POINTS)
+def _draw_mixed(ax: Axes, law: Function, chosen: Chosen) -> None:
+    """Draw the fraction of the dry contact over the penetration of the asperities."""
+    max_penetration = 7.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
+    delta = np.linspace(0.0, max_penetration, POINTS)
     shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
-    _line(ax, delta, shares, ("δ, how deep the tips lie in each other", "m"), ("share b", ""))
+    _draw_curves(ax, delta, shares, ("δ, how deep the tips lie in each other", "m"), ("share b", ""))
     ax.set_title("share of the dry contact in force and moments")
 
 
-_DRAWN = {"normal": _normal, "friction": _friction, "film": _film, "mixed": _mixed}
+_DRAWN = {"normal": _draw_normal, "friction": _draw_friction, "film": _draw_film, "mixed": _draw_mixed}

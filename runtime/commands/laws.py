@@ -1,4 +1,4 @@
-"""`gudgeon laws`: the laws of contact, friction and film that a mechanism file may name, and one of them in full."""
+"""Run `gudgeon laws`: list the laws of contact, friction and film for mechanism files, or print one in full."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from gudgeon.generator.field import Field
     from gudgeon.generator.kinds.laws.law import Law
 
-WIDTH = 100  # columns of what is printed
+WIDTH = 100  # columns of the output
 
 
 @dataclass(frozen=True)
 class Asked:
-    """The command line, as typed."""
+    """Arguments of the command line, as typed."""
 
     name: str | None
     as_json: bool
@@ -31,20 +31,20 @@ class Asked:
 
 
 def show_laws(asked: Asked) -> int:
-    """A table of all laws, all about one, or its plot.
+    """Print a table of all laws, or one law in full, or write its plot; return the exit code.
 
-    Raises UnknownNameError, BadValueError for options that do not go together, LawError for a law of the user's own.
+    Raises UnknownNameError, BadValueError for options that do not fit together, LawError for a user-defined law.
     """
     name = asked.name
     if asked.settings and asked.plot is None or asked.plot is not None and (name is None or asked.as_json):
         raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
     if name is None:
         if asked.as_json:
-            print_json(_listed())
+            print_json(_list_data())
         else:
-            _print()
+            _print_table()
         return 0
-    law = _law(name)
+    law = _find_law(name)
     if asked.plot is not None:
         from gudgeon.commands.law_plot import SUFFIXES, plot_law
 
@@ -53,7 +53,7 @@ def show_laws(asked: Asked) -> int:
         plot_law(law, name, asked.plot, settings(asked.settings))
         return 0
     if asked.as_json:
-        print_json(_told(law, name))
+        print_json(_law_data(law, name))
         return 0
     from gudgeon.generator.targets.latex.law import law_text
 
@@ -61,7 +61,8 @@ def show_laws(asked: Asked) -> int:
     return 0
 
 
-def _law(name: str) -> Law:
+def _find_law(name: str) -> Law:
+    """Return the law with this name or alternative name. Raises UnknownNameError."""
     from gudgeon.generator.kinds.laws.law import RESULTS, called
 
     known = {called_so: law for role in RESULTS for called_so, law in called(role).items()}
@@ -71,15 +72,15 @@ def _law(name: str) -> Law:
 
 
 def _by_role() -> Iterator[tuple[str, list[Law]]]:
-    """Without SymPy: a law's file imports none at its top."""
+    """Yield each role with its laws. SymPy is not needed: the file of a law does not import it at its top."""
     from gudgeon.generator.kinds.laws.law import RESULTS, laws
 
     for role in RESULTS:
         yield role, [law for law in laws().values() if law.role == role]
 
 
-def _print() -> None:
-    """A row a law, a part a role."""
+def _print_table() -> None:
+    """Print the table of all laws, grouped by role."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text
@@ -96,13 +97,15 @@ def _print() -> None:
     print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
 
 
-def _listed() -> dict[str, Any]:
+def _list_data() -> dict[str, Any]:
+    """Return all laws by role for `--json`."""
     return {
         role: [{"law": law.name, "also": [*law.also], "title": law.title} for law in some] for role, some in _by_role()
     }
 
 
-def _told(law: Law, name: str) -> dict[str, Any]:
+def _law_data(law: Law, name: str) -> dict[str, Any]:
+    """Return equations, keys, states, validity and reference of one law for `--json`."""
     from gudgeon.generator.targets.latex.law import forms, in_a_line
 
     first, *others = (
@@ -118,15 +121,15 @@ def _told(law: Law, name: str) -> dict[str, Any]:
         "chosen": dict(law.also.get(name, {})),
         "equations": first["equations"],
         "choices": [form for form in others if form["equations"]],
-        "keys": [_key(own) for own in law.fields_as(name)],
+        "keys": [_key_data(own) for own in law.fields_as(name)],
         "states": {state.name: state.meaning for state in law.states},
         "validity": law.validity,
         "reference": law.reference or law.source,
     }
 
 
-def _key(own: Field) -> dict[str, Any]:
-    """A number with its SI unit, None where any fits; an option with its words."""
+def _key_data(own: Field) -> dict[str, Any]:
+    """Return a key of a law as a dictionary: a quantity with its SI unit, or an option with its values."""
     told: dict[str, Any] = {
         "key": own.name,
         "kind": own.kind,

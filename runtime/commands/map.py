@@ -1,4 +1,4 @@
-"""`gudgeon map`: a map or a box of every scene, judged, shown, written."""
+"""Run `gudgeon map`: classify the runs of every scene on a map or in a box, show the result and write it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from gudgeon.studies.show.map import PASCAL, show_map
 
 @dataclass(frozen=True)
 class Asked:
-    """What only `map` is asked for."""
+    """Options that only `gudgeon map` has."""
 
     method: str = "auto"
     at: str | None = None  # a step or a tolerance, where no axis is one
@@ -35,15 +35,15 @@ class Asked:
 
     @property
     def fixed(self) -> bool:
-        """Whether the method takes a step."""
+        """Return whether the method has a fixed step."""
         return self.method in FIXED
 
 
 def map_file(request: Request, asked: Asked) -> int:
-    """Judge, print, write the table and the picture; the exit code."""
+    """Classify the runs of all scenes, print the result, write table and picture, and return the exit code."""
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
-    _check(asked, step)
-    wanted, loaded = _value(asked), load_scenes(request)
+    _check_options(asked, step)
+    setting, loaded = _fixed_setting(asked), load_scenes(request)
     _check_names(asked, loaded)
     moving = [simulation for simulation in loaded if simulation.source.degrees_of_freedom != 0]
     if not request.json:
@@ -54,10 +54,11 @@ def map_file(request: Request, asked: Asked) -> int:
         return 0
     table = request.table(moving[0].source.mechanism, "map")
     if asked.box is not None:
-        return _box(request, asked, moving, t_end, wanted, table)
+        return _map_box(request, asked, moving, t_end, setting, table)
     steps = sorted({*default_steps(moving, request.quick), *([] if step is None else [step])})
 
     def one(simulation: Simulation, report: Report | None) -> VerdictMap:
+        """Return the map of one scene."""
         parameters = request.of(simulation)
         axes = [typed(simulation, text, parameters) for text in asked.axes]
         if asked.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
@@ -66,7 +67,7 @@ def map_file(request: Request, asked: Asked) -> int:
             simulation,
             axes,
             method=asked.method,
-            value=wanted,
+            value=setting,
             t_long=t_end,
             parameters=parameters,
             quick=request.quick,
@@ -79,15 +80,18 @@ def map_file(request: Request, asked: Asked) -> int:
     return exit_code(moving, found, interrupted)
 
 
-def _box(
+def _map_box(
     request: Request,
     asked: Asked,
     moving: Sequence[Simulation],
     t_end: float | None,
-    wanted: float | None,
+    setting: float | None,
     table: Path,
 ) -> int:
+    """Classify runs at random points of a box for each scene, show and write them, and return the exit code."""
+
     def one(simulation: Simulation, report: Report | None) -> VerdictBox:
+        """Return the box of one scene."""
         parameters = request.of(simulation)
         axes = {a.name: a for a in (typed(simulation, text, parameters) for text in asked.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
@@ -96,7 +100,7 @@ def _box(
             simulation,
             ranges,
             asked.box or 0,
-            setting=Setting(asked.method, wanted or usual),
+            setting=Setting(asked.method, setting or usual),
             t_long=t_end,
             parameters=parameters,
             addresses=axes,
@@ -110,8 +114,8 @@ def _box(
     return exit_code(moving, found, interrupted)
 
 
-def _check(asked: Asked, step: float | None) -> None:
-    """Options that would say nothing together are refused: what was typed was meant."""
+def _check_options(asked: Asked, step: float | None) -> None:
+    """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s."""
     if asked.method not in OFFERED:
         raise BadValueError(f"--method {asked.method!r}: expected {', '.join(OFFERED)}")
     own = [name for name in map(_name, asked.axes) if name in SETTINGS]
@@ -139,7 +143,7 @@ def _check(asked: Asked, step: float | None) -> None:
 
 
 def _check_once(option: str, texts: Sequence[str]) -> None:
-    """A number that is varied twice is told; a parameter may be called with its section or without."""
+    """Raise BadValueError for a parameter that is varied twice; the section `parameters.` may be omitted."""
     varied: dict[str, str] = {}
     for text in texts:
         name = _name(text).removeprefix("parameters.")
@@ -150,7 +154,7 @@ def _check_once(option: str, texts: Sequence[str]) -> None:
 
 
 def _check_names(asked: Asked, loaded: Sequence[Simulation]) -> None:
-    """A name that no scene has is told with the nearest ones."""
+    """Raise UnknownNameError for a name that no scene has, with the nearest names."""
     every = [name for simulation in loaded for name in addresses(simulation.source)]
     known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
     for option, texts in (("--axis", asked.axes), ("--range", asked.ranges)):
@@ -160,11 +164,12 @@ def _check_names(asked: Asked, loaded: Sequence[Simulation]) -> None:
 
 
 def _name(text: str) -> str:
+    """Return the name before the equals sign of an axis or range."""
     return text.partition("=")[0].strip()
 
 
-def _value(asked: Asked) -> float | None:
-    """The step (s) or tolerance of --at."""
+def _fixed_setting(asked: Asked) -> float | None:
+    """Return the step (s) or tolerance of `--at`, or None."""
     if asked.at is None:
         return None
     unit, power = ("s", 1) if asked.fixed else ("", 0)

@@ -1,4 +1,4 @@
-"""`gudgeon new`: a mechanism's file, or a study's, to begin with, its comments included."""
+"""Run `gudgeon new`: write the first file of a mechanism or of a study, with comments."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ NAME = re.compile(r"^name: .*$", re.MULTILINE)
 
 
 def new_mechanism(name: str, like: str | None) -> int:
-    """Write NAME.yaml: a template that explains itself, or a mechanism that comes with gudgeon under a new name.
+    """Write NAME.yaml from the template, or from a shipped mechanism `like`, and return the exit code.
 
-    Raises BadNameError, UnknownNameError for `like`, InputError where something of that name stands already.
+    Raises BadNameError, UnknownNameError for `like`, InputError if the file exists.
     """
     name = name.removesuffix(".yaml")
-    _check(name, "mechanism")
+    _check_name(name, "mechanism")
     source = TEMPLATE if like is None else shipped_file(like)
-    target = _free(name)
+    target = _new_path(name)
     text = NAME.sub(f"name: {name}", source.read_text(encoding="utf-8"), count=1)
     if like is not None:
         text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
@@ -34,27 +34,28 @@ def new_mechanism(name: str, like: str | None) -> int:
 
 
 def new_study(name: str, like: str | None) -> int:
-    """Write NAME.yaml: a study of a shipped mechanism that explains itself. Raises as new_mechanism."""
+    """Write NAME.yaml from the study template, and return the exit code. Raises as new_mechanism."""
     if like is not None:
         raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")
     name = name.removesuffix(".yaml")
-    _check(name, "study")
-    target = _free(name)
+    _check_name(name, "study")
+    target = _new_path(name)
     write_text(target, OF_STUDY.read_text(encoding="utf-8"))
     wrote("study", target)
     note(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
     return 0
 
 
-def _free(name: str) -> Path:
+def _new_path(name: str) -> Path:
+    """Return the path of NAME.yaml. Raises InputError if it exists."""
     target = Path(f"{name}.yaml")
     if target.is_symlink() or target.exists():
         raise InputError(f"{target} is there already", hint="take another name, or another folder")
     return target
 
 
-def _check(name: str, what: str) -> None:
-    """A name that a mechanism can have, and that stands in YAML as it is."""
+def _check_name(name: str, what: str) -> None:
+    """Raise BadNameError if a mechanism or study cannot have the name, or YAML reads it as another type."""
     if name.endswith(".yml"):
         raise BadNameError(f"{name!r}: expected a name without .yaml", None, "the file is called after it")
     check_name(name, what, None)

@@ -1,4 +1,4 @@
-"""Options of several commands, as typer reads them."""
+"""Declare options and arguments of several commands for typer."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ from gudgeon.language.shown import visible
 
 
 def whole(least: int) -> Callable[[str], int]:
-    """Reads a whole number as a file has it: Python alone would take 1_0, and the digits of other scripts."""
+    """Return a parser for whole numbers of at least `least`; underscores and digits of other scripts are refused."""
 
     def read(text: str) -> int:
+        """Return the number. Raises typer.BadParameter."""
         told = str(text).strip()
         if not (told.isascii() and told.removeprefix("-").isdigit()) or len(told) > 18 or int(told) < least:
             raise typer.BadParameter(f"{visible(text)!r}: expected a whole number, {least} or more")
@@ -26,27 +27,29 @@ def whole(least: int) -> Callable[[str], int]:
 
 
 def path(text: str) -> Path:
-    """A name of a file or folder; of no text Path makes the folder in which one stands."""
+    """Return the name of a file or folder as a path. Raises typer.BadParameter for empty text."""
     if not str(text).strip():
         raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
     return Path(text)
 
 
 def a_file(text: str) -> Path:
-    """A name of a file: Path forgets the stroke at the end, which says that a folder is meant."""
+    """Return the name of a file as a path. Raises typer.BadParameter if it ends with a slash and thus names a
+    folder."""
     if str(text).endswith("/"):
         raise typer.BadParameter(f"{visible(str(text))!r}: this is a folder, expected a file")
     return path(text)
 
 
 def a_file_or_folder(text: str) -> Path:
-    """A name without a suffix is that of a folder, with a stroke at its end or without."""
+    """Return the path; a name with a suffix must be a file unless a folder has that name."""
     found = path(text)
     return a_file(text) if found.suffix and not os.path.isdir(found) else found
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
+def _version(is_requested: bool) -> None:
+    """Print the version and exit."""
+    if is_requested:
         import gudgeon
 
         print(f"gudgeon {gudgeon.__version__}")

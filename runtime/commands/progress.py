@@ -1,4 +1,5 @@
-"""A progress bar on stderr, only where somebody looks, and imported only once there is something to show."""
+"""Show progress bars and status lines on stderr if it is a terminal; Rich is imported when there is something to
+show."""
 
 from __future__ import annotations
 
@@ -10,29 +11,31 @@ from typing import Any
 from gudgeon.language.shown import visible
 from gudgeon.waiting.asking import told_to
 
-Report = Callable[[float, str], None]  # fraction done, a few words
-MEMORY = 600.0  # s that speed is measured over: blocks of a long study come minutes apart
+Report = Callable[[float, str], None]  # fraction done, short text
+SPEED_WINDOW_S = 600.0  # s over which speed is measured: blocks of a long study take minutes
 
 
 def looked_at() -> bool:
-    """Whether somebody may see it."""
+    """Return whether stderr is a terminal."""
     return sys.stderr.isatty()
 
 
 @contextmanager
 def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
-    """Gives `bar(name)`, a callable for `simulate(progress=…)`, or None where nobody looks."""
+    """Yield a function `bar(name)` that returns a callback for `simulate(progress=…)`, or None without a terminal."""
     if quiet or not looked_at():
         yield lambda name: None
         return
     shown: list[Any] = []  # rich's Progress, once the first piece of work is done
 
     def bar(name: str) -> Report:
+        """Return the callback of one task; its bar appears with the first report."""
         task: list[Any] = []
 
         def report(fraction: float, text: str) -> None:
+            """Show the fraction done and a short text."""
             if not shown:
-                shown.append(_start())
+                shown.append(_start_bars())
             if not task:
                 task.append(shown[0].add_task(name, total=1.0, completed=fraction, text=""))  # speed counts from here
             shown[0].update(task[0], completed=fraction, text=text)
@@ -48,16 +51,17 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
 
 @contextmanager
 def status_line(quiet: bool = False) -> Iterator[None]:
-    """A line on stderr, while somebody looks, about the derivations and compilations that the block waits for."""
+    """Show, on a terminal, one line on stderr about derivations and compilations while the block runs."""
     if quiet or not looked_at():
         yield
         return
-    with told_to(_status):
+    with told_to(_show_status):
         yield
 
 
 @contextmanager
-def _status(text: str) -> Iterator[None]:
+def _show_status(text: str) -> Iterator[None]:
+    """Show a line until the block ends."""
     from rich.live import Live
     from rich.text import Text
 
@@ -68,7 +72,8 @@ def _status(text: str) -> Iterator[None]:
         yield
 
 
-def _start() -> Any:
+def _start_bars() -> Any:
+    """Start the display of progress bars, and return it."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
     from gudgeon.language.shown import plain_console
@@ -81,7 +86,7 @@ def _start() -> Any:
         TextColumn("{task.fields[text]}", markup=False),
         console=plain_console(stderr=True),
         transient=True,
-        speed_estimate_period=MEMORY,
+        speed_estimate_period=SPEED_WINDOW_S,
     )
     progress.start()
     return progress

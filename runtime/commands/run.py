@@ -1,11 +1,11 @@
-"""`gudgeon run`: simulate scenes, compare each with the ideal one, write and show what came out.
+"""Run `gudgeon run`: simulate scenes, compare each with the ideal one, save and show the results.
 
-- `check_needs` asks whether there is memory and disk for all scenes, before the first of them begins.
-- `verify` and `write_reports`: `--verify` checks the contacts of each run, `--report` writes its page. For a page each
-  scene is run again, and its result is saved again with what that run showed.
-- `origin_of` and `check_origin`: from which mechanism file a result is, so that none of another's is written over.
-  Two files may have one name inside. A result notes a digest of its file's path and of its bytes: the same path,
-  edited, or the same bytes, moved, is the same mechanism. A result that notes nothing may be replaced.
+- `check_needs` checks memory and disk for all scenes before the first of them begins.
+- `verify` and `write_reports` do what `--verify` and `--report` request. For a report each scene is run again, and its
+  result is saved again with what that run showed.
+- `origin_of` and `check_origin` prevent that a result of another mechanism file is replaced. Two files may contain the
+  same name. A result stores digests of its file's path and of its bytes: if one of them is equal, the mechanism is the
+  same. A result without digests may be replaced.
 """
 
 from __future__ import annotations
@@ -49,12 +49,12 @@ Files: TypeAlias = dict[str, str]  # scene, or "picture" -> path
 
 IDEAL = "ideal"
 ORIGIN = "origin"  # attribute of the file
-_NOTED = re.compile(rb"gudgeon-origin ([0-9a-f]{16}) ([0-9a-f]{16})")  # found without HDF5, which takes time to import
+_NOTED = re.compile(rb"gudgeon-origin ([0-9a-f]{16}) ([0-9a-f]{16})")  # read without HDF5, whose import takes time
 
 
 @dataclass(frozen=True)
 class Request:
-    """The command line, as typed."""
+    """Arguments of the command line, as typed."""
 
     file: str
     scenes: tuple[str, ...]
@@ -71,34 +71,34 @@ class Request:
     json: bool
     formulation: str = "reduced"
     verbose: bool = False
-    peaks: tuple[str, ...] = ()  # beside those that scenes ask for
+    peaks: tuple[str, ...] = ()  # in addition to those of the scenes
     report: bool = False
     verify: bool = False
 
 
 @dataclass
 class Session:
-    """What has been computed so far; it is complete enough to be shown at any time."""
+    """Results, failures and written files of one command so far; complete enough to be shown at any time."""
 
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
     files: Files = field(default_factory=dict)  # what was written
     unwritten: list[GudgeonError] = field(default_factory=list)
-    haste: dict[str, str] = field(default_factory=dict)  # what each scene's library says of the times that it took
+    haste: dict[str, str] = field(default_factory=dict)  # notes on the optimization of each scene's library
     shown: bool = False
     interrupted: bool = False
 
 
 def run_scenes(request: Request) -> int:
-    """Run, compare, save, show; the exit code."""
-    wanted = settings(request.settings)
+    """Run the scenes of a request, compare, save and show them, and return the exit code."""
+    values = settings(request.settings)
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     with status_line(quiet=request.json):
         renew, how = request.regenerate, request.formulation
         simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
-    _check(request, wanted, simulations)
+    _check_request(request, values, simulations)
     for name, simulation in simulations.items():
         path = result_path(request.out, simulation.source.mechanism, name)
         check_name("--out", path)
@@ -108,12 +108,12 @@ def run_scenes(request: Request) -> int:
     check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
-        _simulate(request, wanted, simulations, session)
+        _simulate(request, values, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     try:
         if session.runs:
-            _hand_over(request, simulations, session)
+            _deliver(request, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     for scene, error in session.failures.items():
@@ -127,7 +127,7 @@ def run_scenes(request: Request) -> int:
 
 
 def _interrupted(names: Iterable[str], session: Session) -> str:
-    """What Ctrl-C left, and what it left out."""
+    """Return the message after Ctrl-C: which results are shown and saved, and what is missing."""
     from gudgeon.simulation.horizon import UNFINISHED
 
     if not session.runs:
@@ -146,8 +146,8 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
     return "; ".join([told, *ended, *missing])
 
 
-def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
-    """Names that no scene has and values that are not valid are told before anything is run or written."""
+def _check_request(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
+    """Raise errors for unknown names and invalid values before anything is run or written."""
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
         prepare(simulation.compiled, known_here(simulation.source, settings))
@@ -161,8 +161,10 @@ def _check(request: Request, settings: Settings, simulations: Mapping[str, Simul
                     raise unknown(f"{option}: no scene has a series {name!r}", name, series)
 
 
-def _peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
-    """The scene's own, and those asked for that it has; None: its own."""
+def _requested_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
+    """Return the series whose peaks are computed: those of the scene and of `--peaks`; None for those of the scene
+    alone.
+    """
     if not request.peaks:
         return None
     from gudgeon.results.series import catalogue
@@ -172,7 +174,10 @@ def _peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
 
 
 def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
-    """All scenes, the ideal one last: it lasts as long as the longest, and is to be had cheaply."""
+    """Run all scenes and store results and failures in the session.
+
+    The ideal scene is the last: it runs as long as the longest scene with play, and is cheap.
+    """
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
     own = {name: prepare(s.compiled, known_here(s.source, settings))[0] for name, s in simulations.items()}
     longest = max((scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
@@ -195,13 +200,13 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     parameters=known_here(simulation.source, settings),
                     progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
-                    peaks=_peaks(request, simulation.source),
+                    peaks=_requested_peaks(request, simulation.source),
                 )
-            except (AssemblyError, SolverError) as error:  # the other scenes are worth having
+            except (AssemblyError, SolverError) as error:  # the other scenes are still run
                 session.failures[name] = error
                 partial = getattr(error, "partial", None)
                 if partial is not None and len(partial.t) > 1:
-                    session.runs[name] = partial  # up to where it failed: that is where one looks
+                    session.runs[name] = partial  # the results up to the failure
                 continue
             except MemoryError as error:
                 session.failures[name] = MemoryShortage(error)
@@ -212,8 +217,8 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                 return
 
 
-def _hand_over(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
-    """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
+def _deliver(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
+    """Save, verify, compare, draw and show the results. They are saved first, so that a later failure loses none."""
     from gudgeon.results.reports.comparison import compare
     from gudgeon.results.series import default_watch
 
@@ -221,10 +226,11 @@ def _hand_over(request: Request, simulations: Mapping[str, Simulation], session:
         verify(session.runs, session.failures, request.json)
     runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
     _save(request, runs, session)
-    _refer(simulations[IDEAL], session)
+    _find_references(simulations[IDEAL], session)
     if request.report:
 
         def save(some: Mapping[str, Result]) -> None:
+            """Save results whose diagnostics have changed."""
             _save(request, some, session)
 
         told = session.files, session.unwritten, request.json
@@ -238,12 +244,12 @@ def _hand_over(request: Request, simulations: Mapping[str, Simulation], session:
         _show(request, first.source, reports, session)
 
 
-def _refer(ideal: Simulation, session: Session) -> None:
-    """An ideal run to compare with for each scene with play; one that Ctrl-C ended is none."""
+def _find_references(ideal: Simulation, session: Session) -> None:
+    """Find an ideal run to compare with for each scene with play; a run that Ctrl-C ended is not used."""
     for scene, run in session.runs.items():
-        if run.source.clearances:  # any other scene is the ideal one with its own numbers
+        if run.source.clearances:  # other scenes are ideal ones with other parameters
             try:
-                reference = _reference(ideal, run, session)
+                reference = _ideal_run(ideal, run, session)
             except (GudgeonError, MemoryError) as error:
                 told = MemoryShortage(error) if isinstance(error, MemoryError) else error
                 session.failures.setdefault(IDEAL, told)
@@ -254,8 +260,8 @@ def _refer(ideal: Simulation, session: Session) -> None:
             session.references[scene] = reference
 
 
-def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
-    """The ideal run at the run's times and with its parameters; shared by scenes with the same ones."""
+def _ideal_run(ideal: Simulation, run: Result, session: Session) -> Result:
+    """Return the ideal run at the sample times and parameter values of `run`; equal ones are computed once."""
     shared = {slot.address for slot in ideal.source.slots}
     values = {address: number for address, number in run.parameters.items() if address in shared}
     for other in (session.runs.get(IDEAL), *session.references.values()):
@@ -265,7 +271,7 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
 
 
 def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:
-    """A NetCDF file a scene; what a full disk refuses goes to `session.unwritten`, and the others are written."""
+    """Write a NetCDF file for each scene; errors, such as a full disk, are stored in `session.unwritten`."""
     if not have("NetCDF files", "h5py"):
         return
     for scene, run in runs.items():
@@ -280,7 +286,7 @@ def _save(request: Request, runs: Mapping[str, Result], session: Session) -> Non
 
 
 def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
-    """One picture: it is smaller than results, and there may be room for it where there was none for them."""
+    """Write the picture of all runs; errors are stored in `session.unwritten`."""
     if not have("picture", "matplotlib"):
         return
     from gudgeon.results.figures.plots import figure, save_figure
@@ -296,12 +302,12 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
 
 
 def result_path(out: Path, mechanism: str, scene: str) -> Path:
-    """Where the result of a scene goes."""
+    """Return the path of the result of a scene."""
     return out / f"{mechanism}_{scene}.nc"
 
 
 def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
-    """What was found and written: tables and notes, or JSON."""
+    """Print tables, notes and written files, or JSON."""
     from gudgeon.language.shown import plain_console
     from gudgeon.results.reports.comparison import as_json, tables
     from gudgeon.results.reports.run_report import beyond
@@ -324,37 +330,39 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
 
 
 def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
-    """MemoryError where samples and all that follows from them do not fit, OutputError where their files do not.
+    """Raise MemoryError if the samples and derived series do not fit into memory, OutputError if the files do not fit
+    on disk.
 
-    scenes: each with its numbers. Files hold every series, and take the places of older ones, one after the other; a
-    disk is not asked where no file is written.
+    scenes: each simulation with its parameter values. Files contain every series and replace older ones one after the
+    other. The disk is not checked if no file is written.
     """
     from gudgeon.results.series import catalogue
 
     given, counts = request.output, dict[str, float]()
     for name, (one, p) in scenes.items():
         counts[name] = 1.0 + (scene_number(one.source, "output", p, DEFAULT_OUTPUT) if given is None else given)
-    most = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
+    samples_text = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
     each = {name: sample_bytes(one.compiled) + evaluated_bytes(one.compiled) for name, (one, _) in scenes.items()}
-    check_memory(sum(counts[name] * each[name] for name in scenes), most)
+    check_memory(sum(counts[name] * each[name] for name in scenes), samples_text)
     if find_spec("h5py"):
         files = [8.0 * counts[name] * (1 + len(catalogue(one.source))) for name, (one, _) in scenes.items()]
         older = sum(_size(request.out, one.source.mechanism, name) for name, (one, _) in scenes.items())
-        check_disk(request.out, max(*files, sum(files) - older), f"the results, {most},")
+        check_disk(request.out, max(*files, sum(files) - older), f"the results, {samples_text},")
 
 
 def _size(out: Path, mechanism: str, scene: str) -> int:
+    """Return the size in bytes of an existing result, otherwise 0."""
     path = result_path(out, mechanism, scene)
     return path.stat().st_size if path.is_file() else 0
 
 
 def report_path(out: Path, mechanism: str, scene: str) -> Path:
-    """Where the page of a scene goes: beside its result."""
+    """Return the path of the report of a scene, next to its result."""
     return out / f"{mechanism}_{scene}.html"
 
 
 def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
-    """Check the contacts of every run (Result.check); a run whose contacts are wrong goes to `failures` too."""
+    """Check the contacts of every run (Result.check) and add notes; runs with faults are entered in `failures` too."""
     for scene, run in runs.items():
         if not run.source.clearances:
             continue
@@ -382,7 +390,10 @@ def write_reports(
     unwritten: list[GudgeonError],
     quiet: bool,
 ) -> None:
-    """Fills `files` and `unwritten`; `runs` are then the examined ones. A run that Ctrl-C ended is told as it is."""
+    """Write a report of each run; its path goes into `files`, its error into `unwritten`.
+
+    `runs` then contains the examined runs. A run that Ctrl-C ended is reported without examination.
+    """
     from gudgeon.simulation.examine import examine
 
     for scene, run in runs.items():
@@ -401,19 +412,19 @@ def write_reports(
 
 
 def origin_of(mechanism: str, digest: str) -> str:
-    """Of a mechanism as it was named on the command line, and the digest of its bytes."""
+    """Return the digests of the path of a mechanism file and of its bytes, as text for the result file."""
     place = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
     return f"gudgeon-origin {place[:16]} {digest[:16]}"
 
 
 def check_origin(path: Path, origin: str) -> None:
-    """InputError where a result of another mechanism file stands at `path`."""
+    """Raise InputError if `path` is a result of another mechanism file."""
     ours = _NOTED.match(origin.encode())
     try:
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
             noted = _NOTED.search(data)
             found = set(noted.groups()) if noted else set()
-    except (OSError, ValueError):  # none there; what may be replaced is known when it is written
+    except (OSError, ValueError):  # no file; errors of writing are reported later
         return
     if ours and found and not found & set(ours.groups()):
         told = f"--out: {shortened(path)} is the result of another mechanism file that has the same name"

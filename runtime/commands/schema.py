@@ -1,4 +1,4 @@
-"""`gudgeon schema`: the format of mechanism files, or of study files, for editors and validators."""
+"""Run `gudgeon schema`: print the format of mechanism files, or of study files, for editors and validators."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from gudgeon.language.shown import print_json
 
 
 def print_schema(study: bool = False) -> int:
-    """The JSON Schema (draft 2020-12), written from the reader's own shapes, to standard output."""
+    """Print the JSON Schema (draft 2020-12), derived from the reader's declarations, and return the exit code."""
     if study:
         from gudgeon.generator.study.schema import schema
     else:

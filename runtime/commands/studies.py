@@ -1,4 +1,4 @@
-"""What `gudgeon bench` and `gudgeon map` share: the scenes, their numbers, where the table goes, Ctrl-C."""
+"""Share what `gudgeon bench` and `gudgeon map` need: scenes, parameter values, target of the table, Ctrl-C."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from gudgeon.waiting.ctrl_c import INTERRUPTED
 
 
 class Measured(Protocol):
-    """What is found of a scene; after Ctrl-C a part of it."""
+    """Result of one scene; incomplete after Ctrl-C."""
 
     @property
     def scene(self) -> str:
-        """Its name."""
+        """Return the name of the scene."""
 
     @property
     def interrupted(self) -> bool:
-        """Whether something is missing."""
+        """Return whether Ctrl-C ended the measurement."""
 
     @property
     def done(self) -> tuple[int, int]:
-        """How many runs were judged or measured, and of how many."""
+        """Return the number of finished runs and the number of all runs."""
 
 
 Found = TypeVar("Found", bound=Measured)
@@ -39,7 +39,7 @@ Found = TypeVar("Found", bound=Measured)
 
 @dataclass(frozen=True)
 class Request:
-    """What both commands are asked for, as typed."""
+    """Arguments that both commands have, as typed."""
 
     file: str
     scenes: tuple[str, ...] = ()
@@ -53,16 +53,16 @@ class Request:
 
     @property
     def parameters(self) -> dict[str, float | str]:
-        """--set ADDRESS=VALUE."""
+        """Return the values of `--set ADDRESS=VALUE` by address."""
         return settings(self.sets)
 
     def of(self, simulation: Simulation) -> dict[str, float | str]:
-        """The settings that a scene knows: an ideal scene has no viscosity."""
+        """Return the settings that a scene has: an ideal scene has no viscosity."""
         known = set(addresses(simulation.source))
         return {name: told for name, told in self.parameters.items() if name in known}
 
     def seconds(self, option: str, text: str | None) -> float | None:
-        """A positive time (s) that was typed, or None."""
+        """Return a positive time in s from the text of an option, or None. Raises BadValueError."""
         if text is None:
             return None
         found = number(value(text), Slot(option, "s", 0.0, False, (0, 0, 1)))
@@ -71,7 +71,7 @@ class Request:
         return found
 
     def table(self, mechanism: str, what: str) -> Path:
-        """Where the CSV goes; pictures go beside it. Told before anything is run if it cannot be written."""
+        """Return the path of the CSV file; pictures have the same name. Raises InputError if it cannot be written."""
         table = self.csv or self.out / f"{mechanism}_{what}.csv"
         if self.csv is not None:
             need_suffix(self.csv, (".csv",))
@@ -84,7 +84,10 @@ class Request:
 def each(
     loaded: Sequence[Simulation], one: Callable[[Simulation, Report | None], Found], quiet: bool
 ) -> tuple[list[Found], bool]:
-    """Scene by scene, and whether Ctrl-C ended it: the last one may then be a part."""
+    """Call `one` for every scene, and return the results and whether Ctrl-C ended it.
+
+    After Ctrl-C the last result may be incomplete. quiet: without a progress bar.
+    """
     found: list[Found] = []
     with progress_bar(quiet) as bar:
         try:
@@ -98,7 +101,7 @@ def each(
 
 
 def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupted: bool) -> int:
-    """0, or 130 with a sentence on what is there and what is not."""
+    """Return 0, or 130 after a message on what was measured before Ctrl-C."""
     if not interrupted:
         return 0
     if not found:
@@ -112,7 +115,7 @@ def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupt
 
 
 def load_scenes(request: Request) -> list[Simulation]:
-    """All scenes, and their parameters checked once before anything runs."""
+    """Load all scenes of a request and check their parameters before anything runs."""
     with status_line(quiet=request.json):
         loaded = [load(request.file, scene, quick=False) for scene in chosen_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])

@@ -1,4 +1,4 @@
-"""`gudgeon study`: a file of many runs, made, resumed and told."""
+"""Run `gudgeon study`: run, resume and report a file of many runs."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from gudgeon.studies.ensemble.workers import workers
 from gudgeon.studies.show.study import show_estimates, show_studies
 
 INTERRUPTED, FAILED = 130, 1
-REPORT = "report"  # in the place of a file
+REPORT = "report"  # typed in place of a file
 
 
 @dataclass(frozen=True)
 class Request:
-    """What the command is asked for, as typed."""
+    """Arguments of the command, as typed."""
 
     file: str
     out: Path | None = None
@@ -35,7 +35,7 @@ class Request:
     sets: Sequence[str] | None = None
     runs: bool = False
     json: bool = False
-    finished: str | None = None  # the folder of which a page is wanted
+    finished: str | None = None  # folder of the study to report
     workers: int | None = None
     cluster: str | None = None
     starts: int | None = None
@@ -43,12 +43,12 @@ class Request:
 
     @property
     def folder(self) -> Path:
-        """Where blocks and the dataset go."""
+        """Return the folder of the blocks and the dataset."""
         return self.out or Path(f"{Path(self.file).stem}.study")
 
 
 def report_study(folder: str, out: Path | None, json: bool) -> int:
-    """The page of a finished study, beside its folder unless `out` says where."""
+    """Write the page of a finished study to `out`, or next to its folder; return the exit code."""
     page = out or Path(folder).absolute().with_suffix(".html")
     need_suffix(page, (".html", ".htm"))
     check_file("--out", page)
@@ -61,7 +61,7 @@ def report_study(folder: str, out: Path | None, json: bool) -> int:
 
 
 def study_file(request: Request) -> int:
-    """Run what is missing, print what was found; 1 where every run failed."""
+    """Run what is missing of a study, print the results, and return the exit code: 1 if every run failed."""
     if request.finished is not None:
         if request.file != REPORT:
             hint = f"gudgeon study {REPORT} FOLDER writes a page of it"
@@ -86,13 +86,14 @@ def study_file(request: Request) -> int:
             report = bar(request.folder.stem)
             found = run_plans(plans, request.folder, request.threads, pool, report, request.restart)
     except KeyboardInterrupt:
-        _interrupted(plans, request.folder)
+        _report_interruption(plans, request.folder)
         return INTERRUPTED
     show_studies(plans, found, request.json)
     return FAILED if found.failed == found.runs else 0
 
 
-def _interrupted(plans: Plans, folder: Path) -> None:
+def _report_interruption(plans: Plans, folder: Path) -> None:
+    """Print how many blocks of runs are stored, after Ctrl-C."""
     every = sum(len(plan.blocks) for plan in plans.each.values())
     there = min(every, sum(StudyFolder(folder / name, plan).there() for name, plan in plans.each.items()))
     told = f"{there} of {every} blocks of runs are in {path_text(folder)}"

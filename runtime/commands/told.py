@@ -1,4 +1,4 @@
-"""How a command ends: what it raises is a line and an exit code; what it wrote a line for each file, or JSON."""
+"""Report the outcome of a command: an error as a line and an exit code, written files as lines or as JSON."""
 
 from __future__ import annotations
 
@@ -22,25 +22,26 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 def complain(error: GudgeonError) -> None:
-    """Write `error: …` to stderr, in red on a terminal that has it, if NO_COLOR is not set (no-color.org)."""
+    """Write `error: …` to stderr; in red on a terminal with colours, unless NO_COLOR is set (no-color.org)."""
     is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "").lower() in ("dumb", "unknown")
     red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() and not is_plain else ("", "")
     print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 
 def told(command: Command) -> Command:
-    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
+    """Return the command with gudgeon's errors printed as one line; other exceptions keep their traceback.
 
-    `laws` of a command are known before it begins, `files_as_json` has it list what it wrote; of one that is `quiet`
-    nothing is printed but warnings and errors.
+    The wrapper takes further keyword arguments. `laws`: files of user-defined laws that are registered first.
+    `files_as_json`: print the written files as JSON. `quiet`: print only warnings and errors.
     """
 
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
+        """Run the command and exit with its code."""
         listed = told_as_json(kwargs.pop("files_as_json", False))
         silence = silent(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:
-            _know(kwargs.pop("laws", None) or ())
+            _register_laws(kwargs.pop("laws", None) or ())
             with listed, silence:
                 code = command(*args, **kwargs)
         except (GudgeonError, MemoryError) as error:
@@ -57,7 +58,7 @@ def told(command: Command) -> Command:
 
 @contextmanager
 def silent(but_json: bool) -> Iterator[None]:
-    """No result on stdout, but JSON where that is asked for, and nothing on stderr of what is under way."""
+    """Suppress results on stdout and progress on stderr while the block runs; but_json: stdout is not suppressed."""
     from gudgeon.commands import progress
 
     looked_at, progress.looked_at = progress.looked_at, lambda: False
@@ -71,8 +72,8 @@ def silent(but_json: bool) -> Iterator[None]:
         progress.looked_at = looked_at
 
 
-def _know(laws: Iterable[str]) -> None:
-    """Laws of the user's own; a mechanism that needs none does not wait for what reads them."""
+def _register_laws(laws: Iterable[str]) -> None:
+    """Register user-defined laws; their reader is imported only if there are some."""
     for file in laws:
         from gudgeon.generator.kinds.laws.registered import register
 
@@ -80,31 +81,33 @@ def _know(laws: Iterable[str]) -> None:
 
 
 def tell_warnings() -> None:
-    """Warnings are told once each, without a line of our code."""
+    """Print each warning once, without a line of source."""
     seen = set[str]()
 
-    def tell(message: Warning | str, *_: Any, **__: Any) -> None:
+    def print_once(message: Warning | str, *_: Any, **__: Any) -> None:
+        """Print a warning that was not printed before."""
         if str(message) not in seen:
             seen.add(str(message))
             print(f"warning: {visible(message)}", file=sys.stderr)
 
-    warnings.showwarning = tell
+    warnings.showwarning = print_once
 
 
 @dataclass
 class Document:
-    """What JSON tells: names of files (and folders) by what they are, notes, and what has no file but was asked for."""
+    """Contents of the JSON: paths of files and folders by kind, notes, and texts that were printed instead of
+    written."""
 
     files: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     texts: dict[str, str] = field(default_factory=dict)
 
 
-_document: Document | None = None  # of the command that is under way, where JSON is asked for
+_document: Document | None = None  # of the running command, if JSON is requested
 
 
 def wrote(kind: str, path: Path, more: str = "") -> None:
-    """Tell that a file (a folder) was written; `kind` is what it is, `more` stands behind its name in a line."""
+    """Report that a file or folder was written; kind: what it is; more: text after its name."""
     if _document is None:
         print(f"wrote {path_text(path)}{more}")
     else:
@@ -113,7 +116,7 @@ def wrote(kind: str, path: Path, more: str = "") -> None:
 
 
 def note(text: str) -> None:
-    """Tell what else there is to know, in a line."""
+    """Report a further fact in one line."""
     if _document is None:
         print(text)
     else:
@@ -121,7 +124,7 @@ def note(text: str) -> None:
 
 
 def show(kind: str, text: str) -> None:
-    """What would have been written, where `-` was named: on the terminal as it is, in JSON under its kind."""
+    """Print a text that would have been written to a file if `-` had not been named; in JSON it has its kind as key."""
     if _document is None:
         print(text)
     else:
@@ -130,7 +133,7 @@ def show(kind: str, text: str) -> None:
 
 @contextmanager
 def told_as_json(wanted: bool) -> Iterator[None]:
-    """What is told within is printed at the end, as JSON where that is wanted: what was written before an error too."""
+    """Collect what the block reports and print it at its end as JSON, if `wanted`; also after an error."""
     global _document
     if not wanted:
         yield

@@ -1,10 +1,10 @@
-"""A scene as an FMU: FMI 3.0, its sources with it and a binary for this machine (engine/fmi).
+"""Write a scene as an FMU (FMI 3.0) with its C sources and a binary for this machine (engine/fmi).
 
-Parameters are the scene's numbers, outputs all series that are columns of what C computes. In co-simulation the
-engine's own loops integrate between communication points, each of which ends a step; contacts and events are located
-on the way. In model exchange the importer integrates: its states are the coordinates and velocities that the engine
-integrates, and the works; event indicators the penetrations of joints with play, and corners of expressions. Numbers
-that the native run refuses are refused.
+Parameters of the FMU are the scene's parameters; outputs are all series that C computes. In co-simulation the engine
+integrates between communication points, and every such point ends a step. Contacts and events are located inside the
+steps. In model exchange the importer integrates. Its states are the coordinates and velocities that the engine
+integrates, and the works. Event indicators are the penetrations of joints with play and the switching points of
+expressions. Parameter values that a native run refuses are refused.
 https://fmi-standard.org/docs/3.0.2/
 """
 
@@ -38,39 +38,44 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 README = "README.md"
-WHEN = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same bytes each time
+FILE_DATE = (1980, 1, 1, 0, 0, 0)  # date of all files in the archive, so that the bytes are reproducible
 
 
 def write_fmu(simulation: Simulation, target: str | os.PathLike[str]) -> None:
-    """Write the FMU of a scene. Raises BuildError where the C does not compile, BadValueError for what cannot go."""
+    """Write the FMU of a scene. Raises BuildError if the C does not compile, BadValueError for scenes with contours."""
     write_bytes(target, fmu_bytes(simulation))
 
 
 def fmu_bytes(simulation: Simulation) -> bytes:
-    """The archive. Without a compiler it has the sources alone."""
+    """Return the FMU as the bytes of a zip archive. Without a compiler it contains the sources only.
+
+    Raises as `write_fmu`.
+    """
     source = simulation.source
     if source.contours or source.cdef:
         raise BadValueError("a scene whose bearings have contours does not go into an FMU: they are no numbers of it")
     name = re.sub(r"\W", "_", f"{source.mechanism}_{source.scene}", flags=re.ASCII)
-    own = {path: text for path, text in source.files.items() if path not in (README, "lanes.c")}  # nobody calls those
-    texts = {**own, **_engine(), "fmu.h": _header(simulation)}
+    own = {path: text for path, text in source.files.items() if path not in (README, "lanes.c")}  # not called by an FMU
+    texts = {**own, **_engine_texts(), "fmu.h": _header_text(simulation)}
     files = {
         "modelDescription.xml": description(source, name).encode(),
         "sources/buildDescription.xml": build(name).encode(),
         **{f"sources/{path}": text.encode() for path, text in texts.items()},
-        f"sources/{README}": _readme(source, name, own).encode(),
+        f"sources/{README}": _readme_text(source, name, own).encode(),
     }
     if compiler.is_there():
-        files[f"binaries/{_platform()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = _binary(texts)
+        files[f"binaries/{_platform_name()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = _compile_binary(
+            texts
+        )
     room = io.BytesIO()
     with zipfile.ZipFile(room, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, data in files.items():
-            archive.writestr(zipfile.ZipInfo(path, WHEN), data, zipfile.ZIP_DEFLATED)
+            archive.writestr(zipfile.ZipInfo(path, FILE_DATE), data, zipfile.ZIP_DEFLATED)
     return room.getvalue()
 
 
-def _readme(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
-    """What is in `sources`: lines of the scene's own page for its files that are there."""
+def _readme_text(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
+    """Return the README of the folder `sources`; own: the scene's files in it."""
     lines = [line for line in source.files.get(README, "").splitlines() if line.startswith("- `")]
     told = [line for line in lines if line.split("`")[1] in own]
     flags = "-O1 -std=c11 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I."
@@ -94,17 +99,19 @@ def _readme(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
     )
 
 
-def _engine() -> dict[str, str]:
+def _engine_texts() -> dict[str, str]:
+    """Return the engine's C files as texts by path."""
     return {path: text for path, text in engine_files().items() if not path.endswith(".py")}
 
 
-def _platform() -> str:
+def _platform_name() -> str:
+    """Return the name of FMI's folder for binaries of this machine, such as "x86_64-linux"."""
     machine = {"arm64": "aarch64", "amd64": "x86_64"}.get(os.uname().machine.lower(), os.uname().machine)
     return f"{machine}-{'darwin' if sys.platform == 'darwin' else 'linux'}"
 
 
-def _binary(texts: Mapping[str, str]) -> bytes:
-    """The library for any processor of this kind."""
+def _compile_binary(texts: Mapping[str, str]) -> bytes:
+    """Compile the sources and return the shared library, for any processor of this architecture. Raises BuildError."""
     command = compiler.find_compiler()
     with tempfile.TemporaryDirectory(prefix="gudgeon-fmu-") as folder:
         for path, text in texts.items():
@@ -120,8 +127,8 @@ def _binary(texts: Mapping[str, str]) -> bytes:
         return Path(folder, "made").read_bytes()
 
 
-def _header(simulation: Simulation) -> str:
-    """fmu.h: what engine/fmi/fmi3.c must know."""
+def _header_text(simulation: Simulation) -> str:
+    """Return the text of fmu.h, the tables of this scene that engine/fmi/fmi3.c reads."""
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
     methods = {rtol: (begins_with(source, rtol), stiff_of(source, rtol)) for rtol in (2.0 * FINE, 0.5 * FINE)}
@@ -158,51 +165,56 @@ def _header(simulation: Simulation) -> str:
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
     lines += [
-        _table("double", "fmu_defaults", [repr(float(slot.default)) for slot in source.slots]),
-        _table("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
-        _table("int", "fmu_gains", gains),
-        _table("int", "fmu_plays", plays),
-        _table("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
-        _table("unsigned char", "fmu_is_angle", angles),
-        _table("int", "fmu_jumps", jumps(source)),
-        _table("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in places], "[2]"),
+        _c_array("double", "fmu_defaults", [repr(float(slot.default)) for slot in source.slots]),
+        _c_array("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
+        _c_array("int", "fmu_gains", gains),
+        _c_array("int", "fmu_plays", plays),
+        _c_array("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
+        _c_array("unsigned char", "fmu_is_angle", angles),
+        _c_array("int", "fmu_jumps", jumps(source)),
+        _c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in places], "[2]"),
     ]
-    return "\n".join([*lines, *_conditions(source)]) + "\n"
+    return "\n".join([*lines, *_condition_tables(source)]) + "\n"
 
 
-def _conditions(source: KernelSource) -> list[str]:
-    """Names of the numbers, and what conditions.c asks of them: relation to a number plus a sum of others."""
+def _condition_tables(source: KernelSource) -> list[str]:
+    """Return the C tables of parameters and of their conditions.
+
+    A condition relates a parameter to a constant plus a sum of other parameters (conditions.c).
+    """
     slots = [
-        f"{{{_quoted(slot.address)}, {_quoted(slot.unit)}, {int(slot.follows)}, {int(bool(slot.words))}}}"
+        f"{{{_c_string(slot.address)}, {_c_string(slot.unit)}, {int(slot.follows)}, {int(bool(slot.words))}}}"
         for slot in source.slots
     ]
     rows: list[str] = []
     bounds: list[int] = []
     for one in conditions(source):
         number = 0.0 if isinstance(one.bound, str) else float(one.bound)
-        told = _quoted(f"{one.message}; expected {expected(source, one.address)}")
+        told = _c_string(f"{one.message}; expected {expected(source, one.address)}")
         place = source.place[one.address]
         rows.append(f'{{{place}, {len(bounds)}, {len(one.addresses)}, "{one.relation}", {number!r}, {told}}}')
         bounds += [source.place[address] for address in one.addresses]
     return [
-        _table("struct { const char *address, *unit; int follows, chosen; }", "fmu_slots", slots or ['{"", "", 0, 0}']),
-        _table(
+        _c_array(
+            "struct { const char *address, *unit; int follows, chosen; }", "fmu_slots", slots or ['{"", "", 0, 0}']
+        ),
+        _c_array(
             "struct { int slot, first, count; const char *relation; double bound; const char *message; }",
             "fmu_conditions",
             rows or ['{0, 0, 0, "<", 0.0, ""}'],
         ),
-        _table("int", "fmu_bounds", bounds),
-        _table("char *const", "fmu_joints", [_quoted(joint.name) for joint in source.clearances]),
+        _c_array("int", "fmu_bounds", bounds),
+        _c_array("char *const", "fmu_joints", [_c_string(joint.name) for joint in source.clearances]),
     ]
 
 
-def _quoted(text: str) -> str:
-    """A text of C."""
+def _c_string(text: str) -> str:
+    """Return a text as a string literal of C."""
     return json.dumps(text, ensure_ascii=False)
 
 
-def _table(kind: str, name: str, values: Sequence[object], more: str = "") -> str:
-    """An empty one holds a number that nobody reads."""
+def _c_array(kind: str, name: str, values: Sequence[object], more: str = "") -> str:
+    """Return a static array of C; `more`: further dimensions. An empty array gets one element that is not read."""
     cells = [str(value) for value in values] or ["{0, 0}" if more else "0"]
     rows = [", ".join(cells[k : k + 8]) for k in range(0, len(cells), 8)]
     body = ",\n    ".join(rows)

@@ -1,4 +1,4 @@
-"""What FMI's descriptions say of a scene: variables and their places, units, states, what is compiled.
+"""Write the XML descriptions of an FMU: variables with their value references, units, states, compiled files.
 
 https://fmi-standard.org/docs/3.0.2/
 """
@@ -31,6 +31,7 @@ from gudgeon.loading.engine import sizes
 from gudgeon.model.parameters import conditions, expected
 from gudgeon.results.series import catalogue
 
+# Arrays of which outputs are columns, in the order of `parts` in engine/fmi/instance.c.
 PARTS = (
     "q",
     "v",
@@ -48,11 +49,14 @@ PARTS = (
     "drift",
 )
 WIDTHS = {"reactions": N_REACTION_COLUMNS, "clearance": N_CLEARANCE_COLUMNS, "friction": N_FRICTION_COLUMNS}
-UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # what is compiled
+UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # C files that are compiled
 
 
 def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
-    """Name, unit, part (−1: states of contacts), column, meaning of each series that is a column."""
+    """Yield name, unit, part, column and meaning of each series that is a column of an array.
+
+    part: index into PARTS, or -1 for the states of contacts.
+    """
     open_ = {f"{name}.{last}" for name in source.indeterminate for last in ("Fx", "Fy", "M", "torque", "force")}
     open_ |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
     for name, series in catalogue(source).items():
@@ -69,8 +73,8 @@ def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
         yield name, series.unit, -1 if part == "state" else PARTS.index(part), column, series.meaning
 
 
-def _bounds(source: KernelSource, address: str) -> str:
-    """Attributes of a parameter: what is expected of it, and bounds that it may take (FMI knows no others)."""
+def _bound_attributes(source: KernelSource, address: str) -> str:
+    """Return the XML attributes of a parameter: its description, and constant bounds. FMI has no other conditions."""
     told = expected(source, address)
     found = f" description={quoteattr(f'expected {told}')}" if told else ""
     for name, relation, best in (("min", ">=", max), ("max", "<=", min)):
@@ -81,14 +85,14 @@ def _bounds(source: KernelSource, address: str) -> str:
 
 
 def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
-    """Place, address, unit and default of each number that may be set; not those that are chosen by a word."""
+    """Yield index, address, unit and default of each parameter that can be set; choices by a word are left out."""
     for k, slot in enumerate(source.slots):
         if not slot.words:
             yield k, slot.address, slot.unit, slot.default
 
 
 def kept_from_exchange(source: KernelSource) -> str:
-    """Why a scene goes into an FMU for co-simulation alone; "" if others may integrate it too."""
+    """Return why a scene supports co-simulation only, or "" if an importer may integrate it too."""
     if source.degrees_of_freedom == 0:
         return "no freedom is left: it follows its drives"
     if source.frictions or source.rigid:
@@ -103,7 +107,7 @@ def kept_from_exchange(source: KernelSource) -> str:
 
 
 def states(source: KernelSource) -> list[tuple[str, str]]:
-    """Name and unit of each state of model exchange: coordinates, their velocities, the works."""
+    """Return name and unit of each state of model exchange: coordinates, their velocities, the works."""
     if kept_from_exchange(source):
         return []
     names = source.tree if source.formulation == "reduced" else source.coordinates
@@ -114,22 +118,23 @@ def states(source: KernelSource) -> list[tuple[str, str]]:
 
 
 def token(source: KernelSource) -> str:
-    """By which a library knows that a description is its own."""
+    """Return the instantiation token by which a library recognizes its description."""
     parts = [source.mechanism, source.scene, *(part for item in sorted(source.files.items()) for part in item)]
     return "{" + sha256("\0".join(parts).encode()).hexdigest()[:32] + "}"
 
 
-def _rate(unit: str) -> str:
-    """Of a number of that unit."""
+def _rate_unit(unit: str) -> str:
+    """Return the unit of the time derivative of a quantity."""
     return {"J": "W", "m/s": "m/s^2", "rad/s": "rad/s^2"}.get(unit, f"{unit}/s")
 
 
-def _unit_name(unit: str) -> str:
+def _unit_attribute(unit: str) -> str:
+    """Return the XML attribute of a unit, "" without one."""
     return f" unit={quoteattr(unit)}" if unit else ""
 
 
-def _units(names: set[str]) -> list[str]:
-    """Each unit by exponents of m, kg and s; angles are told apart by their name."""
+def _unit_elements(names: set[str]) -> list[str]:
+    """Return XML of each unit with the exponents of kg, m, s and rad."""
     found = []
     for name in sorted(names - {""}):
         parsed = parse_unit(name)
@@ -141,7 +146,8 @@ def _units(names: set[str]) -> list[str]:
     return found
 
 
-def _variables(source: KernelSource) -> Iterator[str]:
+def _variable_elements(source: KernelSource) -> Iterator[str]:
+    """Yield XML of each variable: time, tolerance, parameters, outputs, states with their rates, event indicators."""
     yield (
         f'    <Float64 name="time" valueReference="{VR_TIME}" causality="independent" variability="continuous"'
         ' unit="s"/>'
@@ -152,31 +158,36 @@ def _variables(source: KernelSource) -> Iterator[str]:
         ' that the importer asks for; docs/error_control.md of gudgeon defines it"/>'
     )
     for k, address, unit, default in parameters(source):
+        bounds = _bound_attributes(source, address)
         yield (
             f'    <Float64 name={quoteattr(address)} valueReference="{VR_PARAMETERS + k}" causality="parameter"'
-            f' variability="fixed" start="{float(default)!r}"{_unit_name(unit)}{_bounds(source, address)}/>'
+            f' variability="fixed" start="{float(default)!r}"{_unit_attribute(unit)}{bounds}/>'
         )
     for k, (name, unit, _, _, meaning) in enumerate(outputs(source)):
         yield (
             f'    <Float64 name={quoteattr(name)} valueReference="{VR_OUTPUTS + k}" causality="output"'
-            f' variability="continuous" initial="calculated"{_unit_name(unit)} description={quoteattr(meaning)}/>'
+            f' variability="continuous" initial="calculated"{_unit_attribute(unit)} description={quoteattr(meaning)}/>'
         )
     for k, (name, unit) in enumerate(states(source)):
-        yield _local(name, VR_STATES + k, unit)
-        yield _local(f"rate of {name}", VR_RATES + k, _rate(unit), f' derivative="{VR_STATES + k}"')
+        yield _local_variable(name, VR_STATES + k, unit)
+        yield _local_variable(f"rate of {name}", VR_RATES + k, _rate_unit(unit), f' derivative="{VR_STATES + k}"')
     for k, (name, unit) in enumerate(indicators(source)):
-        yield _local(name, VR_INDICATORS + k, unit)
+        yield _local_variable(name, VR_INDICATORS + k, unit)
 
 
-def _local(name: str, reference: int, unit: str, more: str = "") -> str:
+def _local_variable(name: str, reference: int, unit: str, more: str = "") -> str:
+    """Return XML of a local variable; more: further attributes."""
     return (
         f'    <Float64 name={quoteattr(name)} valueReference="{reference}" causality="local" variability="continuous"'
-        f' initial="calculated"{more}{_unit_name(unit)}/>'
+        f' initial="calculated"{more}{_unit_attribute(unit)}/>'
     )
 
 
 def jumps(source: KernelSource) -> list[int]:
-    """Corners of min, max, abs, sign, mod, … whose branches may lie apart: those of contact laws meet."""
+    """Return the indices of switching points whose branches may differ in value there.
+
+    The branches of contact laws meet at their switching points.
+    """
     if kept_from_exchange(source):
         return []
     meets = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
@@ -184,14 +195,15 @@ def jumps(source: KernelSource) -> list[int]:
 
 
 def indicators(source: KernelSource) -> list[tuple[str, str]]:
-    """Name and unit of each, in model exchange: penetrations, then functions whose signs tell sides of corners."""
+    """Return name and unit of each event indicator: penetrations, then switching functions."""
     if kept_from_exchange(source):
         return []
     corners = [(f"corner {k + 1}", "") for k in range(len(jumps(source)))]
     return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + corners
 
 
-def _structure(source: KernelSource) -> Iterator[str]:
+def _structure_elements(source: KernelSource) -> Iterator[str]:
+    """Yield XML of the model structure: outputs, derivatives, initial unknowns, event indicators."""
     told, integrated = len(list(outputs(source))), len(states(source))
     rates = range(VR_RATES, VR_RATES + integrated)
     found = {"Output": range(VR_OUTPUTS, VR_OUTPUTS + told), "ContinuousStateDerivative": rates}
@@ -203,10 +215,10 @@ def _structure(source: KernelSource) -> Iterator[str]:
 
 
 def description(source: KernelSource, name: str) -> str:
-    """modelDescription.xml."""
+    """Return the text of modelDescription.xml; name: the model identifier."""
     integrated = {unit for _, unit in states(source)}
     units = {unit for _, unit, *_ in outputs(source)} | {unit for _, _, unit, _ in parameters(source)} | {"s"}
-    units |= integrated | {_rate(unit) for unit in integrated}
+    units |= integrated | {_rate_unit(unit) for unit in integrated}
     title = quoteattr(source.title or source.mechanism)
     slopes = ' providesDirectionalDerivatives="true"'
     return "\n".join(
@@ -225,14 +237,14 @@ def description(source: KernelSource, name: str) -> str:
             f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
             '    canGetAndSetFMUState="true" canSerializeFMUState="true"/>',
             "  <UnitDefinitions>",
-            *_units(units),
+            *_unit_elements(units),
             "  </UnitDefinitions>",
             f'  <DefaultExperiment startTime="0" tolerance="{RTOL!r}"/>',
             "  <ModelVariables>",
-            *_variables(source),
+            *_variable_elements(source),
             "  </ModelVariables>",
             "  <ModelStructure>",
-            *_structure(source),
+            *_structure_elements(source),
             "  </ModelStructure>",
             "</fmiModelDescription>",
             "",
@@ -241,7 +253,7 @@ def description(source: KernelSource, name: str) -> str:
 
 
 def build(name: str) -> str:
-    """sources/buildDescription.xml."""
+    """Return the text of sources/buildDescription.xml; name: the model identifier."""
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',

@@ -1,4 +1,4 @@
-"""A linkage as other programs have it: points, and bodies that hold some of them at fixed distances."""
+"""Describe a linkage as other programs do: points, and bodies that contain some of them at fixed distances."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from dataclasses import dataclass, field
 from gudgeon.errors import InputError
 
 Point = tuple[float, float]
-MAX_NUMBER = 1e12  # of whatever a file says: no length, mass or speed of a linkage is larger
+MAX_NUMBER = 1e12  # largest length, mass or speed that a file may contain
 
 
 @dataclass(eq=False)
 class Body:
-    """Where it holds its points (in a frame of its own), in their order; what is not said is None.
+    """Points of a rigid body in its own frame, in order, with mass, inertia and centre of mass.
 
-    `com` in that frame.
+    com: centre of mass in that frame. None: the file does not specify the value.
     """
 
     name: str
@@ -26,7 +26,7 @@ class Body:
     com: Point | None = None
 
     def placed(self, first: str, second: str, distance: float, angle: float) -> Point:
-        """The point at a distance from the first, turned by an angle from the direction to the second."""
+        """Return the position at `distance` from the first point, at `angle` (rad) from the direction to the second."""
         (x, y), (u, v) = self.local[first], self.local[second]
         along = math.atan2(v - y, u - x) + angle
         return x + distance * math.cos(along), y + distance * math.sin(along)
@@ -34,7 +34,8 @@ class Body:
 
 @dataclass
 class Line:
-    """A point that keeps to a line through another one, in a direction of that one's body, or of the ground (None)."""
+    """A point that stays on a line through another point; the direction is in the frame of the body (None: the
+    ground)."""
 
     point: str
     through: str
@@ -44,9 +45,9 @@ class Line:
 
 @dataclass
 class Drive:
-    """A body that turns: its rate (rad/s), counter-clockwise, relative to a body, or to the ground (None).
+    """A body with a prescribed rate (rad/s, counter-clockwise) relative to another body or to the ground (None).
 
-    arc: the angles (rad) between which it goes to and fro; None: it turns on.
+    arc: angles (rad) between which it oscillates; None: it rotates.
     """
 
     body: Body
@@ -57,7 +58,9 @@ class Drive:
 
 @dataclass
 class Linkage:
-    """All of it; lengths in `unit`, masses in kg. `notes`: what the file does not say, or what was made of it."""
+    """A linkage with lengths in `unit` and masses in kg; `notes` list what the file does not specify or what was
+    assumed.
+    """
 
     name: str
     unit: str = "m"
@@ -67,12 +70,12 @@ class Linkage:
     lines: list[Line] = field(default_factory=list)
     drives: list[Drive] = field(default_factory=list)
     gravity: Point | None = None
-    measured: bool = False  # the file says the unit
+    measured: bool = False  # whether the file specifies the unit
     notes: list[str] = field(default_factory=list)
-    holders: dict[str, list[Body]] = field(default_factory=dict)  # of each point; `add` and `hold` write it
+    holders: dict[str, list[Body]] = field(default_factory=dict)  # bodies of each point; written by `add` and `hold`
 
     def add(self, body: Body) -> Body:
-        """Add a body. Raises InputError unless it holds two points at least, the first two apart."""
+        """Add a body. Raises InputError if it has fewer than two points, or if the first two coincide."""
         if len(body.local) < 2:
             raise InputError(f"link {body.name}: it holds {len(body.local)} joints, expected two at least")
         (x, y), (u, v) = list(body.local.values())[:2]
@@ -84,18 +87,18 @@ class Linkage:
         return body
 
     def hold(self, body: Body, point: str, place: Point) -> None:
-        """A body holds one more point."""
+        """Add a point to a body, at `place` in the body's frame."""
         if point not in body.local:
             self.holders.setdefault(point, []).append(body)
         body.local[point] = place
 
     def holding(self, *points: str) -> Body | None:
-        """The first body that holds all of these points."""
+        """Return the first body that contains all of these points, or None."""
         fewest = min((self.holders.get(point, []) for point in points), key=len)
         return next((body for body in fewest if all(point in body.local for point in points)), None)
 
     def bar(self, first: str, second: str, length: float) -> Body | None:
-        """The body that holds both points, a new bar where none does; None where the ground holds both."""
+        """Return the body that contains both points, or add a bar; None if both are points of the ground."""
         if first in self.ground and second in self.ground:
             return None
         if body := self.holding(first, second):
@@ -103,5 +106,5 @@ class Linkage:
         return self.add(Body(f"{first}_{second}", {first: (0.0, 0.0), second: (length, 0.0)}))
 
     def points(self) -> Iterator[str]:
-        """Every point, once."""
+        """Yield the name of every point once."""
         yield from dict.fromkeys([*self.positions, *self.ground, *self.holders])

@@ -1,4 +1,4 @@
-"""A linkage as a mechanism file of gudgeon's."""
+"""Write a linkage of another program as a mechanism file of gudgeon."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from gudgeon.errors import BadNameError, InputError
 from gudgeon.exchange.linkage import Body, Drive, Linkage, Point
 from gudgeon.language.names import check_name
 
-LINE_MASS = 1.0  # kg/m, of bodies whose file says no mass
+LINE_MASS = 1.0  # kg/m, for bodies whose mass the file does not specify
 ENDS = ("tail", "head")
 NOT_POINTS = (*ENDS, "origin", "com", "x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
-KINDS = ("body", "joint", "drive", "parameter")  # they share one set of names here
+KINDS = ("body", "joint", "drive", "parameter")  # kinds that share one set of names
 MAX_WISH = 40  # characters of another program's name that are kept: a number, `_slot` or `_motor` follows
 HEAD = """\
 # {title}: read from a file of another program.
@@ -25,14 +25,15 @@ name: {name}
 
 
 class _Names:
-    """Names that things of certain kinds can have in a mechanism file, no two alike."""
+    """Unique names that a mechanism file allows, for things of certain kinds."""
 
     def __init__(self, *kinds: str) -> None:
+        """Create an empty set of names; kinds: see `check_name`."""
         self.kinds, self.found = kinds, dict[Hashable, str]()
         self.used, self.tried = set[str](), dict[str, int]()
 
     def of(self, key: Hashable, wish: str) -> str:
-        """The name of a thing: as near to what is wished as the format allows."""
+        """Return the name of a thing, as similar to `wish` as the format allows; the same key gives the same name."""
         if key not in self.found:
             latin = unicodedata.normalize("NFKD", wish[: 10 * MAX_WISH]).encode("ascii", "ignore").decode()
             plain = re.sub(r"[\W_]+", "_", latin)[:MAX_WISH].strip("_")
@@ -48,6 +49,7 @@ class _Names:
         return self.found[key]
 
     def _is_legal(self, name: str) -> bool:
+        """Return whether the format allows the name."""
         try:
             for kind in self.kinds:
                 check_name(name, kind, None)
@@ -57,34 +59,41 @@ class _Names:
 
 
 class _Writer:
+    """Writer of the YAML text of one linkage."""
+
     def __init__(self, linkage: Linkage) -> None:
+        """Reserve the names of all bodies and drives."""
         self.linkage, self.unit = linkage, linkage.unit
         self.points, self.names = _Names("point"), _Names(*KINDS)
-        self.shapes = {id(body): _barred(body) for body in linkage.bodies}
+        self.shapes = {id(body): _bar_axes(body) for body in linkage.bodies}
         for body in linkage.bodies:
             self.named(body)
         self.rates = [self.names.of(("rate", k), "omega") for k in range(len(linkage.drives))]
 
     def named(self, body: Body) -> str:
+        """Return the name of a body."""
         return self.names.of(id(body), body.name)
 
     def point(self, point: str) -> str:
+        """Return the name of a point."""
         return self.points.of(point, point)
 
     def length(self, x: float) -> str:
+        """Return a length with its unit as text."""
         return f"{_number(x)} {self.unit}"
 
     def place(self, body: Body, point: str) -> str:
-        """How a joint names a point of a body."""
+        """Return how a joint refers to a point of a body: "rod.head"."""
         ends = dict(zip(islice(body.local, 2), ENDS, strict=True))
         return f"{self.named(body)}.{ends[point] if point in ends else self.point(point)}"
 
     def body(self, body: Body) -> str:
+        """Return the line of a body: length, mass, inertia, centre of mass, points."""
         length, points, com = self.shapes[id(body)]
-        mass = body.mass if body.mass is not None else LINE_MASS * length * _metres(self.unit)
+        mass = body.mass if body.mass is not None else LINE_MASS * length * _unit_in_metres(self.unit)
         inertia = body.inertia
         if inertia is None and com is not None:  # "auto" is that of a bar whose centre of mass is in its middle
-            inertia = mass * (length * _metres(self.unit)) ** 2 / 12.0
+            inertia = mass * (length * _unit_in_metres(self.unit)) ** 2 / 12.0
         inertias = "auto" if inertia is None else f"{_number(inertia)} kg*m^2"
         parts = [f"length: {self.length(length)}", f"mass: {_number(mass)} kg", f"inertia: {inertias}"]
         if com is not None:
@@ -95,7 +104,11 @@ class _Writer:
         return f"  {self.named(body)}: {{{', '.join(parts)}}}"
 
     def joints(self) -> list[str]:
-        """A revolute joint between a point's first body, or the ground, and every other one; pins in slots."""
+        """Return the lines of all joints.
+
+        A revolute joint connects the first body of a point, or the ground, with every other body of the point. Points
+        on lines become `point_on_line` joints.
+        """
         lines = []
         for point in self.linkage.points():
             holders = [self.place(body, point) for body in self.linkage.holders.get(point, [])]
@@ -109,7 +122,7 @@ class _Writer:
             if body is None:
                 raise InputError(f"joint {line.point}: it keeps to a line, and no link holds it")
             on = self.place(carrier, line.through) if carrier else f"ground.{self.point(line.through)}"
-            x, y = _turned(carrier, line.direction) if carrier else line.direction
+            x, y = _turn_direction(carrier, line.direction) if carrier else line.direction
             size = math.hypot(x, y)
             if not size > 0.0:
                 raise InputError(f"joint {line.point}: the line to which it keeps has no direction")
@@ -120,7 +133,7 @@ class _Writer:
         return lines
 
     def angle(self, body: Body | None) -> float | None:
-        """In which a bar lies at first, rad; None: nobody says."""
+        """Return the initial angle of a bar in rad; 0 for the ground, None if a position is unknown."""
         if body is None:
             return 0.0
         ends = [self.linkage.positions.get(point) for point in islice(body.local, 2)]
@@ -130,15 +143,16 @@ class _Writer:
         return math.atan2(v - y, u - x)
 
     def text(self) -> str:
+        """Return the whole file."""
         linkage = self.linkage
         notes = list(dict.fromkeys(linkage.notes))
         if any(body.mass is None for body in linkage.bodies):
             notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
         if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
-        told = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment, notes))
+        told = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment_text, notes))
         name = _Names("mechanism").of("", linkage.name)
-        out = [HEAD.format(title=_comment(linkage.name), notes=told, name=name)]
+        out = [HEAD.format(title=_comment_text(linkage.name), notes=told, name=name)]
         if linkage.gravity is not None:
             out.append(f"gravity: [{_number(linkage.gravity[0])}, {_number(linkage.gravity[1])} m/s^2]\n")
         if linkage.drives:
@@ -155,11 +169,12 @@ class _Writer:
         return "".join([*out, *self._motion()])
 
     def _ground(self) -> list[tuple[str, Point]]:
+        """Return the points of the ground that bodies or lines use."""
         used = {*self.linkage.holders, *(line.through for line in self.linkage.lines)}
         return [(p, place) for p, place in self.linkage.ground.items() if p in used]
 
     def _motion(self) -> list[str]:
-        """Drives from where they stand, and where the other bodies are at first."""
+        """Return the lines of the drives, which begin at the initial angles, and the guesses of the other angles."""
         out, driven = [], set[int]()
         for k, (rate, drive) in enumerate(zip(self.rates, self.linkage.drives, strict=True)):
             name, other = self.named(drive.body), drive.relative_to
@@ -177,7 +192,7 @@ class _Writer:
         return [*out, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
 
     def _value(self, drive: Drive, rate: str) -> str:
-        """From where it stands at a constant rate; between the ends of an arc, a triangle wave."""
+        """Return the expression of a drive: a constant rate, or a triangle wave between the ends of an arc."""
         ends = self.angle(drive.body), self.angle(drive.relative_to)
         first = 0.0 if None in ends else ends[0] - ends[1]  # type: ignore[operator]
         if drive.arc is None:
@@ -195,39 +210,44 @@ class _Writer:
 
 
 def mechanism_text(linkage: Linkage) -> str:
-    """The YAML. Raises InputError for a linkage without bodies."""
+    """Return the YAML text of a linkage. Raises InputError for a linkage without bodies."""
     if not linkage.bodies:
         raise InputError("nothing in it moves: it has no link of two joints")
     return _Writer(linkage).text()
 
 
-def _barred(body: Body) -> tuple[float, dict[str, Point], Point | None]:
-    """Length of the bar of its first two points; the others, and its centre of mass, in the bar's axes."""
+def _bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:
+    """Return the length of the bar between the first two points, the other points and the centre of mass in its
+    axes."""
     (x, y), (u, v) = list(body.local.values())[:2]
     length = math.hypot(u - x, v - y)
 
-    def seen(at: Point) -> Point:
+    def in_bar_axes(at: Point) -> Point:
+        """Return a position of the body's frame in the axes of the bar."""
         dx, dy = at[0] - x, at[1] - y
         along, across = dx * (u - x) + dy * (v - y), dy * (u - x) - dx * (v - y)
         return along / length, across / length
 
-    others = {name: seen(at) for name, at in list(body.local.items())[2:]}
-    return length, others, None if body.com is None else seen(body.com)
+    others = {name: in_bar_axes(at) for name, at in list(body.local.items())[2:]}
+    return length, others, None if body.com is None else in_bar_axes(body.com)
 
 
-def _turned(body: Body, direction: Point) -> Point:
-    """A direction of the frame in which a body's points are given, in the bar's axes."""
+def _turn_direction(body: Body, direction: Point) -> Point:
+    """Return a direction of the body's frame in the axes of the bar, multiplied by its length."""
     (x, y), (u, v) = list(body.local.values())[:2]
     return direction[0] * (u - x) + direction[1] * (v - y), direction[1] * (u - x) - direction[0] * (v - y)
 
 
-def _metres(unit: str) -> float:
+def _unit_in_metres(unit: str) -> float:
+    """Return the length of a unit in m."""
     return {"m": 1.0, "cm": 0.01, "mm": 0.001}[unit]
 
 
 def _number(x: float) -> str:
+    """Return a number with 15 digits."""
     return f"{x + 0.0:.15g}"
 
 
-def _comment(text: str) -> str:
+def _comment_text(text: str) -> str:
+    """Return a text that can stand in a comment: printable, at most 200 characters."""
     return "".join(c for c in text if c.isprintable())[:200]

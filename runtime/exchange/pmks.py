@@ -1,12 +1,12 @@
-"""Links that PMKS+ (https://pmksplus.com) shares, which hold the whole mechanism in their address.
+"""Read links that PMKS+ (https://pmksplus.com) shares; such a link contains the whole mechanism in its address.
 
-After "?" stand, separated by dots, flags, decimal and whole settings, units, then a part for each joint, nothing, a
-part for each link, nothing, and forces. Numbers are in thousandths to the base 64; a 0 in front makes one negative.
-Until June 2023 joints and links had no names, and a part with names by id could stand before the joints.
+After "?" follow, separated by dots, flags, decimal and whole settings, units, a part for each joint, an empty part, a
+part for each link, an empty part, and forces. Numbers are in thousandths to the base 64; a leading 0 makes a number
+negative. Until June 2023 joints and links had no names, and a part with names by id could precede the joints.
 
-Links that PMKS+ shared until April 2023 are plain text, which PMKS+ itself no longer reads (`of_old_pmks`).
-After "?" stand `j=` and a line for each joint, `&l=` and a line for each link, `&f=` and forces, `&s=` and settings;
-a line's values stand between commas. Its columns changed over the years: what is read is told apart by their number.
+Links that PMKS+ shared until April 2023 are plain text, which PMKS+ itself no longer reads (`of_old_pmks`). After "?"
+follow `j=` and a line for each joint, `&l=` and a line for each link, `&f=` and forces, `&s=` and settings; commas
+separate the values of a line. The columns changed over the years: their number decides how they are read.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from gudgeon.errors import InputError
 from gudgeon.exchange.linkage import MAX_NUMBER, Body, Drive, Line, Linkage, Point
 
 DIGITS = {digit: k for k, digit in enumerate("0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-")}
-MAX_DIGITS = 12  # of a number
-PRISMATIC, INPUT, GROUNDED = 1, 2, 4  # of a joint's flags
-CLOCKWISE, GRAVITY = 1, 2  # of those in front
+MAX_DIGITS = 12  # digits of a number to the base 64
+PRISMATIC, INPUT, GROUNDED = 1, 2, 4  # bits of a joint's flags
+CLOCKWISE, GRAVITY = 1, 2  # bits of the flags of the mechanism
 LENGTHS = ((0.0254, "m"), (1.0, "cm"), (1.0, "m"))  # of the first digit of the units: inches, cm, m
 PISTON, ROOT = "P", "Y"
 BEGIN = "j="
@@ -41,14 +41,14 @@ UNITS = {
 
 @dataclass
 class Joints:
-    """What links of a mechanism of PMKS+ refer to: joints that are driven, and directions (rad) of sliders."""
+    """Names of driven joints, and directions (rad) of sliders, of one mechanism of PMKS+."""
 
     inputs: list[str] = field(default_factory=list)
     sliders: dict[str, float] = field(default_factory=dict)
 
 
 def address_in(text: str) -> str | None:
-    """What stands after the question mark of the first link of PMKS+ in a text; None where there is none."""
+    """Return the text after the question mark of the first link of PMKS+ in a text; None if there is none."""
     for word in text.split():
         start = word.find("://")
         host = word.find("pmks", start)
@@ -61,22 +61,22 @@ def address_in(text: str) -> str | None:
 
 
 def of_pmks(address: str, name: str = "pmks") -> Linkage:
-    """A linkage from what stands behind the question mark. Raises InputError for what PMKS+ does not write.
+    """Return the linkage of a link of PMKS+; address: the text after the question mark.
 
-    Inches, which are no unit of gudgeon's, become metres.
+    Inches become metres, since gudgeon has no inches. Raises InputError for text that PMKS+ does not write.
     """
     parts = address.split(".")
     if len(parts) < 5:
         raise InputError("the link of PMKS+ has too few parts", hint="copy the whole link that Share gives")
     flags, _, whole, units = parts[:4]
-    scale, unit = LENGTHS[min(_packed(units[:1] or "1"), len(LENGTHS) - 1)]
+    scale, unit = LENGTHS[min(_decode_digits(units[:1] or "1"), len(LENGTHS) - 1)]
     linkage, found = Linkage(name, unit, measured=True), Joints()
-    joints, links, forces = _sections(parts[4:])
+    joints, links, forces = _split_sections(parts[4:])
     for joint in joints:
-        _joint(linkage, joint, found, scale)
-    settings = _packed(flags)
-    rate = _integer(whole.partition(",")[0]) * math.pi / 30.0 * (-1.0 if settings & CLOCKWISE else 1.0)
-    _links(linkage, links, found, scale)
+        _read_joint(linkage, joint, found, scale)
+    settings = _decode_digits(flags)
+    rate = _decode_integer(whole.partition(",")[0]) * math.pi / 30.0 * (-1.0 if settings & CLOCKWISE else 1.0)
+    _read_links(linkage, links, found, scale)
     drive_inputs(linkage, found, rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if settings & GRAVITY:
@@ -86,8 +86,11 @@ def of_pmks(address: str, name: str = "pmks") -> Linkage:
     return linkage
 
 
-def _sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
-    """Parts of joints, of links, of forces: an empty part ends each. Names by id, which old links have, are left."""
+def _split_sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
+    """Return the parts of joints, of links and of forces; an empty part ends each section.
+
+    Names by id, which old links have, are skipped. Raises InputError for a truncated link.
+    """
     sections: list[list[str]] = [[]]
     for part in parts:
         if part:
@@ -107,8 +110,8 @@ def _sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
     return sections[0], sections[1], sections[2]
 
 
-def _packed(text: str) -> int:
-    """Flags, a bit each; or the digits of a number."""
+def _decode_digits(text: str) -> int:
+    """Return the value of digits to the base 64, such as flags with one bit each. Raises InputError."""
     total = 0
     for digit in text:
         if digit not in DIGITS:
@@ -117,27 +120,29 @@ def _packed(text: str) -> int:
     return total
 
 
-def _integer(text: str) -> int:
+def _decode_integer(text: str) -> int:
+    """Return a whole number with its sign. Raises InputError for too many digits."""
     if len(text) > MAX_DIGITS:
         raise InputError(f"{text[:MAX_DIGITS]}… has {len(text)} digits, expected at most {MAX_DIGITS}")
-    total = _packed(text)
+    total = _decode_digits(text)
     return -total if len(text) > 1 and text[0] == "0" else total
 
 
-def _decimal(text: str) -> float:
-    return _integer(text) / 1000.0
+def _decode_decimal(text: str) -> float:
+    """Return a number that is given in thousandths."""
+    return _decode_integer(text) / 1000.0
 
 
-def _joint(linkage: Linkage, text: str, found: Joints, scale: float) -> None:
-    """Flags and id, name (not in old links), x, y, angle (rad) of a slider's way."""
+def _read_joint(linkage: Linkage, text: str, found: Joints, scale: float) -> None:
+    """Read the part of a joint: flags and id, name (not in old links), x, y, direction (rad) of a slider."""
     cells = text.split(",")
     if len(cells) == 4:
         cells.insert(1, "")
     if len(cells) != 5 or len(cells[0]) < 2:
         raise InputError(f"{text[:60]!r} is no joint of PMKS+")
-    flags, name = _packed(cells[0][0]), cells[0][1:]
+    flags, name = _decode_digits(cells[0][0]), cells[0][1:]
     try:
-        x, y, angle = map(_decimal, cells[2:])
+        x, y, angle = map(_decode_decimal, cells[2:])
     except InputError as error:
         raise InputError(f"joint {name}: {error.message}", hint=error.hint) from error
     place_joint(linkage, name, (scale * x, scale * y), bool(flags & GROUNDED))
@@ -148,7 +153,7 @@ def _joint(linkage: Linkage, text: str, found: Joints, scale: float) -> None:
 
 
 def place_joint(linkage: Linkage, name: str, place: Point, grounded: bool) -> None:
-    """Raises InputError for a name that another joint has."""
+    """Add a joint at a position, to the ground too if `grounded`. Raises InputError if the name is used."""
     if name in linkage.positions:
         raise InputError(f"two joints are called {name}")
     linkage.positions[name] = place
@@ -158,7 +163,7 @@ def place_joint(linkage: Linkage, name: str, place: Point, grounded: bool) -> No
 
 @dataclass
 class _Link:
-    """What a part says of a link. `parts`: those that are welded to form it."""
+    """Values of a link; `parts`: ids of the links that are welded to form it."""
 
     is_root: bool
     kind: str
@@ -171,15 +176,18 @@ class _Link:
 
 
 def _read_link(text: str) -> _Link:
-    """Whether it is a link of its own, its kind, id, name (not in old links), mass, moment of inertia, centre of mass,
-    colour, joints, nothing, the links that are welded to form it."""
+    """Read the part of a link.
+
+    Its cells: whether it is a root, kind, id, name (not in old links), mass, moment of inertia, centre of mass, colour,
+    joints, an empty cell, the links that are welded to form it. Raises InputError.
+    """
     cells = text.split(",")
     colour = next((k for k in (5, 6) if len(cells) > k and _is_colour(cells[k])), 6)
     head, numbers, rest = cells[0], cells[colour - 4 : colour], cells[colour + 1 :]
     if len(head) < 3 or len(numbers) < 4 or "" not in rest:
         raise InputError(f"{text[:60]!r} is no link of PMKS+")
     try:
-        mass, inertia, x, y = map(_decimal, numbers)
+        mass, inertia, x, y = map(_decode_decimal, numbers)
     except InputError as error:
         raise InputError(f"link {head[2:]}: {error.message}", hint=error.hint) from error
     end = rest.index("")
@@ -188,10 +196,12 @@ def _read_link(text: str) -> _Link:
 
 
 def _is_colour(text: str) -> bool:
+    """Return whether a text is a hexadecimal colour."""
     return len(text) in (3, 6) and all(digit in "0123456789abcdefABCDEF" for digit in text)
 
 
-def _links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: float) -> None:
+def _read_links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: float) -> None:
+    """Read the parts of all links and add their bodies and pistons."""
     links = [_read_link(text) for text in texts]
     by_name = {link.name: link for link in links}
     roots = [link for link in links if link.is_root]
@@ -201,7 +211,7 @@ def _links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: float) 
     for link in roots:
         refuse_unknown(linkage, link.name, link.joints)
         if link.kind == PISTON:
-            _piston(linkage, link, found)
+            _add_piston(linkage, link, found)
             continue
         if link.parts and not link.mass:
             _weld(link, [by_name[part] for part in link.parts if part in by_name])
@@ -210,7 +220,7 @@ def _links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: float) 
 
 
 def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
-    """Raises InputError for a link of joints that are not there."""
+    """Raise InputError for a link with joints that do not exist."""
     for joint in joints:
         if joint not in linkage.positions:
             raise InputError(f"link {name}: no joint is called {joint}")
@@ -219,7 +229,7 @@ def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
 def add_link(
     linkage: Linkage, name: str, joints: Sequence[str], mass: float, inertia: float, com: Point, found: Joints
 ) -> None:
-    """A body at its joints' positions; a mass or a moment of inertia of 0 is one that was not given."""
+    """Add a body at the positions of its joints. A mass or moment of inertia of 0 counts as not specified."""
     for what, value in (("mass", mass), ("moment of inertia", inertia)):
         if not 0.0 <= value <= MAX_NUMBER:
             raise InputError(f"link {name}: its {what} is {value:g}, expected a number above 0")
@@ -231,7 +241,7 @@ def add_link(
 
 
 def _weld(link: _Link, parts: Sequence[_Link]) -> None:
-    """Mass, centre of mass and moment of inertia of links that are welded together."""
+    """Set mass, centre of mass and moment of inertia of a link to those of its welded parts."""
     link.mass = sum(part.mass for part in parts)
     if not link.mass:
         return
@@ -243,7 +253,10 @@ def _weld(link: _Link, parts: Sequence[_Link]) -> None:
 
 
 def drive_inputs(linkage: Linkage, found: Joints, rate: float) -> None:
-    """Each driven joint turns what it joins: links against the ground, or two links against each other."""
+    """Add a drive for each driven joint: links against the ground, or two links against each other.
+
+    rate: rad/s. Raises InputError for other inputs.
+    """
     for joint in found.inputs:
         bodies, grounded = linkage.holders.get(joint, []), joint in linkage.ground
         if joint in found.sliders:
@@ -265,8 +278,8 @@ def drive_inputs(linkage: Linkage, found: Joints, rate: float) -> None:
         linkage.drives += drives
 
 
-def _piston(linkage: Linkage, link: _Link, found: Joints) -> None:
-    """Its pin keeps to the way of its slider, which is fixed to the ground."""
+def _add_piston(linkage: Linkage, link: _Link, found: Joints) -> None:
+    """Add the line of a piston's pin through its slider, which must be fixed to the ground. Raises InputError."""
     ways = [joint for joint in link.joints if joint in found.sliders]
     pins = [joint for joint in link.joints if joint not in found.sliders]
     if len(ways) != 1 or len(pins) != 1:
@@ -281,14 +294,18 @@ def _piston(linkage: Linkage, link: _Link, found: Joints) -> None:
 
 
 def of_old_pmks(address: str, name: str = "pmks") -> Linkage:
-    """A linkage from what stands after the question mark. Raises InputError for what is not in such links."""
+    """Return the linkage of a link from before April 2023; address: the text after the question mark.
+
+    Raises InputError for text that such links do not contain.
+    """
     try:
-        return _read(address, name)
+        return _read_old_link(address, name)
     except InputError as error:
         raise InputError(error.message, hint=error.hint or REMEDY) from error
 
 
-def _read(address: str, name: str) -> Linkage:
+def _read_old_link(address: str, name: str) -> Linkage:
+    """Read a link from before April 2023."""
     parts = dict(part.split("=", 1) for part in address.split("&") if "=" in part)
     settings = [cell.strip() for cell in parts.get("s", "").split(",")]
     if len(settings) < 4 or settings[3].lower() not in UNITS:
@@ -296,16 +313,16 @@ def _read(address: str, name: str) -> Linkage:
     scale, unit = UNITS[settings[3].lower()]
     linkage, found = Linkage(name, unit, measured=True), Joints()
     for line in filter(str.strip, parts.get("j", "").splitlines()):
-        _old_joint(linkage, line.strip(), found, scale)
+        _read_old_joint(linkage, line.strip(), found, scale)
     for line in filter(str.strip, parts.get("l", "").splitlines()):
         cells = line.strip().split(",")
         if len(cells) < 6:
             raise InputError(f"{line[:60]!r} is no link of PMKS+")
-        mass, inertia, x, y = (_number(cells[k], f"link {cells[0]}") for k in (1, 2, 3, 4))
+        mass, inertia, x, y = (_read_number(cells[k], f"link {cells[0]}") for k in (1, 2, 3, 4))
         joints = list(dict.fromkeys(filter(None, cells[5].split("|"))))
         refuse_unknown(linkage, cells[0], joints)
         add_link(linkage, cells[0], joints, mass, inertia, (scale * x, scale * y), found)
-    rate = _number(settings[0], "the speed") * math.pi / 30.0
+    rate = _read_number(settings[0], "the speed") * math.pi / 30.0
     drive_inputs(linkage, found, -rate if settings[1] == "true" else rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if settings[2] == "true":
@@ -315,10 +332,11 @@ def _read(address: str, name: str) -> Linkage:
     return linkage
 
 
-def _old_joint(linkage: Linkage, line: str, found: Joints, scale: float) -> None:
-    """Id, x, y, links, kind, whether it is grounded, angle, friction, whether it is driven.
+def _read_old_joint(linkage: Linkage, line: str, found: Joints, scale: float) -> None:
+    """Read the line of a joint.
 
-    From 2022 on: id, x, y, links, kind and whether it is grounded in one, whether it is driven.
+    Its cells: id, x, y, links, kind, whether it is grounded, angle, friction, whether it is driven. From 2022 on: id,
+    x, y, links, kind and whether it is grounded in one cell, whether it is driven.
     """
     cells = line.rstrip(",").split(",")
     name = cells[0]
@@ -332,13 +350,14 @@ def _old_joint(linkage: Linkage, line: str, found: Joints, scale: float) -> None
         raise InputError(f"joint {name}: a slider of such a link is not read", hint=REMEDY)
     if grounded not in ("t", "f") or driven not in ("t", "f"):
         raise InputError(f"joint {name}: expected t or f for whether it is grounded and driven")
-    x, y = (_number(cells[k], f"joint {name}") for k in (1, 2))
+    x, y = (_read_number(cells[k], f"joint {name}") for k in (1, 2))
     place_joint(linkage, name, (scale * x, scale * y), grounded == "t")
     if driven == "t":
         found.inputs.append(name)
 
 
-def _number(text: str, whose: str) -> float:
+def _read_number(text: str, whose: str) -> float:
+    """Return a number of a text. Raises InputError, whose message begins with `whose`."""
     try:
         value = float(text) if "_" not in text else math.nan
     except ValueError:

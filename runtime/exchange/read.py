@@ -1,4 +1,4 @@
-"""Which program a file is of, and the mechanism file that is made of it."""
+"""Recognize the program that wrote a file, and convert its linkage into a mechanism file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ KNOWN = "JSON of pylinkage (Linkage.to_json, mechanism_to_json), or a text with 
 
 
 def read_linkage(file: str | os.PathLike[str]) -> Linkage:
-    """The linkage in a file of pylinkage or PMKS+. Raises InputError where it is neither, or holds what is not read."""
+    """Return the linkage in a file of pylinkage or PMKS+. Raises InputError for other files and unsupported
+    contents."""
     data = read_named(file, MAX_BYTES, hint=f"name a file: {KNOWN}")
     try:
         text = data.decode("utf-8-sig")
@@ -26,16 +27,16 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
     try:
         address = None if text.lstrip()[:1] in ("{", "[") else address_in(text)
         if address is None:
-            return of_pylinkage(_json(text))
+            return of_pylinkage(_parse_json(text))
         return (of_old_pmks if address.startswith(BEGIN) else of_pmks)(address, Path(file).stem)
     except InputError as error:
         raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error
 
 
 def mechanism_of(file: str | os.PathLike[str]) -> str:
-    """The text of gudgeon's own file for what is in it; what was not said there is told in its first lines.
+    """Return the text of a mechanism file for the linkage in a file; its first lines list what was assumed.
 
-    Raises InputError where the file is refused, or where the format refuses what is made of it.
+    Raises InputError if the file is refused, or if the mechanism format refuses the result.
     """
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -49,7 +50,8 @@ def mechanism_of(file: str | os.PathLike[str]) -> str:
     return text
 
 
-def _json(text: str) -> object:
+def _parse_json(text: str) -> object:
+    """Return the parsed JSON. Raises InputError."""
     try:
         return json.loads(text)
     except (ValueError, RecursionError) as error:

@@ -1,4 +1,4 @@
-"""Reynolds' equation of a journal bearing of finite length: the film that the film laws are held against.
+"""Solve Reynolds' equation of a journal bearing of finite length; the film laws are compared with this solver.
 
 >>> from gudgeon.reynolds import Bearing, solve
 >>> pin = Bearing(radius=15e-3, length=30e-3, clearance=30e-6, viscosity=0.03)

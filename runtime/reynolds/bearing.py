@@ -1,4 +1,4 @@
-"""A bearing with its oil, checked when it is made, and its solved film in the units and the frame of the caller."""
+"""Define a bearing with its oil, checks of arguments, and the solved film in SI units and the frame of the caller."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 CAVITATIONS = ("half_sommerfeld", "reynolds", "elrod_adams")
 ENDS = ("open", "sealed")
-LARGEST = 2_000_000  # unknowns
+MAX_CELLS = 2_000_000  # cells
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Bearing:
 
     radius: of the journal, m. length: m, 1e-6 to 1e6 diameters. clearance: radial, m; the curvature of the film is
     neglected, so it must be below a tenth of the radius. viscosity: dynamic, Pa·s. Raises BadValueError for numbers
-    that are none of this.
+    outside these ranges.
     """
 
     radius: float
@@ -39,68 +39,74 @@ class Bearing:
     viscosity: float
 
     def __post_init__(self) -> None:
+        """Check and convert all values."""
         for field in fields(self):
             object.__setattr__(self, field.name, positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
-            much = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
-            raise BadValueError(f"{much}: expected a clearance below a tenth of the radius")
+            given = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
+            raise BadValueError(f"{given}: expected a clearance below a tenth of the radius")
         if not 1e-6 <= self.l_over_d <= 1e6:
             raise BadValueError(f"length over diameter is {self.l_over_d:g}: expected 1e-6 to 1e6")
 
     @property
     def l_over_d(self) -> float:
-        """Length over diameter."""
+        """Return the length over the diameter."""
         return self.length / (2.0 * self.radius)
 
     @property
     def pressure_unit(self) -> float:
-        """12 μ (R/c)², Pa·s: by it and a rate pressures are numbers of order one."""
+        """Return 12 μ (R/c)² in Pa·s: pressures divided by it and by a rate are of order one."""
         return 12.0 * self.viscosity * (self.radius / self.clearance) ** 2
 
 
 def pair(values: ArrayLike, name: str) -> tuple[float, float]:
-    """Two finite components."""
+    """Return two finite components. Raises BadValueError."""
     x, y = taken(values, name, (2,), finite=True)
     return float(x), float(y)
 
 
 def check_eccentricity(ratio: float) -> None:
+    """Raise BadValueError unless the eccentricity ratio is below 1."""
     if ratio >= 1.0:
-        much = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
-        raise BadValueError(much, hint="beyond it there is no film")
+        given = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
+        raise BadValueError(given, hint="beyond it there is no film")
 
 
 def choice(value: object, name: str, known: Sequence[str]) -> str:
+    """Return the value if it is one of the known texts. Raises BadValueError."""
     if not isinstance(value, str) or value not in known:
         raise BadValueError(f"{name} is {told(value)}: expected {', '.join(known[:-1])} or {known[-1]}")
     return value
 
 
 def cells_of(cells: object, sealed: bool) -> tuple[int, int]:
-    """How many around, and how many from the middle to an end; both can be halved, for the error."""
+    """Return the number of cells around and from the middle to an end (0 if sealed).
+
+    Both can be halved for the estimate of the error. Raises BadValueError.
+    """
     if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_whole, cells)):
         raise BadValueError(f"cells is {told(cells)}: expected two whole numbers, around and from the middle to an end")
     around, along = map(int, cells)
-    if around < 32 or along < 4 or around % 4 or along % 4 or around * along > LARGEST:
-        wanted = f"expected multiples of 4, at least (32, 4), of {LARGEST} cells at most"
+    if around < 32 or along < 4 or around % 4 or along % 4 or around * along > MAX_CELLS:
+        wanted = f"expected multiples of 4, at least (32, 4), of {MAX_CELLS} cells at most"
         raise BadValueError(f"cells is ({around}, {along}): {wanted}")
     return around, (0 if sealed else along)
 
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """The film of a bearing at one moment. n angles, 2m + 1 places along it; SI, vectors in the caller's frame.
+    """The film of a bearing at one time, at n angles and 2m + 1 axial positions; SI, vectors in the caller's frame.
 
-    bearing: its dimensions. cavitation, ends: as asked. eccentricity: (2,) journal's centre from the bearing's, m.
-    omega_s: ω_i + ω_j − 2ψ̇, rad/s. groove: direction in which it lies, rad, None: there is none.
+    bearing: its dimensions. cavitation, ends: as specified. eccentricity: (2,) journal's centre from the bearing's, m.
+    omega_s: ω_i + ω_j − 2ψ̇, rad/s. groove: its direction, rad, or None.
     angle: (n,) directions from the bearing's centre, rad, rising from the widest gap or the groove by a turn.
     z: (2m + 1,) from −L/2 to L/2, m. thickness: (n,) of the gap, m. pressure: (n, 2m + 1) Pa over that of the ends,
-    at which the film cavitates. content: (n, 2m + 1) share of the gap that oil fills; 1 but with elrod_adams.
+    at which the film cavitates. content: (n, 2m + 1) fraction of the gap that oil fills; 1 except with elrod_adams.
     force: (2,) on the journal, N; the bearing's is its opposite, and acts at the bearing's centre.
     radial, tangential: its parts along e and along ẑ × e, N.
     error: N, between these forces and those of half as many cells either way: Roache's index of two grids of a second
-    order with the safety factor 3 (P. J. Roache, ASME J. Fluids Eng. 116 (1994) 405–413); what is not in the
-    equation it does not know. Where elrod_adams lets a film form again the order is the first, and all of it is left.
+    order with the safety factor 3 (P. J. Roache, ASME J. Fluids Eng. 116 (1994) 405–413); errors of the model are not
+    included. With elrod_adams and reformation of the film the order is 1, and no safety factor is left.
     attitude: rad, from the line of centres to the load, atan2(F_t, −F_r); with ω_s < 0 it is negative.
     torque_journal, torque_bearing: of the film's shear on each, N·m, about its own centre: ∓T0 − ½ e F_t with
     T0 = μ R³ (ω_j − ω_i) ∬ θ/h dφ dz: where the film is ruptured the gap drags as if it were full, unless
@@ -109,8 +115,8 @@ class Film:
     groove, with half_sommerfeld over the ends where p < 0 (and from a groove), with reynolds what the film takes up
     where it forms, for outside of the film that condition asks nothing. taken_up: what the gap holds more each second,
     m³/s (elrod_adams with ė·e ≠ 0). balance: supply − leakage − taken_up, m³/s: rounding.
-    extent: directions between which there is pressure in the middle, rad, to a cell, rising; None: nowhere, or all
-    round.
+    extent: rising directions between which there is pressure in the middle plane, rad, within one cell; None: nowhere,
+    or everywhere.
     """
 
     bearing: Bearing
@@ -138,12 +144,12 @@ class Film:
 
     @property
     def attitude(self) -> float:
-        """rad, from the line of centres to the load; 0 where there is no load."""
+        """Return the angle from the line of centres to the load in rad; 0 without a load."""
         return math.atan2(self.tangential, -self.radial) if self.force.any() else 0.0
 
     @property
     def eccentricity_ratio(self) -> float:
-        """|e|/c."""
+        """Return |e|/c."""
         return math.hypot(*self.eccentricity) / self.bearing.clearance
 
     def __repr__(self) -> str:
@@ -151,13 +157,13 @@ class Film:
         return f"<Film {self.cavitation}: ε = {self.eccentricity_ratio:.4g}, ω_s = {self.omega_s:.4g} rad/s, {force}>"
 
     def plot(self) -> Figure:
-        """Pressure over the unrolled bearing, and in its middle plane round the journal; needs matplotlib."""
+        """Draw the pressure over the unrolled bearing, and around the journal in the middle plane; needs matplotlib."""
         from gudgeon.reynolds.plot import picture
 
         return picture(self)
 
 
 def check_finite(*found: Array) -> None:
-    """Raises BadValueError where something overflowed."""
+    """Raise BadValueError if a value is not finite."""
     if not all(np.isfinite(some).all() for some in found):
         raise BadValueError("the film's forces are no numbers: bearing and motion are too far from 1 for doubles")

@@ -1,12 +1,13 @@
-"""What the film does where it cannot pull: three answers, each of them a solution of the discrete flows.
+"""Solve the discrete film equation under one of three cavitation conditions.
 
-half_sommerfeld  p of the whole film, of which only p > 0 carries (L. Gümbel): what is dropped conserves no oil.
-reynolds         p ≥ 0, outflow ≥ closing, and one of both at every node: ∂p/∂φ = 0 where the film ends, so that oil is
-                 conserved where it ruptures, not where it forms again (H. W. Swift, W. Stieber). A complementarity
-                 problem of an M-matrix: its active set is found in finitely many steps (M. Hintermüller, K. Ito,
-                 K. Kunisch, SIAM J. Optim. 13 (2003) 865–888).
-elrod_adams      p ≥ 0, θ ≤ 1 and p (1 − θ) = 0: θ is the share of the gap that oil fills, and is carried along
-                 (B. Jakobsson, L. Floberg, K. O. Olsson; H. G. Elrod, ASME J. Lubr. Technol. 103 (1981) 350–354).
+half_sommerfeld: p of the whole film, of which only p > 0 carries (L. Gümbel). It does not conserve oil.
+
+reynolds: p ≥ 0, outflow ≥ closing, and equality in one of both at every node: ∂p/∂φ = 0 where the film ends. Oil is
+conserved at the rupture, not at the reformation (H. W. Swift, W. Stieber). The complementarity problem has an M-matrix:
+its active set is found in finitely many steps (M. Hintermüller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2003) 865–888).
+
+elrod_adams: p ≥ 0, θ ≤ 1 and p (1 − θ) = 0. θ is the fraction of the gap that oil fills; it is convected with the
+surfaces (B. Jakobsson, L. Floberg, K. O. Olsson; H. G. Elrod, ASME J. Lubr. Technol. 103 (1981) 350–354).
 """
 
 from __future__ import annotations
@@ -24,14 +25,14 @@ from gudgeon.reynolds.equation import Array, Equation
 from gudgeon.waiting.asking import apart
 
 Flags = NDArray[np.bool_]
-STEPS = 1000  # of an active set that only grows, at worst by a cell a step; from a coarser grid it takes a few
-TRIES = 100  # of one that may come and go
-LONG = 20_000  # unknowns whose factorization Ctrl-C is not to wait for, some .1 s
+MAX_MONOTONE_STEPS = 1000  # iterations of a monotone active set: at most one cell each; from a coarser grid a few
+MAX_STEPS = 100  # iterations of an active set that may cycle
+LONG = 20_000  # unknowns from which on the factorization (0.1 s) runs in a thread, so that Ctrl-C is immediate
 
 
 @dataclass(frozen=True)
 class Motion:
-    """How the gap moves, rates in 1/s: the effective squeeze velocity over c, and half of ω_s."""
+    """Motion of the gap in 1/s: effective squeeze velocity over c, and half of ω_s."""
 
     w_n: float
     w_t: float
@@ -40,9 +41,10 @@ class Motion:
 
 @dataclass(frozen=True)
 class Pressure:
-    """All the unknowns (n·rows,): signed with half_sommerfeld. `filled` is θ, `gain` what each cell lets in or out.
+    """Solution for all unknowns (n·rows,): pressure, filled fraction θ, and gain of each cell.
 
-    outflow − closing (or with θ: what is carried too) of each cell: 0 where the equation holds.
+    unknown: signed with half_sommerfeld. gain: outflow − closing (for elrod_adams also the convected oil); 0 where the
+    equation holds.
     """
 
     unknown: Array
@@ -50,23 +52,27 @@ class Pressure:
     gain: Array
 
 
-def solved(kind: str, equation: Equation, motion: Motion, free: Flags, start: Array | None = None) -> Pressure:
-    """free: where p is an unknown, all but the groove. start: unknowns near the solution, of a coarser grid."""
+def solve_pressure(kind: str, equation: Equation, motion: Motion, free: Flags, start: Array | None = None) -> Pressure:
+    """Solve the film equation under the cavitation condition `kind`.
+
+    free: nodes at which p is unknown, all except the groove. start: unknowns near the solution, from a coarser grid.
+    Raises BadValueError, GudgeonError if the active set does not converge.
+    """
     closing = equation.closing(motion.w_n, motion.w_t)
     if kind == "half_sommerfeld":
-        p = _inverse(equation.matrix, closing, free)
+        p = _solve_rows(equation.matrix, closing, free)
         return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
     carries = (closing > 0.0) if start is None else (start > 0.0)
     if kind == "elrod_adams" and start is not None:
-        return _elrod_adams(equation, motion, free, carries & free)
-    p, carries = _reynolds(equation.matrix, closing, free, carries & free)
+        return _solve_elrod_adams(equation, motion, free, carries & free)
+    p, carries = _solve_reynolds(equation.matrix, closing, free, carries & free)
     if kind == "elrod_adams":
-        return _elrod_adams(equation, motion, free, carries)
+        return _solve_elrod_adams(equation, motion, free, carries)
     return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
 
 
-def _inverse(matrix: sparse.csr_matrix, right: Array, where: Flags) -> Array:
-    """matrix p = right in the rows `where`, p = 0 elsewhere."""
+def _solve_rows(matrix: sparse.csr_matrix, right: Array, where: Flags) -> Array:
+    """Return the solution of matrix p = right in the rows `where`, with p = 0 elsewhere."""
     p = np.zeros(len(right))
     if where.any():
         p[where] = _factor(matrix[where][:, where]).solve(right[where])
@@ -74,26 +80,27 @@ def _inverse(matrix: sparse.csr_matrix, right: Array, where: Flags) -> Array:
 
 
 def _factor(matrix: sparse.csr_matrix) -> Any:
-    """An M-matrix of a symmetric pattern needs no pivots."""
+    """Return the LU factors of an M-matrix with symmetric pattern; pivoting is not necessary."""
     options = {"SymmetricMode": True}
-    return _split(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    return _factor_lu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
 
 
-def _split(matrix: sparse.csr_matrix, **how: Any) -> Any:
-    """L U; where the gap all but closes, flows across it are lost beside the others."""
+def _factor_lu(matrix: sparse.csr_matrix, **how: Any) -> Any:
+    """Return SuperLU's factors L U. Raises GudgeonError if a pivot vanishes because the gap is almost closed."""
     columns = matrix.tocsc()
     try:
         if columns.shape[0] < LONG:
             return splu(columns, **how)
         return apart(lambda: splu(columns, **how))
-    except RuntimeError as error:  # SuperLU's word for a pivot of 0
+    except RuntimeError as error:  # SuperLU raises it for a pivot of 0
         told = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
         raise GudgeonError(told) from error
 
 
-def _reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, carries: Flags) -> tuple[Array, Flags]:
-    for _ in range(STEPS):
-        p = _inverse(matrix, closing, carries)
+def _solve_reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, carries: Flags) -> tuple[Array, Flags]:
+    """Return the pressure and the active set (nodes with p > 0) of the complementarity problem. Raises GudgeonError."""
+    for _ in range(MAX_MONOTONE_STEPS):
+        p = _solve_rows(matrix, closing, carries)
         new = np.where(carries, p > 0.0, matrix @ p < closing) & free
         if np.array_equal(new, carries):
             return p, carries
@@ -101,29 +108,39 @@ def _reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, carries: F
     raise GudgeonError("reynolds: where the film ends is not found: another number of cells may do")
 
 
-def _elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -> Pressure:
-    """Each free node is full, its p unknown, or cavitated, its θ; the groove is full, p = 0."""
+def _solve_elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -> Pressure:
+    """Solve for p in full nodes and for θ in cavitated nodes; the groove is full with p = 0.
+
+    full: first guess of the full nodes. Raises BadValueError, GudgeonError if the active set does not converge.
+    """
     matrix, carried = equation.matrix, equation.carried(motion.half_speed, motion.w_n)
     if (carried.diagonal() <= 0.0).any():
         raise BadValueError(
             "elrod_adams: the gap closes faster than oil is carried along",
             hint="θ would hang on what was before; cavitation='reynolds' does not know θ",
         )
-    found = _carried_film(matrix, carried, free, full) or _carried_film(matrix, carried, free, np.zeros_like(full))
+    found = _iterate_full_nodes(matrix, carried, free, full) or _iterate_full_nodes(
+        matrix, carried, free, np.zeros_like(full)
+    )
     if found is None:
         raise GudgeonError("elrod_adams: where the film ends is not found: another number of cells may do")
     return found
 
 
-def _carried_film(matrix: sparse.csr_matrix, carried: sparse.csr_matrix, free: Flags, full: Flags) -> Pressure | None:
-    """From the film `full`, or from none: where oil has run out, a film to begin with may come and go for ever."""
+def _iterate_full_nodes(
+    matrix: sparse.csr_matrix, carried: sparse.csr_matrix, free: Flags, full: Flags
+) -> Pressure | None:
+    """Iterate the active set of full nodes from the guess `full`; None if it does not converge.
+
+    Without supply of oil, a guess with a film may cycle; then the caller starts from an empty one.
+    """
     held = np.where(free, 0.0, 1.0)
-    for _ in range(TRIES):
+    for _ in range(MAX_STEPS):
         pick = full.astype(float)
         columns = matrix @ sparse.diags(pick) + carried @ sparse.diags(1.0 - pick)
         right = -(carried @ (pick + held))
         unknown = np.zeros(len(right))
-        unknown[free] = _split(columns[free][:, free]).solve(right[free])
+        unknown[free] = _factor_lu(columns[free][:, free]).solve(right[free])
         p, filled = np.where(full, unknown, 0.0), np.where(full | ~free, 1.0, unknown)
         new = np.where(full, p > 0.0, filled > 1.0) & free
         if np.array_equal(new, full):

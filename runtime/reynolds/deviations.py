@@ -1,4 +1,4 @@
-"""How far a film law is from Reynolds' equation, over eccentricity and over how the journal moves."""
+"""Compare a film law with Reynolds' equation over eccentricity and over the direction of motion."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
 
 EPS = tuple(0.05 * k for k in range(1, 20))
 MOTIONS = tuple(math.pi / 12 * k for k in range(13))
-RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # of the bearing that is looked at: ratios do not hang on them
+RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # m, m, Pa·s; the deviations do not depend on them
 LawForce = Callable[[Array, Array, Array], Array]
 
 
 @dataclass(frozen=True, eq=False)
 class Deviation:
-    """A law beside the solver at n eccentricity ratios and m motions; forces over μ R³ L/c² at a rate W of 1/s.
+    """Forces of a law and of the solver at n eccentricity ratios and m motions, over μ R³ L/c² at a rate W of 1/s.
 
     motion: (m,) angle α in rad with ε̇ = W cos α, ½ ε ω_s = W sin α: 0 the gap closes, π/2 the journal turns, π it
-    leaves the wall. Both forces hang on W in proportion, and on the sign of ω_s by symmetry. force, law_force:
+    leaves the wall. Both forces are proportional to W; those at −ω_s follow by symmetry. force, law_force:
     (n, m, 2) radial and tangential, by the solver and by the law. error: (n, m) of the solver's.
     """
 
@@ -48,7 +48,7 @@ class Deviation:
 
     @property
     def share(self) -> Array:
-        """(n, m) |F_law − F| over the largest |F| at that ε."""
+        """Return the deviation (n, m): |F_law − F| over the largest |F| at that ε."""
         largest = np.hypot(self.force[..., 0], self.force[..., 1]).max(axis=1, keepdims=True)
         off = self.law_force - self.force
         return np.asarray(np.hypot(off[..., 0], off[..., 1]) / largest)
@@ -58,11 +58,13 @@ class Deviation:
         return f"<Deviation of {self.law} at L/D = {self.l_over_d:g}, {self.cavitation}: {worst}>"
 
     def of(self, law: str, **keys: float | str | bool) -> Deviation:
-        """Another law, with its other keys, at the same states; what the solver found of them is not sought again."""
-        return replace(self, law=law, law_force=_by_law(law, self.l_over_d, self.eps, self.motion, keys))
+        """Return the deviation of another law, with its other keys, at the same states; the solver's results are
+        reused.
+        """
+        return replace(self, law=law, law_force=_evaluate_law(law, self.l_over_d, self.eps, self.motion, keys))
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """The share in percent as a map; needs matplotlib."""
+        """Draw the deviation in percent as a map; needs matplotlib."""
         from gudgeon.reynolds.plot import deviation_map
 
         return deviation_map(self, ax)
@@ -79,47 +81,54 @@ def deviation(
     cells: tuple[int, int] = CELLS,
     **keys: float | str | bool,
 ) -> Deviation:
-    """A film law (`gudgeon.generator.kinds.laws`, or one of your own that is registered) against the solver.
+    """Compare a film law (`gudgeon.generator.kinds.laws`, or a registered one) with the solver.
 
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as
     `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given.
     """
     ratio = positive(l_over_d, "l_over_d")
-    own = _bearing(ratio)
+    own = _make_bearing(ratio)
     at, alpha = taken(eps, "eps", (None,), finite=True), taken(motion, "motion", (None,), finite=True)
     if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
-    by_law = _by_law(law, ratio, at, alpha, keys)
-    eps, closing, turning = _states(at, alpha)
+    by_law = _evaluate_law(law, ratio, at, alpha, keys)
+    eps, closing, turning = _make_states(at, alpha)
     found = table(own, eps, closing, 2.0 * turning / eps, cavitation=cavitation, groove=groove, cells=cells)
-    unit = _unit(own)
+    unit = _force_unit(own)
     return Deviation(law, ratio, cavitation, at, alpha, found.force / unit, by_law, found.error / unit)
 
 
-def _bearing(l_over_d: float) -> Bearing:
+def _make_bearing(l_over_d: float) -> Bearing:
+    """Return the bearing in which forces are compared; ratios do not depend on its dimensions."""
     return Bearing(RADIUS, 2.0 * RADIUS * l_over_d, CLEARANCE, VISCOSITY)
 
 
-def _unit(own: Bearing) -> float:
+def _force_unit(own: Bearing) -> float:
+    """Return the unit of the forces, μ R³ L/c² times 1/s, in N."""
     return VISCOSITY * RADIUS**3 * own.length / CLEARANCE**2
 
 
-def _states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
-    """(n, 1) ε, (n, m) ε̇ and ½ ε ω_s at W = 1/s."""
+def _make_states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
+    """Return ε (n, 1), ε̇ (n, m) and ½ ε ω_s (n, m) at W = 1/s."""
     return eps[:, None], np.cos(motion) + 0.0 * eps[:, None], np.sin(motion) + 0.0 * eps[:, None]
 
 
-def _by_law(law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[str, float | str | bool]) -> Array:
-    """(n, m, 2) over μ R³ L/c²."""
-    own, (at, closing, turning) = _bearing(l_over_d), _states(eps, motion)
+def _evaluate_law(
+    law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[str, float | str | bool]
+) -> Array:
+    """Return the force of the law (n, m, 2) over μ R³ L/c²."""
+    own, (at, closing, turning) = _make_bearing(l_over_d), _make_states(eps, motion)
     with np.errstate(over="ignore", invalid="ignore"):
-        force = law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _unit(own)
+        force = law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _force_unit(own)
     check_finite(force)
     return force
 
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
-    """The law's (…, 2) F_r and F_t (N) as a function of ε, w_n and w_t (1/s)."""
+    """Return a function of ε, w_n and w_t (1/s) that gives the law's forces F_r and F_t (…, 2) in N.
+
+    keys: the law's keys. Raises UnknownNameError, UnknownKeyError, MissingKeyError, BadValueError.
+    """
     from gudgeon.generator.kinds.laws.built import PAIR, alone
     from gudgeon.generator.kinds.laws.law import called
 
@@ -144,6 +153,7 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     function = alone(law, numbers, chosen, pair)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
+        """Return F_r and F_t (…, 2) in N."""
         found = function(eps, w_n, w_t)
         return np.stack([found["F_r"], found["F_t"]], axis=-1)
 

@@ -1,4 +1,4 @@
-"""Reynolds' equation in finite volumes: what flows out of each cell, for pressures and for oil that is carried along.
+"""Discretize Reynolds' equation by finite volumes: the outflow of each cell by pressure and by convection.
 
     ∂(h³ ∂p/∂φ)/∂φ + ∂(h³ ∂p/∂ζ)/∂ζ = ∂h/∂t,   h = 1 + ε cos φ,   ∂h/∂t = w_n cos φ + w_t sin φ
 
@@ -21,8 +21,8 @@ from scipy import sparse
 from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
-ROUND = 2.0 * math.pi
-UNIFORM = 0.5  # share of the nodes that lie evenly; the others follow Sommerfeld's angle, close where h is small
+TURN = 2.0 * math.pi
+UNIFORM = 0.5  # fraction of equidistant nodes; the others follow Sommerfeld's angle, dense where h is small
 
 
 @dataclass(frozen=True)
@@ -36,12 +36,15 @@ class Equation:
 
     @property
     def rows(self) -> int:
-        """Unknowns at an angle."""
+        """Return the number of unknowns at one angle."""
         return len(self.grid.height)
 
     @cached_property
     def matrix(self) -> sparse.csr_matrix:
-        """Outflow of each cell by the unknowns: an M-matrix, each cell's sum of columns 0 or what leaves the end."""
+        """Return the matrix of outflows of each cell by the unknowns.
+
+        It is an M-matrix; each column sums to 0, or to what leaves over the end.
+        """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)
         i = np.arange(n)
         across = (1.0 + grid.eps * np.cos(grid.right)) ** 3 / grid.apart  # between i and i + 1
@@ -56,11 +59,12 @@ class Equation:
         inside[:m] = grid.height[:m]  # at the end p = 0: nothing flows around
         matrix = sparse.kron(around, sparse.diags(inside))
         if not grid.sealed:
-            matrix += sparse.kron(sparse.diags(grid.h**3 * (grid.right - grid.left)), self._along())
+            matrix += sparse.kron(sparse.diags(grid.h**3 * (grid.right - grid.left)), self._axial_matrix())
             matrix += sparse.kron(sparse.eye(n), sparse.diags(np.arange(self.rows) == m, dtype=float))
         return sparse.csr_matrix(matrix)
 
-    def _along(self) -> sparse.csr_matrix:
+    def _axial_matrix(self) -> sparse.csr_matrix:
+        """Return the axial part of the matrix at one angle, without the factor h³ Δφ."""
         m, share = len(self.grid.zeta), 1.0 / self.grid.gaps
         between = np.arange(m)
         flows = sparse.coo_matrix((share, (between, between)), shape=(m + 1, m + 1))
@@ -70,14 +74,17 @@ class Equation:
         return sparse.csr_matrix(flows + sparse.coo_matrix((-back, (ahead, ahead + 1)), shape=(m + 1, m + 1)))
 
     def closing(self, w_n: float, w_t: float) -> Array:
-        """(n·rows,) −∫ ∂h/∂t over each cell: what it must let go."""
+        """Return −∫ ∂h/∂t over each cell (n·rows,): the flow that the cell must release."""
         grid = self.grid
         squeeze = w_n * (np.sin(grid.right) - np.sin(grid.left)) - w_t * (np.cos(grid.right) - np.cos(grid.left))
         return np.asarray(-np.outer(squeeze, grid.height).ravel())
 
     def carried(self, half_speed: float, w_n: float) -> sparse.csr_matrix:
-        """Outflow of each cell by the share θ of the gap that oil fills: carried from where it comes, ½ω_s θ h, and
-        what the rate ε̇ = w_n of a gap takes up, θ ∂h/∂t. With θ = 1 everywhere it is −closing."""
+        """Return the matrix of outflows by the filled fraction θ of each cell.
+
+        Oil is convected from upstream, ½ω_s θ h, and stored by the rate ε̇ = w_n of the gap, θ ∂h/∂t. With θ = 1
+        everywhere the outflow is −closing.
+        """
         grid, n = self.grid, len(self.grid.phi)
         over = half_speed * (1.0 + grid.eps * np.cos(grid.right))  # through a cell's end, from i to i + 1
         i, nothing = np.arange(n), np.zeros(n)
@@ -110,28 +117,29 @@ class Grid:
 
     @property
     def sealed(self) -> bool:
+        """Return whether the bearing is sealed: it then has no axial gaps."""
         return not len(self.gaps)
 
     @property
     def h(self) -> Array:
-        """(n,) film thickness over c at nodes."""
+        """Return the film thickness over c at the nodes (n,)."""
         return np.asarray(1.0 + self.eps * np.cos(self.phi))
 
 
-def made(eps: float, l_over_d: float, around: int, along: int, start: float = 0.0) -> Grid:
-    """A grid with a node at φ = start; along = 0: of a sealed bearing."""
-    spread = ROUND / around
-    shift = float(_spread(np.array([start]), eps)[0])
-    both = _places(shift + 0.5 * spread * np.arange(2 * around, dtype=float), eps)
+def make_grid(eps: float, l_over_d: float, around: int, along: int, start: float = 0.0) -> Grid:
+    """Return a grid with a node at φ = start; around, along: numbers of cells; along = 0 for a sealed bearing."""
+    spread = TURN / around
+    shift = float(_uniform_angle(np.array([start]), eps)[0])
+    both = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * around, dtype=float), eps)
     phi, right = both[::2], both[1::2]
-    left = np.concatenate([[right[-1] - ROUND], right[:-1]])
-    apart = np.concatenate([phi[1:], [phi[0] + ROUND]]) - phi
+    left = np.concatenate([[right[-1] - TURN], right[:-1]])
+    apart = np.concatenate([phi[1:], [phi[0] + TURN]]) - phi
     weight = spread / _density(phi, eps)
     if not along:
         whole = np.array([l_over_d])
         return Grid(eps, phi, right, left, apart, weight, np.zeros(1), whole, np.zeros(0), whole)
-    layer = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # p changes along as quickly as around
-    zeta, slope = _along(np.linspace(0.0, 1.0, 2 * along + 1), l_over_d, layer)
+    layer = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # axial and circumferential gradients are similar
+    zeta, slope = _axial_nodes(np.linspace(0.0, 1.0, 2 * along + 1), l_over_d, layer)
     height = np.diff(np.concatenate([[0.0], zeta[1::2], [l_over_d]]))
     simpson = np.where(np.arange(along) % 2, 4.0, 2.0) / (3.0 * along)
     simpson[0] *= 0.5
@@ -140,28 +148,30 @@ def made(eps: float, l_over_d: float, around: int, along: int, start: float = 0.
 
 
 def _density(phi: Array, eps: float) -> Array:
+    """Return the derivative of `_uniform_angle` by φ, the density of the nodes."""
     return np.asarray(UNIFORM + (1.0 - UNIFORM) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi)))
 
 
-def _spread(phi: Array, eps: float) -> Array:
-    """In it nodes lie evenly: a mean of φ and Sommerfeld's angle γ, (1 + ε cos φ)(1 − ε cos γ) = 1 − ε².
+def _uniform_angle(phi: Array, eps: float) -> Array:
+    """Return the variable in which the nodes are equidistant.
 
-    dγ = √(1 − ε²)/h dφ.
+    It is the mean of φ and of Sommerfeld's angle γ: (1 + ε cos φ)(1 − ε cos γ) = 1 − ε², dγ = √(1 − ε²)/h dφ.
     """
-    turns = np.floor((phi + math.pi) / ROUND)
-    half = 0.5 * (phi - ROUND * turns)
-    gamma = 2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + ROUND * turns
+    turns = np.floor((phi + math.pi) / TURN)
+    half = 0.5 * (phi - TURN * turns)
+    gamma = 2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + TURN * turns
     return np.asarray(UNIFORM * phi + (1.0 - UNIFORM) * gamma)
 
 
-def _places(spread: Array, eps: float) -> Array:
-    """φ of `_spread`: Newton's method between bounds, which are halved where it does not halve its last step.
+def _invert_uniform_angle(spread: Array, eps: float) -> Array:
+    """Return the φ at which `_uniform_angle` has the given values.
 
-    Both variables are never more than π apart; at ε → 1 the slope jumps so that Newton alone goes to and fro.
+    Newton's method within bounds, which are bisected when a step is not half of the last one. Both variables differ by
+    at most π. At ε → 1 the slope jumps, so that Newton's method alone may cycle.
     """
-    low, high, phi, last = spread - math.pi, spread + math.pi, spread.copy(), np.full_like(spread, ROUND)
+    low, high, phi, last = spread - math.pi, spread + math.pi, spread.copy(), np.full_like(spread, TURN)
     for _ in range(200):
-        off = _spread(phi, eps) - spread
+        off = _uniform_angle(phi, eps) - spread
         low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)
         step = -off / _density(phi, eps)
         halved = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last))
@@ -172,8 +182,11 @@ def _places(spread: Array, eps: float) -> Array:
     return phi
 
 
-def _along(share: Array, reach: float, layer: float) -> tuple[Array, Array]:
-    """ζ from 0 to reach and its slope by `share`: at the end `layer` times what it were if it lay evenly."""
+def _axial_nodes(share: Array, reach: float, layer: float) -> tuple[Array, Array]:
+    """Return ζ from 0 to `reach`, and its slope, for uniform values from 0 to 1.
+
+    At the end the slope is `layer` times that of equidistant nodes.
+    """
     if layer > 0.98:
         return reach * share, np.full_like(share, reach)
     b = brentq(lambda b: b / math.sinh(b) - layer, 1e-3, 700.0)

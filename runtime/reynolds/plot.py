@@ -1,4 +1,4 @@
-"""The picture of a film, unrolled and round the journal, and the map of a law's deviation."""
+"""Draw a film, unrolled and around the journal, and the map of a law's deviation."""
 
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ if TYPE_CHECKING:
 
     from gudgeon.reynolds.deviations import Deviation
 
-GAP, TALL = 0.25, 0.8  # of the circle drawn for the bearing: its clearance, the largest pressure
+GAP, TALL = 0.25, 0.8  # clearance and largest pressure as drawn, over the radius of the bearing
 
 
 def picture(film: Film) -> Figure:
-    """Left p(φ, z), right the middle plane: journal, pressure on it, force; the gap is not to scale."""
+    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to
+    scale."""
     import matplotlib
     from matplotlib.figure import Figure
 
@@ -29,13 +30,14 @@ def picture(film: Film) -> Figure:
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(10, 4.2), dpi=120, layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
-        _map(left, film, factor, unit)
-        _round(right, film)
+        _draw_map(left, film, factor, unit)
+        _draw_middle_plane(right, film)
         figure.suptitle(_title(film), fontsize=11, x=0.012, ha="left")
     return figure
 
 
 def _title(film: Film) -> str:
+    """Return the title: cavitation condition, ratios, force with its error, attitude angle, leakage."""
     force, attitude = math.hypot(*film.force), math.degrees(film.attitude)
     return (
         f"{film.cavitation}, L/D = {film.bearing.l_over_d:.3g}, ε = {film.eccentricity_ratio:.3g}: "
@@ -43,8 +45,8 @@ def _title(film: Film) -> str:
     )
 
 
-def _map(ax: Axes, film: Film, factor: float, unit: str) -> None:
-    """Angles rise by a turn from the widest gap or the groove; the first is repeated behind the last."""
+def _draw_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
+    """Draw the pressure over angle and axial position; the first angle is repeated after the last."""
     angle = np.degrees(np.append(film.angle, film.angle[0] + 2.0 * math.pi))
     p = np.concatenate([film.pressure, film.pressure[:1]]) * factor
     from matplotlib.ticker import MaxNLocator, MultipleLocator
@@ -69,13 +71,15 @@ def _map(ax: Axes, film: Film, factor: float, unit: str) -> None:
 
 
 def _mark_thinnest(ax: Axes, film: Film, first: float) -> None:
+    """Mark the direction of the thinnest film."""
     thinnest = math.degrees(math.atan2(film.eccentricity[1], film.eccentricity[0]))
     thinnest += 360.0 * math.ceil((first - thinnest) / 360.0)
     ax.axvline(thinnest, color=COLOURS[0], lw=1.0, ls="--", label="thinnest film")
     ax.legend(loc="lower left", fontsize=8, frameon=True)
 
 
-def _round(ax: Axes, film: Film) -> None:
+def _draw_middle_plane(ax: Axes, film: Film) -> None:
+    """Draw the middle plane: bearing, journal, pressure around it, force."""
     turn = np.linspace(0.0, 2.0 * math.pi, 361)
     ax.plot(np.cos(turn), np.sin(turn), color="#777777", lw=1.2)
     x, y = np.array(film.eccentricity) / film.bearing.clearance * GAP
@@ -100,7 +104,7 @@ def _round(ax: Axes, film: Film) -> None:
 
 
 def deviation_map(found: Deviation, ax: Axes | None) -> Axes:
-    """ε across, motion up, the share in percent; as dark as it gets where it is beyond the scale."""
+    """Draw a map of the deviation in percent over ε and the direction of motion; the darkest colour is open-ended."""
     import matplotlib
     from matplotlib.figure import Figure
 

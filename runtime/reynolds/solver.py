@@ -1,4 +1,4 @@
-"""One film: from what is asked to cells, from cells to forces, flows and what they may be off."""
+"""Solve the film of one state: check arguments, refine the grid, return forces, flows and their error."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from gudgeon.reynolds.bearing import (
     choice,
     pair,
 )
-from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solved
-from gudgeon.reynolds.equation import ROUND, Array, Equation, Grid, made
+from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solve_pressure
+from gudgeon.reynolds.equation import TURN, Array, Equation, Grid, make_grid
 
 CELLS = (192, 24)  # around, from the middle to an end
-COARSEST = 64  # cells around, below which the active set needs no start
+COARSEST = 64  # cells around, up to which the active set needs no start
 WIDEST = "widest"
 Groove = float | str | None
 
@@ -43,21 +43,21 @@ def solve(
     groove: Groove = None,
     cells: tuple[int, int] = CELLS,
 ) -> Film:
-    """The film between a journal and its bearing: pressure, forces, torques, leakage, and the forces' error.
+    """Solve the film between a journal and its bearing: pressure, forces, torques, leakage, error of the forces.
 
     eccentricity: (2,) of the journal's centre from the bearing's, m, |e| < c. rate: (2,) its rate, m/s. Both rates of
     rotation in rad/s, in one frame with the rate: only ω_i + ω_j − 2ψ̇ and ε̇ make pressure.
-    cavitation: half_sommerfeld, reynolds or elrod_adams (cavitation.py says what each is). elrod_adams is quasi-static:
+    cavitation: half_sommerfeld, reynolds or elrod_adams (cavitation.py defines them). elrod_adams is quasi-static:
     θ does not change in time in the frame of the line of centres. That is exact in a steady state and in whirl, and
     an approximation where ε̇ ≠ 0; it needs ω_s ≠ 0.
     ends: open, p = 0 there; sealed, nothing leaves: the equation of an infinitely long bearing, the forces of this
     length.
     groove: p = 0 along an axial line in this direction from the bearing's centre (rad), or "widest": where the gap is
-    widest, as textbooks begin their films. None: none, but where something must say where oil comes from (sealed,
-    elrod_adams) it is "widest".
+    widest, as textbooks begin their films. None: no groove; if the source of oil must be defined (sealed,
+    elrod_adams), "widest".
     cells: around and from the middle to an end, multiples of 4. They gather where the film is thin and at the ends.
 
-    Raises BadValueError for what makes no sense, GudgeonError where an active set does not settle.
+    Raises BadValueError for invalid arguments, GudgeonError if an active set does not converge.
     """
     instance(bearing, "bearing", Bearing)
     choice(cavitation, "cavitation", CAVITATIONS)
@@ -67,42 +67,42 @@ def solve(
     turning = number_of(omega_journal, "omega_journal"), number_of(omega_bearing, "omega_bearing")
     size = math.hypot(*e)
     check_eccentricity(size / bearing.clearance)
-    n = _direction(e, v)
+    n = _centre_direction(e, v)
     t = np.array([-n[1], n[0]])
     omega_s = sum(turning) - (2.0 * float(v @ t) / size if size > 0.0 else 0.0)
     eps, c = size / bearing.clearance, bearing.clearance
     motion = Motion(float(v @ n) / c, (float(v @ t) - 0.5 * sum(turning) * size) / c, 0.5 * omega_s)
-    at = _groove(groove, n, sealed, cavitation)
+    at = _groove_angle(groove, n, sealed, cavitation)
     problem = Problem(eps, bearing.l_over_d, sealed, cavitation, at, motion)
     with np.errstate(over="ignore", invalid="ignore"):
-        coarse, fine = refined(problem, around, along)
-        film = _film(bearing, ends, e, n, omega_s, turning[0] - turning[1], fine, coarse)
+        coarse, fine = solve_refined(problem, around, along)
+        film = _make_film(bearing, ends, e, n, omega_s, turning[0] - turning[1], fine, coarse)
     check_finite(film.force, film.pressure)
     return film
 
 
-def _direction(e: Array, v: Array) -> Array:
-    """Of the line of centres; of the motion where they coincide."""
+def _centre_direction(e: Array, v: Array) -> Array:
+    """Return the unit vector of the line of centres, or of the motion if the centres coincide."""
     for vector in (e, v, np.array([1.0, 0.0])):
         if (size := math.hypot(*vector)) > 0.0:
             return np.asarray(vector / size)
     raise AssertionError
 
 
-def _groove(groove: Groove, n: Array, sealed: bool, cavitation: str) -> float | None:
-    """φ of the groove, from the widest gap."""
+def _groove_angle(groove: Groove, n: Array, sealed: bool, cavitation: str) -> float | None:
+    """Return the angle φ of the groove, counted from the widest gap, or None."""
     if groove is None:
         return 0.0 if sealed or cavitation == "elrod_adams" else None
     if isinstance(groove, str):
         choice(groove, "groove", ("a direction in rad", WIDEST))
         return 0.0
     phi = number_of(groove, "groove") - math.atan2(-n[1], -n[0])
-    return math.remainder(phi, ROUND)
+    return math.remainder(phi, TURN)
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What is solved, without dimensions but of rates."""
+    """Dimensionless film problem; only the rates in `motion` have units (1/s)."""
 
     eps: float
     l_over_d: float
@@ -112,6 +112,7 @@ class Problem:
     motion: Motion
 
     def __post_init__(self) -> None:
+        """Raise BadValueError for elrod_adams without rotation."""
         if self.cavitation == "elrod_adams" and self.motion.half_speed == 0.0:
             raise BadValueError(
                 "elrod_adams: nothing carries the oil round, for omega_s = 0",
@@ -129,22 +130,24 @@ class Solution:
 
     @property
     def grid(self) -> Grid:
+        """Return the grid."""
         return self.equation.grid
 
     @cached_property
     def p(self) -> Array:
-        """(n, m), signed."""
-        return self._spread(self.pressure.unknown)[:, : len(self.grid.zeta)]
+        """Return the pressure (n, m), signed."""
+        return self._as_grid(self.pressure.unknown)[:, : len(self.grid.zeta)]
 
     @cached_property
     def over_the_end(self) -> Array:
-        """(n,) what flows over one end at each node, out of it where positive."""
-        shown = self._spread(self.pressure.unknown)
+        """Return the flow over one end at each angle (n,), positive outwards."""
+        shown = self._as_grid(self.pressure.unknown)
         return np.zeros(len(shown)) if self.grid.sealed else shown[:, -1]
 
     @cached_property
     def filled(self) -> Array:
-        return self._spread(self.pressure.filled)
+        """Return the filled fraction θ (n, rows)."""
+        return self._as_grid(self.pressure.filled)
 
     @cached_property
     def force(self) -> Array:
@@ -163,13 +166,13 @@ class Solution:
 
     @cached_property
     def flows(self) -> tuple[float, float, float]:
-        """Leakage, supply and what the gap takes up, in units of c R², of both halves."""
-        end, gain = self.over_the_end, self._spread(self.pressure.gain)
+        """Return leakage, supply and stored flow of both halves, in units of c R²."""
+        end, gain = self.over_the_end, self._as_grid(self.pressure.gain)
         out, back = float(end[end > 0.0].sum()), -float(end[end < 0.0].sum())
         grid = self.grid
         closing = self.equation.closing(self.problem.motion.w_n, 0.0).reshape(gain.shape)
         taken = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
-        held = self.pressure.unknown.reshape(gain.shape) == 0.0  # not where the equation holds: there it is rounding
+        held = self.pressure.unknown.reshape(gain.shape) == 0.0  # where the equation holds the gain is rounding
         if self.problem.cavitation == "elrod_adams":
             held = np.zeros_like(held)
             held[0] = True
@@ -178,14 +181,18 @@ class Solution:
             return 0.0, 2.0 * source, 2.0 * taken
         return 2.0 * out, 2.0 * (source + back), 2.0 * taken
 
-    def _spread(self, values: Array) -> Array:
+    def _as_grid(self, values: Array) -> Array:
+        """Return the unknowns as an array (n, rows)."""
         return values.reshape(len(self.grid.phi), self.equation.rows)
 
 
-def refined(problem: Problem, around: int, along: int, equations: dict[int, Equation] | None = None) -> list[Solution]:
-    """On half as many cells either way, and on all: each begins where the coarser one's film ends.
+def solve_refined(
+    problem: Problem, around: int, along: int, equations: dict[int, Equation] | None = None
+) -> list[Solution]:
+    """Solve on half as many cells in both directions, and on all; return both solutions.
 
-    equations: those of this eccentricity, by their cells around; what is made is put there.
+    Each grid starts from the active set of the coarser one. equations: cached equations of this eccentricity by number
+    of cells around; new ones are added.
     """
     levels = [(around, along), (around // 2, along // 2)]
     while levels[-1][0] > COARSEST and not levels[-1][0] % 4 and not levels[-1][1] % 4:
@@ -194,23 +201,24 @@ def refined(problem: Problem, around: int, along: int, equations: dict[int, Equa
     found: list[Solution] = []
     for n, m in reversed(levels):
         if n not in known:
-            known[n] = Equation(made(problem.eps, problem.l_over_d, n, m, problem.groove or 0.0))
+            known[n] = Equation(make_grid(problem.eps, problem.l_over_d, n, m, problem.groove or 0.0))
         equation = known[n]
         free = np.ones((n, equation.rows), dtype=bool)
         if problem.groove is not None:
             free[0] = False
-        start = _finer(found[-1]) if found else None
-        pressure = solved(problem.cavitation, equation, problem.motion, _all(free), start)
+        start = _interpolate_unknowns(found[-1]) if found else None
+        pressure = solve_pressure(problem.cavitation, equation, problem.motion, _as_vector(free), start)
         found.append(Solution(equation, problem, pressure))
     return found[-2:]
 
 
-def _all(flags: Flags) -> Flags:
+def _as_vector(flags: Flags) -> Flags:
+    """Return the flags as a vector."""
     return np.asarray(flags.ravel())
 
 
-def _finer(coarse: Solution) -> Array:
-    """Unknowns on twice as many cells, linear between: a start, of which only the sign is read."""
+def _interpolate_unknowns(coarse: Solution) -> Array:
+    """Return the unknowns, interpolated linearly to twice as many cells; only their signs are used."""
     p = coarse.p
     if not coarse.grid.sealed:
         p = np.concatenate([p, np.zeros((len(p), 1))], axis=1)
@@ -221,13 +229,17 @@ def _finer(coarse: Solution) -> Array:
         return rows.ravel()
     fine = np.empty((2 * n, 2 * m - 1))
     fine[:, ::2], fine[:, 1::2] = rows, 0.5 * (rows[:, :-1] + rows[:, 1:])
-    fine[:, -1] = fine[:, -2]  # over the end oil leaves where there is pressure before it
+    fine[:, -1] = fine[:, -2]  # oil leaves over the end where there is pressure next to it
     return fine.ravel()
 
 
-def _film(
+def _make_film(
     bearing: Bearing, ends: str, e: Array, n: Array, omega_s: float, slip: float, fine: Solution, coarse: Solution
 ) -> Film:
+    """Return the film in SI units from the solutions on both grids.
+
+    e: eccentricity in m. n: direction of the line of centres. slip: ω_i − ω_j in rad/s.
+    """
     grid, problem = fine.grid, fine.problem
     unit, c, widest = bearing.pressure_unit, bearing.clearance, math.atan2(-n[1], -n[0])
     radial, tangential = (unit * bearing.radius**2 * fine.force).tolist()
@@ -252,8 +264,8 @@ def _film(
         grid.phi + widest,
         bearing.radius * np.concatenate([-zeta[:0:-1], zeta]),
         c * grid.h,
-        _mirrored(p),
-        _mirrored(filled),
+        _mirror_half(p),
+        _mirror_half(filled),
         radial * n + tangential * np.array([-n[1], n[0]]),
         radial,
         tangential,
@@ -264,20 +276,23 @@ def _film(
         supply,
         taken,
         supply - leakage - taken,
-        _extent(p[:, 0], grid.phi + widest),
+        _pressure_extent(p[:, 0], grid.phi + widest),
     )
 
 
-def _mirrored(half: Array) -> Array:
+def _mirror_half(half: Array) -> Array:
+    """Return the values of both halves of the bearing from those of one (n, m)."""
     return np.concatenate([half[:, :0:-1], half], axis=1)
 
 
-def _extent(p: Array, angle: Array) -> tuple[float, float] | None:
-    """First and last node of the pressure that holds the largest, the last behind the first."""
+def _pressure_extent(p: Array, angle: Array) -> tuple[float, float] | None:
+    """Return the angles of the first and last node of the pressure region with the maximum, rising; None if there is
+    none.
+    """
     carries, most, n = p > 0.0, int(np.argmax(p)), len(p)
     if carries.all() or not carries.any():
         return None
     first = next(k for k in range(n) if not carries[most - k - 1])
     last = next(k for k in range(n) if not carries[(most + k + 1) % n])
     begins, ends = float(angle[most - first]), float(angle[(most + last) % n])
-    return begins, ends + (ROUND if ends < begins else 0.0)
+    return begins, ends + (TURN if ends < begins else 0.0)

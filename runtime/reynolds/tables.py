@@ -1,4 +1,4 @@
-"""Forces of many states of one bearing, as tables of film laws are made from."""
+"""Compute the forces of many states of one bearing, from which tables of film laws are made."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from gudgeon.model.arrays import taken
 from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, check_finite, choice
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
-from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, refined
+from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, solve_refined
 
-MOST_STATES = 1_000_000  # a day of solving
+MAX_STATES = 1_000_000  # takes a day
 
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """What `table` found; the arrays have the shape to which the states were broadcast.
+    """Forces of `table`; the arrays have the broadcast shape of the states.
 
     eps, eps_rate (1/s), omega_s (rad/s): the states. force: (…, 2) F_r along e and F_t along ẑ × e on the journal, N.
-    error: as a film's, N.
+    error: of the force as for a film, N.
     """
 
     eps: Array
@@ -48,10 +48,10 @@ def table(
     groove: str | None = None,
     cells: tuple[int, int] = CELLS,
 ) -> Table:
-    """Forces over eccentricity ratio ε in [0, 1), its rate ε̇ (1/s) and ω_s = ω_i + ω_j − 2ψ̇ (rad/s).
+    """Return the forces over eccentricity ratio ε in [0, 1), its rate ε̇ (1/s) and ω_s = ω_i + ω_j − 2ψ̇ (rad/s).
 
-    The three are broadcast together; all else is as `solve` takes it, a groove is None or "widest". States of one ε
-    share their grid and flows, and what is asked twice is solved once.
+    The three arrays are broadcast together. Other arguments are those of `solve`; groove is None or "widest". States of
+    equal ε share their grid, and equal states are solved once. Raises as `solve`.
     """
     instance(bearing, "bearing", Bearing)
     choice(cavitation, "cavitation", CAVITATIONS)
@@ -59,7 +59,7 @@ def table(
     around, along = cells_of(cells, sealed)
     if groove is not None:
         choice(groove, "groove", ("None", WIDEST))
-    states = _states(eps, eps_rate, omega_s)
+    states = _broadcast_states(eps, eps_rate, omega_s)
     at = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
     rows, back = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
     back, unit = back.reshape(states[0].shape), bearing.pressure_unit * bearing.radius**2
@@ -70,24 +70,24 @@ def table(
             known = known if known[0] == e else (e, {})
             motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
             problem = Problem(e, bearing.l_over_d, sealed, cavitation, at, motion)
-            coarse, fine = refined(problem, around, along, known[1])
+            coarse, fine = solve_refined(problem, around, along, known[1])
             force[k], error[k] = unit * fine.force, unit * np.hypot(*(fine.force - coarse.force))
     check_finite(force)
     e_all, closing_all, speed_all = (x.copy() for x in states)
     return Table(e_all, closing_all, speed_all, force[back], error[back])
 
 
-def _states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
-    """All three as views of one shape."""
+def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
+    """Return the three arrays as views of one shape. Raises BadValueError."""
     asked = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
-    given = [taken(x, name, finite=True, most=MOST_STATES) for x, name in asked]
+    given = [taken(x, name, finite=True, most=MAX_STATES) for x, name in asked]
     try:
         size = math.prod(np.broadcast_shapes(*(x.shape for x in given)))
     except ValueError:
         shapes = ", ".join(str(x.shape) for x in given)
         raise BadValueError(f"eps, eps_rate and omega_s have the shapes {shapes}: they do not go together") from None
-    if size > MOST_STATES:  # before any array of that size is made
-        raise BadValueError(f"eps, eps_rate and omega_s are {size} states together: expected {MOST_STATES} at most")
+    if size > MAX_STATES:  # before any array of that size is made
+        raise BadValueError(f"eps, eps_rate and omega_s are {size} states together: expected {MAX_STATES} at most")
     states = np.broadcast_arrays(*given)
     if (states[0] < 0.0).any():
         raise BadValueError(f"eps is {states[0].min():g}: expected no less than 0")

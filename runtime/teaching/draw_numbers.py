@@ -1,4 +1,4 @@
-"""Numbers for an exercise, drawn from a seed: a few of the file's own, a little changed, and a moment of the motion."""
+"""Draw parameter values for an exercise from a seed: a few of the file's values, slightly changed, and a time."""
 
 from __future__ import annotations
 
@@ -21,16 +21,19 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
-SPREADS = (0.15, 0.15, 0.08, 0.03)  # by how much numbers are changed, in one attempt after the other
-MOST = 4  # numbers that are changed
+SPREADS = (0.15, 0.15, 0.08, 0.03)  # largest relative change of parameters in each attempt
+MAX_CHANGED = 4  # number of changed parameters
 MEASURES = ("length", "mass", "inertia")
-DIGITS = 5  # of positions, as shares of the mechanism's size
-NOISE = 1e-9  # of the largest rate of its kind: a smaller one is rounding
+DIGITS = 5  # digits of positions, relative to the size of the mechanism
+NOISE = 1e-9  # values below this fraction of the largest of their kind are rounding errors
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """A scene with other numbers at t (s): positions and rates rounded as a sheet prints them, SI, angles within ±π."""
+    """A scene with changed parameter values at the time t (s), with the data that a sheet prints.
+
+    Positions and rates are rounded as printed, in SI; angles are not reduced to one turn.
+    """
 
     numbers: dict[str, str]  # those that differ from the file's, by address, with their units
     t: float
@@ -38,7 +41,7 @@ class Drawn:
     v: Array
     p: Array
     run: Result  # it ends at t, with every digit
-    units: Array  # (2n,) of the last digits of q and v as they are printed
+    units: Array  # (2n,) value of the last printed digit of q and v
 
     def uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
         """Return by how much the data's rounding, half a unit of each last digit, may change function(q, v)."""
@@ -54,11 +57,11 @@ class Drawn:
 def draw_numbers(
     simulation: Simulation, seed: int, at: str | None, units: Mapping[str, tuple[str, float]] | None = None
 ) -> Drawn:
-    """Numbers with which the scene assembles and moves, the file's own where no others do.
+    """Return parameter values with which the scene assembles and moves; the file's own if no others do.
 
-    units: by address those that the file has, and what one is in SI ("rpm", 0.105); of others SI's are taken.
-    The moment is one before the file's own events end the motion.
-    Raises BadValueError for `at`, behind such an event too; AssemblyError, SolverError where even those do not.
+    units: unit of the file and its value in SI by address ("rpm", 0.105); other values have SI units. at: text of the
+    time, or None for a drawn one. The time is before an event that ends the motion. Raises BadValueError for `at`,
+    AssemblyError or SolverError if the file's own values fail.
     """
     rng = np.random.default_rng(seed)
     moment = None if at is None else number_of_text(spaced(at), "--at", (0, 0, 1))
@@ -69,11 +72,11 @@ def draw_numbers(
         try:
             p = prepare(simulation.compiled, numbers)[0]
             t = moment if moment is not None else float(f"{share * scene_end(simulation.source, p):.2g}")
-            run = _run(simulation, numbers, t)
+            run = _run_until(simulation, numbers, t)
             if run.t[-1] < t:
-                t = _before_the_event(run, moment, share)
-                run = _run(simulation, numbers, t)
-            return _drawn(numbers, t, p, run)
+                t = _time_before_event(run, moment, share)
+                run = _run_until(simulation, numbers, t)
+            return _round_data(numbers, t, p, run)
         except (AssemblyError, SolverError, BadValueError) as error:
             failure = error
     assert failure is not None
@@ -83,23 +86,27 @@ def draw_numbers(
 def _attempts(
     source: KernelSource, rng: np.random.Generator, units: Mapping[str, tuple[str, float]]
 ) -> Iterator[tuple[dict[str, str], float]]:
-    """Numbers, and which share of the scene's time has gone by; at last the file's own, soon after the start."""
+    """Yield changed values by address, and the fraction of the scene's duration at which the sheet's time is.
+
+    The changes decrease from attempt to attempt. The last attempts have the file's values.
+    """
     candidates = [
         slot
         for slot in source.slots
         if not (slot.follows or slot.words) and slot.default != 0.0 and _is_measure(slot.address)
     ]
     for spread in SPREADS:
-        some = rng.permutation(len(candidates))[:MOST]
+        some = rng.permutation(len(candidates))[:MAX_CHANGED]
         factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(some))
         share = float(rng.uniform(0.15, 0.85))
         changed = [(candidates[k], x) for k, x in zip(some, factors, strict=True)]
-        yield {slot.address: new for slot, x in changed if (new := _changed(slot, x, units))}, share
+        yield {slot.address: new for slot, x in changed if (new := _change_value(slot, x, units))}, share
     yield {}, float(rng.uniform(0.15, 0.85))
     yield {}, 0.05
 
 
 def _is_measure(address: str) -> bool:
+    """Return whether the address is a parameter, or a length, mass or inertia of a body."""
     match address.split("."):
         case ["parameters", _]:
             return True
@@ -108,15 +115,15 @@ def _is_measure(address: str) -> bool:
     return False
 
 
-def _changed(slot: Slot, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
-    """Two digits and a unit; "" where they are the number of the file."""
+def _change_value(slot: Slot, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
+    """Return the default times a factor with two digits and its unit; "" if it equals the file's value."""
     unit, one = units.get(slot.address, (slot.unit, 1.0))
     new = float(f"{slot.default * factor / one:.2g}")
     return "" if math.isclose(new * one, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
 
 
-def _run(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
-    """To t, or to the event that ends it sooner; at 0 a moment of it."""
+def _run_until(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
+    """Return a run to the time t, or to an event that ends it sooner; t = 0 gives a run of 1e-9 s. Ctrl-C raises."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         run = simulation.simulate(t or 1e-9, output=1, parameters=numbers, peaks=(), stop=t > 0.0)
@@ -125,8 +132,8 @@ def _run(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
     return run
 
 
-def _before_the_event(run: Result, moment: float | None, share: float) -> float:
-    """A moment before the event that ended a run. Raises BadValueError for one that was asked for behind it."""
+def _time_before_event(run: Result, moment: float | None, share: float) -> float:
+    """Return a time before the event that ended the run. Raises BadValueError if the user's time is after it."""
     end, last = float(run.t[-1]), run.source.events[run.events["event"][-1]]
     if moment is None:
         return float(f"{share * end:.2g}")
@@ -134,8 +141,8 @@ def _before_the_event(run: Result, moment: float | None, share: float) -> float:
     raise BadValueError(told, hint=f"take a time before that, such as {share * end:.2g} s")
 
 
-def _drawn(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
-    """Raises SolverError where the run ends before t."""
+def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
+    """Return the data of a sheet from a run that ends at t. Raises SolverError if there is no position."""
     k = -1 if t > 0.0 else 0
     q, v = run.q[k].copy(), run.v[k].copy()
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -145,7 +152,7 @@ def _drawn(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
     units = np.zeros((2, len(q)))
     for k in range(len(q)):
         places = DIGITS if k % 3 == 2 else decimals
-        q[k], units[0, k] = round(q[k], places), 10.0**-places  # whole turns too: rows of drives and gears count them
+        q[k], units[0, k] = round(q[k], places), 10.0**-places  # with whole turns, which drives and gears count
         alike = v[2::3] if k % 3 == 2 else np.delete(v, np.s_[2::3])
         v[k] = 0.0 if abs(v[k]) <= NOISE * np.abs(alike).max() else float(f"{v[k]:.{DIGITS}g}")
         units[1, k] = 10.0 ** (math.floor(math.log10(abs(v[k]))) + 1 - DIGITS) if v[k] else 0.0

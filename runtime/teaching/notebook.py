@@ -1,8 +1,7 @@
-"""A scene's equations as a notebook: derived by plain SymPy, then run in NumPy, then by the compiled simulator.
+"""Write a scene's equations as a notebook: derived by plain SymPy, run in NumPy, then run by the compiled simulator.
 
-The format is nbformat 4.5; nothing in it depends on when or where it was written.
-
-`block` and `plain` write a document as Markdown with formulas between dollar signs, for exercise sheets too.
+The format is nbformat 4.5. The content does not depend on the time or place of writing. `block` and `plain` also write
+parts of exercise sheets as Markdown, with formulas between dollar signs.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from gudgeon.language.shown import one_line
 from gudgeon.teaching.sympy_text import names_of, number_of_code, text_of
 
 Cell = tuple[str, str]  # "markdown" or "code", text
-WIDTH = 100
+MAX_LINE_WIDTH = 100
 DERIVED = """\
 Phi_q = Phi.jacobian(q)
 nu = -Phi.diff(t)
@@ -38,9 +37,9 @@ _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 
 
 def notebook(model: Model, mechanism: str) -> str:
-    """The notebook's JSON; `mechanism` is the name or file by which its last cells load the scene.
+    """Return the JSON of the notebook; mechanism: name or file by which its last cells load the scene.
 
-    Raises GudgeonError for what plain SymPy has no word for.
+    Raises GudgeonError for expressions that plain SymPy cannot represent.
     """
     cells: list[dict[str, Any]] = [
         {"cell_type": kind, "id": f"cell-{k:02d}", "metadata": {}, "source": text.splitlines(keepends=True)}
@@ -58,6 +57,7 @@ def notebook(model: Model, mechanism: str) -> str:
 
 
 def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
+    """Yield kind and text of each cell."""
     scene, notation, names = model.scene, make_notation(model), names_of(model)
     title = plain(one_line(scene.mechanism.title or scene.mechanism.name))
     yield (
@@ -76,13 +76,13 @@ def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
             "x axis of the ground. Lengths are in m, masses in kg, angles in rad."
         ),
     )
-    yield "code", _coordinates(model, notation, names)
-    used = _used(model)
+    yield "code", _coordinates_code(model, notation, names)
+    used = _used_parameters(model)
     shown = (notation.math(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
     told = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
     yield "markdown", "\n\n".join((*told, *map(block, primes(notation, shown))))
-    yield "code", _numbers(used, notation, names)
-    yield from _constraints(model, names)
+    yield "code", _parameters_code(used, notation, names)
+    yield from _constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:
         yield "markdown", "Nothing holds the bodies: Φ has no row."
     else:
@@ -95,53 +95,56 @@ def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
         )
         yield "code", DERIVED
     if not any(body.lacks for body in scene.mechanism.bodies.values()):
-        yield from _motion(model, names)
+        yield from _motion_cells(model, names)
     yield from run_cells(model, mechanism)
 
 
-def _defined(symbol: sp.Symbol, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+def _define_symbol(symbol: sp.Symbol, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """Return the statement that creates a SymPy symbol with its LaTeX name."""
     return f"{names[symbol]} = sp.Symbol({notation.math(symbol).latex!r}, real=True)"
 
 
-def _coordinates(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
-    lines = [_defined(symbol, notation, names) for symbol in (model.t, *model.q, *model.v)]
+def _coordinates_code(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """Return the cell that defines t, q and v."""
+    lines = [_define_symbol(symbol, notation, names) for symbol in (model.t, *model.q, *model.v)]
     q, v = (_column([names[s] for s in symbols]) for symbols in (model.q, model.v))
     return "\n".join((*lines, "", f"q = {q}", f"v = {v}  # the rates of q"))
 
 
 def _column(items: list[str]) -> str:
-    """A column of SymPy's, as many items a line as fit."""
-    if sum(len(item) + 2 for item in items) < WIDTH:
+    """Return a column vector of SymPy as text, with as many items in a line as fit."""
+    if sum(len(item) + 2 for item in items) < MAX_LINE_WIDTH:
         return f"sp.Matrix([{', '.join(items)}])"
     lines, line = list[str](), ""
     for item in items:
-        if line and len(line) + len(item) + 2 > WIDTH:
+        if line and len(line) + len(item) + 2 > MAX_LINE_WIDTH:
             lines.append(line)
             line = ""
         line += f"{item}, "
     return "\n    ".join(("sp.Matrix([", *(x.rstrip() for x in (*lines, line)))) + "\n])"
 
 
-def _used(model: Model) -> list[SlotEntry]:
-    """Numbers that stand in Φ, M or g."""
+def _used_parameters(model: Model) -> list[SlotEntry]:
+    """Return the parameters that occur in Φ, M or g."""
     expressions = [*(row.phi for row in model.rows), *model.masses, *model.g]
     used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
     return [entry for entry in model.slots.entries.values() if entry.symbol in used]
 
 
-def _numbers(entries: list[SlotEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
-    """At their defaults."""
-    lines = [_defined(entry.symbol, notation, names) for entry in entries]
+def _parameters_code(entries: list[SlotEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """Return the cell that defines the symbols of parameters and their default values."""
+    lines = [_define_symbol(entry.symbol, notation, names) for entry in entries]
     values = [f"    {names[e.symbol]}: {_default(e.default)},  # {e.address}" for e in entries]
     return "\n".join((*lines, "", "numbers = {", *values, "}"))
 
 
 def _default(value: float) -> str:
+    """Return a default value as Python; simple fractions of π as such."""
     return number_of_code(value) if share_of_pi(value) else repr(value)
 
 
-def _constraints(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
-    """A cell a joint or drive, and the column of all."""
+def _constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """Yield the cells of constraint equations: one for each joint or drive, then the column of all."""
     mechanism, parts = model.scene.mechanism, list[str]()
     if not model.rows:
         return
@@ -157,15 +160,18 @@ def _constraints(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
             ends = (
                 f"{ref.body}.{ref.point}" if own.joins == "points" else ref.body for ref in (joint.first, joint.second)
             )
-            what, text = f"Joint {owner}, {own.title}: {' and '.join(ends)}", _points(model, owner, name, rows, names)
+            what, text = (
+                f"Joint {owner}, {own.title}: {' and '.join(ends)}",
+                _pivot_code(model, owner, name, rows, names),
+            )
         yield "markdown", f"{plain(what)}; {', '.join(f'{plain(row.name)} in {row.unit}' for row in rows)}."
         explicit = [text_of(row.phi, model, names) for row in rows]
-        yield "code", text or f"{name} = {_lines(explicit)}"
+        yield "code", text or f"{name} = {_column_by_lines(explicit)}"
     yield "code", f"Phi = {_column(parts)}\nPhi"
 
 
-def _points(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
-    """A pivot as two places in ground axes that are one; None for others, and where a row was left out."""
+def _pivot_code(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
+    """Return a pivot as the difference of two points in ground axes; None for other joints and incomplete ones."""
     joint = model.scene.mechanism.joints[owner]
     if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
@@ -173,17 +179,18 @@ def _points(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp
     for what, ref in (("first", joint.first), ("second", joint.second)):
         frame = model.geometry.point(ref)
         place = [text_of(component, model, names) for component in (frame.x, frame.y)]
-        lines.append(f"{what}_{owner} = {_lines(place)}  # {ref.body}.{ref.point}")
+        lines.append(f"{what}_{owner} = {_column_by_lines(place)}  # {ref.body}.{ref.point}")
     return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))
 
 
-def _lines(items: list[str]) -> str:
+def _column_by_lines(items: list[str]) -> str:
+    """Return a column vector of SymPy with one item in each line."""
     inside = ",\n    ".join(items)
     return f"sp.Matrix([\n    {inside},\n])"
 
 
-def _motion(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
-    """M and g; the system is solved in numbers."""
+def _motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """Yield the cells of M and g; the system is solved numerically later."""
     told = "The joints with play and friction that may stick add to g; the simulator has them."
     more = told if model.clearances or model.frictions else ""
     yield (
@@ -200,7 +207,7 @@ def _motion(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
 
 
 def markdown(document: Document) -> str:
-    """The whole document."""
+    """Return a whole document as Markdown."""
     parts = [f"# {plain(document.title)}", *map(line, document.facts)]
     for section in document.sections:
         parts.append(f"{'#' * (section.level + 1)} {plain(section.title)}")
@@ -209,37 +216,40 @@ def markdown(document: Document) -> str:
 
 
 def block(shown: Block) -> str:
-    """A paragraph, equation, table or sketch; what a page alone has is left out."""
+    """Return a paragraph, equation, table or sketch as Markdown; "" for what only a page can show."""
     if isinstance(shown, Paragraph):
         return line(shown.text)
     if isinstance(shown, Equation):
         return f"$$ {shown.left.latex} = {' '.join(term.latex for term in shown.terms)} $$"
     if isinstance(shown, Table):
-        return _table(shown)
+        return _markdown_table(shown)
     if isinstance(shown, Carried):
         return ""
     return "\n".join(("```text", *shown.lines, "```"))
 
 
 def line(text: Text) -> str:
-    """Words and formulas."""
+    """Return words and formulas as Markdown."""
     return "".join(f"${part.latex.strip()}$" if isinstance(part, Name) else plain(part) for part in text)
 
 
 def plain(text: str) -> str:
-    """Text of a file is text, never markup."""
+    """Return text with all Markdown characters escaped."""
     return _SIGNS.sub(r"\\\1", text)
 
 
-def _table(shown: Table) -> str:
+def _markdown_table(shown: Table) -> str:
+    """Return a table as Markdown."""
+
     def row(cells: tuple[Text, ...]) -> str:
+        """Return a row of the table."""
         return "| " + " | ".join(line(cell).replace(r"\|", "&#124;").replace("|", r"\vert ") for cell in cells) + " |"
 
     return "\n".join((row(shown.header), "|" + " --- |" * len(shown.header), *map(row, shown.rows)))
 
 
 def run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
-    """Each comparison asserts: a notebook that ran to its end agreed."""
+    """Yield the cells that compare NumPy and the simulator with the derivation; each comparison asserts."""
     massless = any(body.lacks for body in model.scene.mechanism.bodies.values())
     plain = not (model.clearances or model.frictions)
     yield (
@@ -250,17 +260,18 @@ def run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
         ),
     )
     if model.rows:
-        yield "code", _functions(model, massless)
-        yield "code", _numpy(model, mechanism)
+        yield "code", _functions_code(model, massless)
+        yield "code", _compare_numpy_code(model, mechanism)
     else:
-        yield "code", _loaded(model, mechanism)
+        yield "code", _load_code(model, mechanism)
     yield "markdown", "## The compiled simulator\n\nThe same equations as C, integrated or solved at each sample."
     yield "code", "run = simulation.simulate()\nrun"
     if model.rows:
-        yield "code", _compiled(model, massless, plain)
+        yield "code", _compare_run_code(model, massless, plain)
 
 
-def _functions(model: Model, massless: bool) -> str:
+def _functions_code(model: Model, massless: bool) -> str:
+    """Return the cell that compiles the derived matrices to NumPy functions."""
     parts = ["Phi", "Phi_q", "nu", "gamma"] if massless else ["Phi", "Phi_q", "nu", "gamma", "M", "g"]
     return (
         "def function(matrix):\n"
@@ -272,7 +283,8 @@ def _functions(model: Model, massless: bool) -> str:
     )
 
 
-def _loaded(model: Model, mechanism: str) -> str:
+def _load_code(model: Model, mechanism: str) -> str:
+    """Return the cell that loads the scene without a comparison."""
     return (
         "import gudgeon\n\n"
         f"simulation = gudgeon.load({mechanism!r}, {model.scene.name!r})\n"
@@ -281,8 +293,11 @@ def _loaded(model: Model, mechanism: str) -> str:
     )
 
 
-def _numpy(model: Model, mechanism: str) -> str:
-    """NumPy's rows are those of the closed linkage, with joints that have play here and rows that say nothing new."""
+def _compare_numpy_code(model: Model, mechanism: str) -> str:
+    """Return the cell that compares the derivation with `model.numpy()`.
+
+    NumPy's constraint equations are those of the closed linkage: with joints that have play here, and redundant ones.
+    """
     kept = [row.name for row in model.rows]
     rows = [k for k, row in enumerate(model.all_rows) if row.name in kept]
     return (
@@ -304,7 +319,8 @@ def _numpy(model: Model, mechanism: str) -> str:
     )
 
 
-def _compiled(model: Model, massless: bool, plain: bool) -> str:
+def _compare_run_code(model: Model, massless: bool, plain: bool) -> str:
+    """Return the cell that compares the derivation with the end of a run of the compiled simulator."""
     head = (
         "end = float(run.t[-1])\n"
         'entries, right = derived["Phi_q"](end, run.q[-1], run.v[-1]), derived["gamma"](end, run.q[-1], run.v[-1])\n'

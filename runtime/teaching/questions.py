@@ -1,7 +1,7 @@
-"""The questions of a sheet: freedoms, Φ, Φ_q at a position, γ, a joint's play, accelerations, forces.
+"""Make the questions of a sheet: degrees of freedom, Φ, Φ_q at a position, γ, a joint's play, accelerations, forces.
 
-Accelerations follow from all rows, and from them the force in a joint. What formulas show by a letter of its own is
-explained in an order in which it can be read.
+Accelerations follow from all constraint equations, and the force in a joint follows from the accelerations.
+Abbreviations in formulas are explained in the order of their use.
 """
 
 from __future__ import annotations
@@ -26,28 +26,28 @@ PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "�
 GAMMA = Name(
     r"\gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}", "γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt"
 )
-WIDEST = 60  # characters of a formula in a cell
+MAX_CELL_WIDTH = 60  # largest number of characters of a formula in a cell
 STATE = (("x", "m"), ("y", "m"), ("theta", "rad"))
 ACCELERATIONS = Name(r"\Phi_{q} \ddot{q} = \gamma", "Φ_q·q̈ = γ")
 KKT = Name(r"M \ddot{q} + \Phi_{q}^{\mathsf{T}} \lambda = g", "M·q̈ + Φ_qᵀ·λ = g")
 BALANCE = Name(r"\Phi_{q}^{\mathsf{T}} \lambda = g - M \ddot{q}", "Φ_qᵀ·λ = g - M·q̈")
 FORCE = Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ")
-MOST = 40  # rows that a solution writes out
+MAX_SHOWN_ROWS = 40  # largest number of equations that a solution shows
 
 
 def make_questions(subject: Subject) -> list[Question]:
-    """Those that a scene has an answer to."""
-    found = [_freedoms(subject)]
+    """Return the questions that apply to the scene."""
+    found = [_ask_freedoms(subject)]
     if subject.rows:
-        found += [_rows(subject), _jacobian(subject), _gamma(subject)]
+        found += [_ask_constraints(subject), _ask_jacobian(subject), _ask_gamma(subject)]
         if subject.model.degrees_of_freedom == 0:
             found.append(acceleration(subject))
         found += force(subject)
-    return [*found, *_play(subject)]
+    return [*found, *_ask_play(subject)]
 
 
-def _freedoms(subject: Subject) -> Question:
-    """Grübler's count, and what the rank adds to it."""
+def _ask_freedoms(subject: Subject) -> Question:
+    """Return the question for the degrees of freedom by Grübler's count, and by the rank of Φ_q."""
     model = subject.model
     mechanism, play = model.scene.mechanism, model.scene.play
     rows, count, n = [], 0, 3 * len(mechanism.bodies)
@@ -79,15 +79,17 @@ def _freedoms(subject: Subject) -> Question:
     return Question("Count the freedoms", (asked,), tuple(solved), numbers)
 
 
-def _named(subject: Subject) -> str:
+def _owner_names(subject: Subject) -> str:
+    """Return the chosen joints and drives as text."""
     return ", ".join(subject.owners[:-1]) + (" and " if len(subject.owners) > 1 else "") + subject.owners[-1]
 
 
-def _rows(subject: Subject) -> Question:
+def _ask_constraints(subject: Subject) -> Question:
+    """Return the question for the constraint equations of the chosen joints and drives."""
     asked = paragraph(
         "Write the rows of ",
         PHI,
-        f" of {_named(subject)}, in the coordinates of the centres of mass, with the "
+        f" of {_owner_names(subject)}, in the coordinates of the centres of mass, with the "
         "letters given above. A joint's points are written from its first body to its second.",
     )
     solved: list[Block] = [
@@ -99,19 +101,20 @@ def _rows(subject: Subject) -> Question:
 
 
 def _new_letters(subject: Subject, of: str) -> list[Block]:
-    """What these of the rows that are asked for show by a letter that earlier solutions have not explained."""
-    wanted = {
+    """Return definitions of the abbreviations in "phi", "phi_q" or "gamma" that earlier solutions do not explain."""
+    expressions_of = {
         "phi": [row.phi for _, row in subject.rows],
         "phi_q": [entry for _, row in subject.rows for entry in row.phi_q.values()],
         "gamma": [row.gamma for _, row in subject.rows],
     }
     known = set[sp.Symbol]()
-    for before in takewhile(lambda what: what != of, wanted):
-        known |= set(letters_of(subject, wanted[before]))
-    return abbreviations(subject, [s for s in letters_of(subject, wanted[of]) if s not in known])
+    for before in takewhile(lambda what: what != of, expressions_of):
+        known |= set(letters_of(subject, expressions_of[before]))
+    return abbreviations(subject, [s for s in letters_of(subject, expressions_of[of]) if s not in known])
 
 
-def _jacobian(subject: Subject) -> Question:
+def _ask_jacobian(subject: Subject) -> Question:
+    """Return the question for the entries of Φ_q at a position."""
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
@@ -126,7 +129,7 @@ def _jacobian(subject: Subject) -> Question:
             left = Name(rf"\partial \Phi_{{{k}}} / \partial {by.latex}", f"∂Φ_{k}/∂{by.text}")
             entry = subject.notation.expand(row.phi_q[q])
             formula: str | Name = subject.notation.math(entry) if sp.count_ops(entry) <= LONGEST else ""
-            if isinstance(formula, Name) and len(formula.text) > WIDEST:
+            if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
                 below.append(subject.equation(left, entry))
                 formula = "below"
             shown = subject.number(x, off=off[k - 1, place[q]])
@@ -137,7 +140,7 @@ def _jacobian(subject: Subject) -> Question:
         paragraph(
             "What entries of ",
             PHI_Q,
-            f" do the rows of {_named(subject)} have there? Check one by moving its coordinate by a little.",
+            f" do the rows of {_owner_names(subject)} have there? Check one by moving its coordinate by a little.",
         ),
     ]
     solved = [*_new_letters(subject, "phi_q"), *table(cells("entry", "", "value", "unit"), rows), *below]
@@ -145,10 +148,12 @@ def _jacobian(subject: Subject) -> Question:
 
 
 def _entry_unit(row: str, axis: int) -> str:
+    """Return the unit of an entry of Φ_q; row: unit of the constraint equation; axis: 2 for an angle."""
     return {("m", 2): "m/rad", ("rad", 0): "rad/m", ("rad", 1): "rad/m"}.get((row, axis), "1")
 
 
-def _gamma(subject: Subject) -> Question:
+def _ask_gamma(subject: Subject) -> Question:
+    """Return the question for γ, the right-hand side of the acceleration constraints."""
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
@@ -161,20 +166,20 @@ def _gamma(subject: Subject) -> Question:
         if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
             formula = subject.equation(indexed("gamma", k), gamma)
             # cases never break
-            if all(len(term.text) <= WIDEST or "cases" not in term.latex for term in formula.terms):
+            if all(len(term.text) <= MAX_CELL_WIDTH or "cases" not in term.latex for term in formula.terms):
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
         solved.append(subject.value(indexed("gamma", k), numbers[row.name], unit, scale, off[k - 1]))
     asked = [
         paragraph(f"At the same {drawn.t:g} s the rates are"),
         *position(subject, rates=True),
-        paragraph("Find ", GAMMA, f" in the rows of {_named(subject)}: its formula, and its value."),
+        paragraph("Find ", GAMMA, f" in the rows of {_owner_names(subject)}: its formula, and its value."),
     ]
     return Question("γ", tuple(asked), tuple(solved), numbers)
 
 
-def _play(subject: Subject) -> Iterator[Question]:
-    """Where the journal of a joint with play is in its bearing."""
+def _ask_play(subject: Subject) -> Iterator[Question]:
+    """Yield the question for the eccentricity of one joint with play, if there is one."""
     drawn = subject.drawn
     journals = [c.name for c in subject.model.clearances if c.wall is None]
     if not journals:
@@ -204,10 +209,11 @@ def _play(subject: Subject) -> Iterator[Question]:
 
 
 def letters_of(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:
-    """Kept symbols of expressions, what a definition reads in front of it; the alphabet decides between others."""
+    """Return the abbreviations of expressions, each after those that its definition contains."""
     notation, definitions, found = subject.notation, subject.model.symbols.definitions, list[sp.Symbol]()
 
     def add(expression: sp.Expr) -> None:
+        """Add the abbreviations of one expression, those of their definitions first."""
         for symbol in sorted(notation.expand(expression).free_symbols, key=lambda s: notation.math(s).text):
             if symbol in notation.kept and symbol in definitions and symbol not in found:
                 add(definitions[symbol])
@@ -220,26 +226,29 @@ def letters_of(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symb
 
 
 def abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Block]:
-    """Their definitions; nothing for none."""
-    found = [block for symbol in symbols for block in _defined(subject, symbol)]
+    """Return the definitions of abbreviations as blocks; empty if there are none."""
+    found = [block for symbol in symbols for block in _define_symbol(subject, symbol)]
     return [paragraph("With"), *found] if found else []
 
 
-def _defined(subject: Subject, symbol: sp.Symbol) -> list[Block]:
-    """One of them; of a drive that goes in steps by how far they are, from 0 to 1."""
+def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
+    """Return the definition of one abbreviation; that of a drive with steps shows the progress of its steps."""
     value = subject.notation.expand(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
-            told = _by_steps(subject, symbol, driven)
+            told = _define_by_steps(subject, symbol, driven)
             return told or [subject.equation(symbol, value)]
     return [subject.equation(symbol, value)]
 
 
-def _by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbol, ...]) -> list[Block]:
-    """s for min(max(…, 0), 1), and rates while it is between; nothing for other drives."""
+def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbol, ...]) -> list[Block]:
+    """Return the definition of a driven quantity by the progress s of its steps from 0 to 1; empty for other drives.
+
+    It shows s for min(max(…, 0), 1), and the rates while s is between 0 and 1.
+    """
     notation, t = subject.notation, subject.model.t
     value = notation.expand(subject.model.symbols.definitions[driven[0]])
-    shares = {found: share for found in value.atoms(sp.Max) if (share := _share(found)) is not None}
+    shares = {found: share for found in value.atoms(sp.Max) if (share := _clamped_progress(found)) is not None}
     taken = {name.text for name in notation.names.values()}
     base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & taken)
     steps = {found: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, found in enumerate(shares, 1)}
@@ -248,17 +257,17 @@ def _by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbol, ...]
         return []
     rates = {steps[found]: sp.diff(share, t) for found, share in shares.items()}
     for _ in range(driven.index(symbol)):
-        inside = sp.Add(*(_rate(term, rates, t) for term in sp.Add.make_args(inside)))
+        inside = sp.Add(*(_time_derivative(term, rates, t) for term in sp.Add.make_args(inside)))
     names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     own = notation.called(names)
     shown = [Equation(own.math(steps[found]), own.terms(share)) for found, share in shares.items()]
     still = ", and is still before and behind" if driven.index(symbol) else ", before it 0 and behind it 1"
-    terms = own.terms(sp.Add(*(_sorted(term, list(rates)) for term in sp.Add.make_args(inside))))
+    terms = own.terms(sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside))))
     return [*shown, paragraph(f"which goes from 0 to 1{still}:"), Equation(own.math(symbol), terms)]
 
 
-def _share(expression: sp.Max) -> sp.Expr | None:
-    """u of min(max(u, 0), 1)."""
+def _clamped_progress(expression: sp.Max) -> sp.Expr | None:
+    """Return u if the expression is min(max(u, 0), 1), otherwise None."""
     inner = [x for x in expression.args if isinstance(x, sp.Min)]
     if len(expression.args) != 2 or sp.Integer(0) not in expression.args or len(inner) != 1:
         return None
@@ -266,34 +275,38 @@ def _share(expression: sp.Max) -> sp.Expr | None:
     return others[0] if len(inner[0].args) == 2 and len(others) == 1 else None
 
 
-def _rate(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
-    """By time, numbers in front."""
+def _time_derivative(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
+    """Return the time derivative of a product, with constant factors first."""
     factor, rest = term.as_independent(*rates, as_Add=False)
     own = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
     return sp.Add(sp.diff(factor, t) * rest, *own)
 
 
-def _sorted(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
-    """A factor times a polynomial of how far steps are."""
+def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
+    """Return a product as a factor times the expanded polynomial in the progress of steps."""
     factor, rest = term.as_independent(*steps, as_Add=False)
     return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
 
 
 def indexed(of: str, k: int) -> Name:
+    """Return the symbol of a quantity with an index."""
     name = letter(of)
     return Name(f"{name.latex}_{{{k}}}", f"{name.text}_{k}")
 
 
 def position(subject: Subject, rates: bool, others: bool = False) -> list[Block]:
-    """The coordinates of the bodies that are asked for at the moment, or of the others, or their rates."""
+    """Return a table of positions or rates at the sheet's time.
+
+    others: of the bodies that do not occur in the chosen constraint equations, instead of those that do.
+    """
     model, drawn = subject.model, subject.drawn
-    wanted = {s for _, row in subject.rows for s in row.phi_q}
+    expressions_of = {s for _, row in subject.rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
     if rates:
         header = ("body", "x, m/s", "y, m/s", "angle, rad/s", "")
     values, rows = drawn.v if rates else drawn.q, []
     for body in model.bodies:
-        if bool(wanted & set(body.q)) != others:
+        if bool(expressions_of & set(body.q)) != others:
             own = values[body.index : body.index + 3]
             angle = "" if rates else subject.number(float(np.degrees(own[2])), 5)
             rows.append(cells(body.name, *(subject.number(float(x), 9) for x in own), angle))
@@ -301,7 +314,9 @@ def position(subject: Subject, rates: bool, others: bool = False) -> list[Block]
 
 
 def acceleration(subject: Subject) -> Question:
-    """Of the body that turns the most; of what turns evenly, or as a drive says, the place that is sped up most."""
+    """Return the question for the largest angular acceleration, or for the largest acceleration if nothing turns
+    unevenly.
+    """
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
     turning = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
@@ -322,25 +337,26 @@ def acceleration(subject: Subject) -> Question:
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     signs = [letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
-    shown = range(len(gamma)) if len(gamma) <= MOST else [r for r in range(len(gamma)) if phi_q[r, k]]
+    shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale, off = float(np.abs(gamma).max()), drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
-        paragraph("Row by row ", ACCELERATIONS, _told(len(gamma)), " is, in m/s² and rad/s²,"),
-        *(_row(subject, subject.number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs) for r in shown),
+        paragraph("Row by row ", ACCELERATIONS, _omission_text(len(gamma)), " is, in m/s² and rad/s²,"),
+        *(_linear_equation(subject, subject.number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs) for r in shown),
         paragraph("The accelerations, of centres of mass and of angles, are"),
-        *_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
+        *_table_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
         subject.value(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
     coordinate = subject.simulation.source.coordinates[k]
     return Question("Accelerations", tuple(asked), tuple(solved), {coordinate: float(a[k])})
 
 
-def _told(rows: int) -> str:
-    return "" if rows <= MOST else f", of whose {rows} rows those with what is asked stand here,"
+def _omission_text(rows: int) -> str:
+    """Return a remark if not all rows are shown."""
+    return "" if rows <= MAX_SHOWN_ROWS else f", of whose {rows} rows those with what is asked stand here,"
 
 
-def _row(subject: Subject, left: Name, factors: Array, of: list[Name]) -> Equation:
-    """left = a sum of factors times letters."""
+def _linear_equation(subject: Subject, left: Name, factors: Array, of: list[Name]) -> Equation:
+    """Return the equation left = sum of factors times symbols; small factors are left out."""
     symbols = [sp.Symbol(name.text) for name in of]
     notation = replace(
         subject.notation,
@@ -353,7 +369,7 @@ def _row(subject: Subject, left: Name, factors: Array, of: list[Name]) -> Equati
 
 
 def force(subject: Subject) -> Iterator[Question]:
-    """The reaction of a joint; none without masses, or where redundancy leaves it open."""
+    """Yield the question for the reaction of a joint; none without masses, or if redundancy leaves it indeterminate."""
     source, drawn, mechanism = subject.simulation.source, subject.drawn, subject.model.scene.mechanism
     open_ = {*source.indeterminate, *(joint.joint for joint in source.clearances)}
     known = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
@@ -366,12 +382,12 @@ def force(subject: Subject) -> Iterator[Question]:
     told: list[Block] = []
     if subject.model.degrees_of_freedom:
         told.append(paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
-        told += _by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        told += _table_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
         told.append(paragraph("Take the accelerations of all bodies from the question before."))
     if source.clearances or source.frictions:
         told.append(paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
-        told += _by_body(subject, _applied(subject), "x, N", "y, N", "angle, N m")
+        told += _table_by_body(subject, _applied_forces(subject), "x, N", "y, N", "angle, N m")
     told.append(paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
@@ -388,27 +404,31 @@ def force(subject: Subject) -> Iterator[Question]:
 
 
 def _balance(subject: Subject, asked: list[int]) -> list[Block]:
-    """The equations from which the multipliers came, a coordinate each."""
+    """Return the equations of motion of each coordinate, from which the multipliers follow.
+
+    asked: indices of the constraint equations of the joint in question.
+    """
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    left = _applied(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
+    left = _applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
     signs = [indexed("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
-    shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MOST or phi_q[asked, k].any())]
-    blocks: list[Block] = [paragraph("Coordinate by coordinate ", BALANCE, _told(n), " is, in N and N m,")]
+    shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[asked, k].any())]
+    blocks: list[Block] = [paragraph("Coordinate by coordinate ", BALANCE, _omission_text(n), " is, in N and N m,")]
     for k in shown:
         q, number = subject.notation.math(model.q[k]), subject.number(float(left[k]), scale=scale)
         what = Name(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
-        blocks.append(_row(subject, what, phi_q[:, k], signs))
+        blocks.append(_linear_equation(subject, what, phi_q[:, k], signs))
     return [*blocks, paragraph("and solved for the multipliers")]
 
 
 def _multiplier(subject: Subject, row: str) -> float:
+    """Return the multiplier of a constraint equation at the end of the run, in N or N·m."""
     return float(subject.drawn.run[f"lambda.{row}"][-1])
 
 
-def _applied(subject: Subject) -> Array:
-    """g as the run has it: M q̈ + Φ_qᵀ λ, (n,), N and N·m."""
+def _applied_forces(subject: Subject) -> Array:
+    """Return the generalized applied forces g (n,) of the run, M q̈ + Φ_qᵀ λ, in N and N·m."""
     drawn, compiled = subject.drawn, subject.simulation.compiled
     last, rows = drawn.run, [row.name for row in subject.model.rows]
     multipliers = np.array([_multiplier(subject, row) for row in rows])
@@ -416,8 +436,8 @@ def _applied(subject: Subject) -> Array:
     return np.asarray(compiled.mass(drawn.p) * last.a[-1] + held)
 
 
-def _by_body(subject: Subject, values: Array, *header: str) -> list[Block]:
-    """Three numbers a body."""
+def _table_by_body(subject: Subject, values: Array, *header: str) -> list[Block]:
+    """Return a table with three values for each body."""
     apart = values.reshape(-1, 3)
     scales = [*2 * [float(np.abs(apart[:, :2]).max())], float(np.abs(apart[:, 2]).max())]
     rows = [

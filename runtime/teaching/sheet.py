@@ -1,4 +1,4 @@
-"""An exercise sheet of a scene as two documents: what is given and asked, and the same with its solutions."""
+"""Write an exercise sheet of a scene as two documents: questions, and questions with solutions."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.teaching.draw_numbers import Drawn
 
-GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that tell nothing of what is asked
-LONGEST = 60  # operations of an expression that a solution writes out
+GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that do not contain answers
+LONGEST = 60  # largest number of operations of an expression that a solution shows
 
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked, and its solution; `numbers` are the answers in SI, by what they are of."""
+    """A question and its solution; `numbers` are the answers in SI by name."""
 
     title: str
     asked: tuple[Block, ...]
@@ -55,7 +55,7 @@ class Question:
 
 @dataclass(frozen=True)
 class Subject:
-    """What questions are asked of: a scene's equations and letters, its numbers, a choice of its rows."""
+    """What questions refer to: a scene's equations and notation, parameter values, chosen constraint equations."""
 
     model: Model
     notation: Notation
@@ -66,13 +66,14 @@ class Subject:
 
     @property
     def rows(self) -> list[tuple[int, Row]]:
-        """The rows that are asked for, by their numbers from 1."""
+        """Return the chosen constraint equations with their numbers, from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
     def number(self, x: float, digits: int = 4, scale: float = 0.0, off: float = 0.0) -> Name:
-        """A number as it is printed; beside numbers as large as `scale`, what rounding leaves of none is 0.
+        """Return a number as printed.
 
-        `off`: by how much the data leave it open, so that no further digits are printed.
+        scale: size of similar numbers; values below its rounding errors are 0. off: uncertainty from the rounding of
+        the data, which limits the printed digits.
         """
         if abs(x) <= max(NOISE * scale, 0.5 * off):
             return Name("0", "0")
@@ -82,18 +83,18 @@ class Subject:
         return self.notation.math(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
 
     def equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
-        """left = right in the document's letters."""
+        """Return the equation left = right in the notation of the document."""
         name = left if isinstance(left, Name) else self.notation.math(left)
         return Equation(name, self.notation.terms(self.notation.expand(right)))
 
     def value(self, left: Name, x: float, unit: str = "", scale: float = 0.0, off: float = 0.0) -> Equation:
-        """left = number unit."""
+        """Return the equation left = number unit; scale, off: as for `number`."""
         number, sign = self.number(x, scale=scale, off=off), unit.replace("²", "^{2}").replace(" ", r" \, ")
         return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 
 def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) -> Subject:
-    """Two joints and a drive at most, drawn."""
+    """Return the subject with at most two joints and one drive, drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     of = {kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")}
     chosen = [
@@ -105,7 +106,7 @@ def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) 
 
 
 def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
-    """By the address of a parameter, or of a mass, inertia or length, the file's unit and what one is in SI."""
+    """Return the file's unit and its value in SI by address, of parameters, masses, inertias and lengths."""
     bodies, found = scene.mechanism.bodies.values(), dict[str, tuple[str, float]]()
     for quantity in (*scene.parameters.values(), *(x for b in bodies for x in (b.mass, b.inertia, b.length))):
         number = quantity.value if quantity is not None else None
@@ -115,37 +116,38 @@ def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
 
 
 def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> tuple[Document, Document]:
-    """The sheet, and the sheet with its solutions."""
+    """Return the sheet, and the sheet with its solutions."""
     mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
     facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
     title = one_line(mechanism.title or mechanism.name)
-    given = tuple(_given(subject))
+    given = tuple(_given_sections(subject))
     asked = tuple(Section(f"{k}. {x.title}", x.asked) for k, x in enumerate(questions, 1))
-    solved = tuple(_solved(k, question) for k, question in enumerate(questions, 1))
-    last = Section("These numbers again", tuple(_again(subject)))
+    solved = tuple(_solution_sections(k, question) for k, question in enumerate(questions, 1))
+    last = Section("These numbers again", tuple(_repetition_blocks(subject)))
     notation = subject.notation
     sheet = Document(f"Exercise: {title}", facts, with_paper(with_letters((*given, *asked), notation)))
     sections = with_paper(with_letters((*given, *sum(solved, ()), last), notation))
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 
-def _solved(k: int, question: Question) -> tuple[Section, ...]:
+def _solution_sections(k: int, question: Question) -> tuple[Section, ...]:
+    """Return the sections of question k and of its solution."""
     return Section(f"{k}. {question.title}", question.asked), Section("Solution", question.solved, 2)
 
 
-def _given(subject: Subject) -> list[Section]:
-    """Bodies, points, joints, drives and numbers, each with its letter."""
+def _given_sections(subject: Subject) -> list[Section]:
+    """Return the sections with bodies, points, joints, drives and parameters, each with its symbol."""
     model, notation = subject.model, subject.notation
     sections = {section.title: section for section in part_sections(model, notation) if section.title in GIVEN}
-    joints = Section("Joints and drives", tuple(_joints(subject)))
-    forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_forces(subject))) else []
+    joints = Section("Joints and drives", tuple(_joint_blocks(subject)))
+    forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_force_blocks(subject))) else []
     last = [title for title in ("Curves", "Parameters") if title in sections]
     first = [sections[title] for title in sections if title not in last]
     return [*first, joints, *forces, *(sections[title] for title in last)]
 
 
-def _joints(subject: Subject) -> list[Block]:
-    """As the document has them, but not how many rows each has."""
+def _joint_blocks(subject: Subject) -> list[Block]:
+    """Return tables of joints and drives, without the numbers of their constraint equations."""
     model, values = subject.model, Values(subject.model, subject.notation)
     mechanism, rows = model.scene.mechanism, []
     for joint in mechanism.joints.values():
@@ -156,7 +158,7 @@ def _joints(subject: Subject) -> list[Block]:
     fields = [row for joint in mechanism.joints.values() for row in field_rows(joint, values)]
     blocks += table(cells("joint", "field", "value"), fields)
     driven = [
-        cells(drive.name, _what(drive), driven_value(model, subject.notation, drive.name))
+        cells(drive.name, _driven_quantity(drive), driven_value(model, subject.notation, drive.name))
         for drive in mechanism.drives.values()
     ]
     blocks += table(cells("drive", "prescribes", "value"), driven, (2,)) + values.below()
@@ -166,8 +168,8 @@ def _joints(subject: Subject) -> list[Block]:
     return blocks
 
 
-def _forces(subject: Subject) -> list[Block]:
-    """Gravity, and what each element joins and has."""
+def _force_blocks(subject: Subject) -> list[Block]:
+    """Return gravity and tables of the force elements."""
     model, values = subject.model, Values(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
     blocks = table(cells("gravity"), [cells(values.vector(gravity))]) if gravity is not None else []
@@ -181,7 +183,8 @@ def _forces(subject: Subject) -> list[Block]:
     return blocks + values.below()
 
 
-def _what(drive: Drive) -> str:
+def _driven_quantity(drive: Drive) -> str:
+    """Return what a drive prescribes, as text."""
     kind, points = drive.kind, drive.points
     if kind == "distance":
         return "distance of " + " and ".join(f"{p.body}.{p.point}" for p in points)
@@ -190,8 +193,8 @@ def _what(drive: Drive) -> str:
     return f"{what} of {drive.body}" + (f" against {against}" if against else "")
 
 
-def _again(subject: Subject) -> list[Block]:
-    """How the numbers that were drawn are set on the command line."""
+def _repetition_blocks(subject: Subject) -> list[Block]:
+    """Return a paragraph on how to set the drawn values on the command line."""
     drawn = subject.drawn
     if not drawn.numbers:
         return [paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]

@@ -1,4 +1,4 @@
-"""Expressions of a model as Python that SymPy alone reads, under names that a notebook has for nothing else."""
+"""Print expressions of a model as Python code for SymPy, with names that a notebook does not use otherwise."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.printers import share_of_pi
 from gudgeon.language.functions import IN_SYMPY
 
-# what a notebook calls so itself
-TAKEN = frozenset(
+# names that the notebook uses
+USED_NAMES = frozenset(
     (*dir(builtins), "sp", "np", "gudgeon", "numbers", "q", "v", "t", "nu", "gamma", "M", "g", "a", "p")
     + (
         "run",
@@ -37,42 +37,49 @@ TAKEN = frozenset(
     )
     + ("mass", "forces", "system", "solved", "Phi")
 )
-TAKEN_HEADS = ("Phi_", "first_", "second_")
+USED_PREFIXES = ("Phi_", "first_", "second_")
 _PLAIN = frozenset((*IN_SYMPY, "Heaviside"))
 
 
 class Printer(StrPrinter):
-    """SymPy's own text, functions behind `sp.`."""
+    """Printer of SymPy expressions with functions after `sp.`."""
 
     def __init__(self, names: Mapping[sp.Symbol, str]) -> None:
+        """Use `names` for symbols."""
         super().__init__()
         self._names = names
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
+        """Return the name of a symbol."""
         return self._names.get(expr, plain_name(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
+        """Return a number; simple fractions of π as such."""
         return number_of_code(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        """A share of π in a product is one number."""
+        """Return the text, in parentheses for a fraction of π in a product."""
         text = str(super().parenthesize(item, level, strict))
         return f"({text})" if item.is_Float and "sp.pi" in text and level >= PRECEDENCE["Mul"] else text
 
     def _print_Rational(self, expr: sp.Rational) -> str:
+        """Return a rational number."""
         return f"sp.Rational({expr.p}, {expr.q})"
 
     _print_Half = _print_Rational
 
     def _print_Pi(self, expr: sp.Expr) -> str:
+        """Return π."""
         return "sp.pi"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        """Return a power; exponent 1/2 as a square root."""
         if expr.exp == sp.Rational(1, 2):
             return f"sp.sqrt({self._print(expr.base)})"
         return str(super()._print_Pow(expr, rational=True))
 
     def _print_Function(self, expr: sp.Expr) -> str:
+        """Return a function call. Raises GudgeonError for functions that SymPy does not have."""
         name = type(expr).__name__
         if name not in _PLAIN:
             raise GudgeonError(f"a notebook has no word for {name}\n  write a .tex, .txt or .html")
@@ -81,25 +88,29 @@ class Printer(StrPrinter):
     _print_ExpBase = _print_Max = _print_Min = _print_Abs = _print_sign = _print_Heaviside = _print_Function
 
     def _print_Whole(self, expr: sp.Expr) -> str:
+        """Return an unevaluated product or fraction in parentheses."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
+        """Return a remainder."""
         return f"sp.Mod({self.stringify(expr.args[:2], ', ')})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
+        """Return a conditional value as `sp.Piecewise`."""
         side, otherwise, below = expr.args
         gap = self._print(side.args[0] if isinstance(side, sp.sign) else side)
         return f"sp.Piecewise(({self._print(below)}, {gap} < 0), ({self._print(otherwise)}, True))"
 
     def _print_CurveOf(self, expr: sp.Expr) -> Any:
+        """Raise GudgeonError: a notebook does not contain curves."""
         told = f"a notebook holds no curves, and this scene has {expr.name}"
         raise GudgeonError(f"{told}\n  write a .tex, .txt or .html")
 
 
 def number_of_code(value: float) -> str:
-    """A number as Python: shares of π as such, others so that they are read back."""
+    """Return a number as Python code that is read back exactly; simple fractions of π as such."""
     share = share_of_pi(value)
     if share is None:
         return repr(value).removesuffix(".0")
@@ -109,17 +120,18 @@ def number_of_code(value: float) -> str:
 
 
 def names_of(model: Model) -> dict[sp.Symbol, str]:
-    """What each symbol of the rows, masses and forces is called in Python."""
+    """Return the Python name of each symbol of the constraint equations, masses and forces."""
     symbols = (model.t, *model.q, *model.v, *(entry.symbol for entry in model.slots.entries.values()))
     names: dict[sp.Symbol, str] = {}
     for symbol in symbols:
         name = "t" if symbol == model.t else plain_name(symbol)
-        while symbol != model.t and (name in TAKEN or name.startswith(TAKEN_HEADS) or name in names.values()):
+        while symbol != model.t and (name in USED_NAMES or name.startswith(USED_PREFIXES) or name in names.values()):
             name = f"its_{name}"
         names[symbol] = name
     return names
 
 
 def text_of(expression: sp.Expr, model: Model, names: Mapping[sp.Symbol, str]) -> str:
-    """An expression in q, q̇, t and the file's numbers. Raises GudgeonError for what plain SymPy has no word for."""
+    """Return an expression in q, q̇, t and parameters as Python. Raises GudgeonError if plain SymPy lacks a
+    function."""
     return str(Printer(names).doprint(for_readers(model.symbols.explicit(sp.sympify(expression)))))

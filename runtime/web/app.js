@@ -1,23 +1,26 @@
 /*
- * The page that runs: time goes on, numbers move, and what is shown follows. At each sample that is shown the document
- * hears `gudgeon:state` with {sim, run, k, t, q, v, p}; `window.gudgeonState` is the last one.
+ * Run the page: advance the time, rerun the scene when parameters change, and update all that is shown.
+ *
+ * At each shown sample the document receives the event `gudgeon:state` with {sim, run, k, t, q, v, p};
+ * `window.gudgeonState` is the last one.
  */
-const SPENT = 4; // ms of a frame in which a run goes on, or what follows from it
-const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
-const PAINT = "paint"; // what a piece of work ends with that the browser has to paint: one of these a frame
-const MOST_TOLD = 8; // of a link's numbers, that are not taken
-const UNTOLD = 500; // ms of a run before its share is shown, and a way to stop it
-const LIMIT = 120; // s after which a run is given up, with what it has
+const SPENT = 4; // ms of a frame in which work continues
+const PATIENT = 200; // ms up to which a run is completed although parameters change
+const PAINT = "paint"; // yielded after work that the browser has to paint: at most one in a frame
+const MOST_TOLD = 8; // number of refused parameters of a link that are reported
+const UNTOLD = 500; // ms of a run before its progress and a button to stop it are shown
+const LIMIT = 120; // s after which a run is stopped
 const FOLLOWED = "The start is the assembly followed from the file’s: near its guess Python may find another.";
-const READ = 100; // ms between two numbers that are to be read
+const READ = 100; // ms between two updates of numbers
 
-/* "1 step", "1,000 steps". */
+/* Return a count with its noun: "1 step", "1,000 steps". */
 function howMany(count, names) {
     return `${count.toLocaleString("en")} ${count === 1 ? names.replace(/s$/, "") : names}`;
 }
 
 const by = (id) => document.getElementById(id);
 
+/* State of the page: simulator, current run, drawing, charts, panel. */
 class App {
     constructor(about, panel, sim) {
         Object.assign(this, {settings: panel, k: 0, t: 0, playing: false, charts: [], way: null, dirty: false, limit: LIMIT});
@@ -29,7 +32,7 @@ class App {
         new ResizeObserver(() => this.resized()).observe(by("g-charts"));
     }
 
-    /* A simulator, and what is drawn of its scene. */
+    /* Use a simulator (null: a recorded run), and draw its scene. */
     use(about, sim) {
         Object.assign(this, {about, sim});
         this.drawing = new Drawing(by("g-drawing"), this.settings, about);
@@ -37,7 +40,7 @@ class App {
         by("g-orbits").replaceChildren(...this.orbits.map(({box}) => box));
     }
 
-    /* The other formulation of the same scene. */
+    /* Change to the other formulation of the same scene. */
     async formulated(which) {
         const sim = await loaded(which);
         this.way?.return();
@@ -46,12 +49,14 @@ class App {
         this.begin();
     }
 
+    /* Create the panel of parameters. */
     controls() {
         const heard = {changed: () => this.begin(), complain: (text) => this.complain(text),
             formulated: (which) => this.formulated(which)};
         this.panel = new Panel(by("g-numbers"), this.settings, this.about, heard);
     }
 
+    /* Connect the controls of time, forces, names, path and traces. */
     transport() {
         by("g-play").onclick = () => this.play(!this.playing);
         by("g-way").querySelector("button").onclick = () => this.stop("stopped by hand");
@@ -70,7 +75,7 @@ class App {
         };
     }
 
-    /* Pages of other scenes, where some were written beside this one: they begin with the numbers that this one has. */
+    /* Link to the pages of other scenes; they begin with the parameters of this page. */
     scenes() {
         const {scenes} = this.settings, select = by("g-scene");
         for (const name of Object.keys(scenes)) element("option", {value: name}, select).textContent = name;
@@ -84,7 +89,7 @@ class App {
         };
     }
 
-    /* Numbers of the page that led here, those that this scene has, once the file's own were run; others are told. */
+    /* Apply parameters of the link that led here, after the first run; report those that this scene does not have. */
     arrive() {
         const odd = new Set(), asked = location.hash.includes("=") ? location.hash.slice(1) : ""; // else a place here
         for (const [address, text] of new URLSearchParams(asked)) {
@@ -105,20 +110,21 @@ class App {
         if (odd.size) by("g-note").textContent = `Not taken from the link: ${first}${more}.`;
     }
 
-    /* The path of the point that is chosen. */
+    /* Draw the path of the chosen point. */
     trail() {
         const name = by("g-path").value, known = name && this.run?.names.includes(`${name}.x`);
         const [x, y] = known ? [this.run.series(`${name}.x`), this.run.series(`${name}.y`)] : [[], []];
         this.drawing.trail(x, y);
     }
 
+    /* Add a row to the live values, and return its cells. */
     valueRow(name) {
         const row = element("tr", {}, by("g-values"));
         element("th", {scope: "row"}, row).textContent = name;
         return {name, cell: element("td", {}, row), unit: element("td", {class: "g-unit"}, row)};
     }
 
-    /* Names of series by their owner: "A.Fx" is A's. */
+    /* Return the names of series by owner: "A.Fx" belongs to A. */
     owners() {
         const found = new Map();
         for (const name of this.run.names) {
@@ -129,6 +135,7 @@ class App {
         return found;
     }
 
+    /* Add a chart of a series. */
     addChart(name) {
         const chart = new Chart(this, name);
         by("g-charts").append(chart.box);
@@ -136,11 +143,13 @@ class App {
         chart.draw();
     }
 
+    /* Remove a chart. */
     removeChart(chart) {
         chart.box.remove();
         this.charts = this.charts.filter((one) => one !== chart);
     }
 
+    /* Redraw after a change of the window's size. */
     resized() {
         this.drawing.resize();
         if (!this.run) return;
@@ -148,7 +157,7 @@ class App {
         this.wake();
     }
 
-    /* A run with the numbers as they are now. One that will soon be over is waited for, any other is given up. */
+    /* Start a run with the present parameters. An active run that is young is completed first, others are stopped. */
     begin() {
         const age = performance.now() - this.begun;
         this.again = this.way !== null && age < PATIENT;
@@ -169,7 +178,7 @@ class App {
         this.wake();
     }
 
-    /* How far a long run is; of the first one where it begins. */
+    /* Show the progress of a long run, and stop it after the limit. */
     onTheWay() {
         const age = performance.now() - this.begun, long = this.way !== null && age > UNTOLD, box = by("g-way");
         if (long && age > 1000 * this.limit) return this.stop(`given up after ${told(this.limit)} s`);
@@ -182,7 +191,7 @@ class App {
             `running: ${share} % after ${seconds} s; given up after ${told(this.limit)} s`;
     }
 
-    /* The mechanism where a run begins that is not over yet. */
+    /* Draw the mechanism at the start of a run that has no result yet. */
     still(run) {
         if (!run?.first) return;
         const {q, v} = run.first;
@@ -190,7 +199,7 @@ class App {
         this.drawing.show(q, run.p, () => [0, 0], []);
     }
 
-    /* No further; what there is stays. */
+    /* Stop the active run for the reason `why`; its samples so far are shown. */
     stop(why) {
         if (!this.way) return;
         const share = told(100 * (this.share ?? 0), 2), wrong = Object.assign(new Error(), {stops: true});
@@ -200,7 +209,7 @@ class App {
         this.onTheWay();
     }
 
-    /* A run and what is shown of it, in pieces. */
+    /* Compute a run and update the page in pieces; a generator that yields the fraction done or PAINT. */
     *work() {
         this.share = 0;
         const options = {slice: 200, ...this.panel.options.read()};
@@ -212,7 +221,7 @@ class App {
         this.panel.since.clear();
     }
 
-    /* Some of the work. */
+    /* Continue the active work for some milliseconds. */
     goOn(first = () => this.way.next()) {
         try {
             let next = first();
@@ -229,6 +238,7 @@ class App {
         if (this.again) this.begin();
     }
 
+    /* Show the error of a run, and its samples up to there. */
     failed(error) {
         const upTo = error.partial?.q?.length ? " What is shown is the run up to there." : "";
         const {message} = error, blamed = error.stops ? "" : this.panel?.blamed(error, this.sim) ?? "";
@@ -237,14 +247,16 @@ class App {
         this.complain(`${message}${blamed}.${python}${upTo || (this.run ? " What is shown is the run before." : "")}`);
     }
 
+    /* Show an error message; "" hides it. */
     complain(text) {
         by("g-error").textContent = text;
         by("g-error").hidden = !text;
     }
 
+    /* Show a finished run at once. */
     take(run) { for (const _ of this.taking(run)); }
 
-    /* A run that is over. The first one, with the file's numbers, stays behind the others. */
+    /* Show a finished run in pieces. The first run, at the file's values, stays behind later ones in the charts. */
     *taking(run) {
         const first = !this.run;
         this.run = run;
@@ -268,6 +280,7 @@ class App {
         this.wake();
     }
 
+    /* Show steps, impacts and times of a run. */
     counted(run) {
         const made = Object.entries(run.counts ?? {}).filter(([name]) => ["steps", "right_hand_sides"].includes(name));
         const counts = made.map(([name, count]) => howMany(count, name.replaceAll("_", " ")));
@@ -281,9 +294,10 @@ class App {
         by("g-when").disabled = !this.span;
     }
 
+    /* Return a series of the run, or an empty list. */
     seriesOf(name) { return this.run.names.includes(name) ? this.run.series(name) : []; }
 
-    /* By unit the largest number of its kind in a run: what rounding is compared with (results/reports/comparison.py). */
+    /* Return the largest value of each unit in a run, the scale of rounding errors (results/reports/comparison.py). */
     motionScales(run) {
         const found = this.scales = {}, n = this.about.coordinates.length;
         [run.q, run.v].forEach((rows, order) => {
@@ -298,16 +312,19 @@ class App {
         return found;
     }
 
+    /* Enlarge the scale of a unit to a range of values. */
     scale(unit, range) { this.scales[unit] = Math.max(this.scales[unit] ?? 0, ...range.map(Math.abs)); }
 
-    /* What rounding leaves of a number of this unit, at most. */
+    /* Return the largest rounding error of values with this unit. */
     noise(unit) { return this.settings.noise * (this.scales?.[unit] ?? 0); }
 
+    /* Return whether a value is only a rounding error. */
     isNone(x, unit) { return x !== 0 && Math.abs(x) < this.noise(unit); }
 
+    /* Return the time of the last sample. */
     get end() { return this.run.t[this.run.t.length - 1]; }
 
-    /* The sample nearest to a time. */
+    /* Show the sample nearest to a time. */
     seek(t) {
         const {run} = this, last = run.t.length - 1;
         this.t = Math.min(Math.max(t, run.t[0]), run.t[last]);
@@ -321,6 +338,7 @@ class App {
         this.wake();
     }
 
+    /* Start or stop the animation. */
     play(playing) {
         this.playing = playing;
         by("g-play").textContent = playing ? "Pause" : "Play";
@@ -328,12 +346,13 @@ class App {
         this.wake();
     }
 
-    /* A frame is drawn when there is something to draw. */
+    /* Request a frame. */
     wake() {
         this.dirty = true;
         this.frame ??= requestAnimationFrame((now) => this.draw(now));
     }
 
+    /* Draw a frame: continue the work, advance the time, update what is shown. */
     draw(now) {
         this.frame = null;
         if (this.way) this.goOn();
@@ -344,6 +363,7 @@ class App {
         if (this.way || this.playing) this.frame ??= requestAnimationFrame((later) => this.draw(later));
     }
 
+    /* Advance the time of the animation; at the end of the run it begins again. */
     advance(now) {
         const passed = this.last === undefined ? 0 : (now - this.last) / 1000;
         const {run} = this, t = this.t + passed * by("g-speed").value * this.span / this.settings.seconds;
@@ -351,7 +371,7 @@ class App {
         this.seek(t > run.t[run.t.length - 1] ? run.t[0] : t);
     }
 
-    /* Everything at the present sample. */
+    /* Show everything at the present sample. */
     show() {
         const {run, k, sim} = this, n = this.about.coordinates.length, t = run.t[k], {p} = run;
         const [q, v] = [run.q, run.v].map((rows) => rows.subarray(k * n, (k + 1) * n));
@@ -369,6 +389,7 @@ class App {
         document.dispatchEvent(new CustomEvent("gudgeon:state", {detail}));
     }
 
+    /* Show the value of a series in its row. */
     tell(name, cell, unit, k) {
         const x = this.seriesOf(name)[k] ?? NaN, of = this.run.unit(name), none = this.isNone(x, of);
         const [factor, text] = readable(Math.abs(x), of);
@@ -376,10 +397,10 @@ class App {
         unit.textContent = none ? "" : text;
     }
 
-    /* The force of an element, for the arrow that shows it. */
+    /* Return the force of an element at sample k, for its arrow. */
     load(name, k) { return ["Fx", "Fy"].map((axis) => this.seriesOf(`${name}.${axis}`)[k] ?? 0); }
 
-    /* Forces at the joints; the longest is that of this moment, for blows would leave nothing of the others. */
+    /* Return the arrows of the joints' forces at sample k; the largest force of the moment has the longest arrow. */
     forces(k) {
         const found = this.settings.joints.map(([name, point]) => [point, ...this.load(name, k)]);
         const largest = Math.max(0, ...found.map(([, x, y]) => Math.hypot(x, y)).filter(Number.isFinite));
@@ -390,9 +411,7 @@ class App {
     }
 }
 
-/* How the page begins: with the simulator that it carries, or with the one run that it has instead. */
-
-/* One run of the file's numbers, as pages without a simulator have it: float32, by columns. */
+/* One recorded run at the file's values, for pages without simulator: float32, by columns. */
 class Recorded {
     constructor({rows, p, series, bits}, about) {
         const all = Float64Array.from(new Float32Array(bits)), n = about.coordinates.length;
@@ -412,14 +431,15 @@ class Recorded {
     series(name) { return name === "t" ? this.t : this.found.get(name) ?? this.t.map(() => NaN); }
 }
 
-/* What the page carries as JSON packed by gzip. */
+/* Return JSON that a hidden element of the page contains, packed by gzip. */
 async function carried(id) { return JSON.parse(new TextDecoder().decode(await gudgeon.unpacked(by(id).textContent))); }
 
-/* The simulator of the page; "-full": of the other formulation. */
+/* Return the simulator of the page; "-full": that of the full formulation. */
 async function loaded(which = "") {
     return gudgeon.load(await carried(`gudgeon-description${which}`), by(`gudgeon-module${which}`).textContent);
 }
 
+/* Start the page with its simulator, or with its recorded run. */
 async function start() {
     const sim = by("gudgeon-module") ? await loaded() : null, panel = await carried("gudgeon-panel");
     by("gudgeon-app").hidden = false;

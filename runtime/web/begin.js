@@ -1,4 +1,4 @@
-/* Unpacks the page's own program and runs it; a browser that cannot is told, the document stands without. */
+/* Unpack the page's program and run it; a browser that cannot do so shows a message above the document. */
 gudgeon.unpacked(document.getElementById("gudgeon-program").textContent).then((bytes) => {
     const program = document.createElement("script");
     program.textContent = new TextDecoder().decode(bytes);

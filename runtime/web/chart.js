@@ -1,15 +1,15 @@
-/* Curves over time, and the path of a journal in its clearance: as SVG, in units that people read. */
+/* Draw curves over time, and the path of a journal in its clearance, as SVG with readable units. */
 const PREFIXES = {"-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G"};
 const RAISED = {0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹", "-": "⁻", ".": "·"};
 const PAD = {left: 54, right: 12, top: 10, bottom: 24}; // of a chart, pixels
 const HIGH = 150;
 
-/* "kg*m^2" as "kg·m²". */
+/* Return a unit for people: "kg*m^2" as "kg·m²". */
 function pretty(unit) {
     return unit.replace(/\^(-?[\d.]+)/g, (_, power) => raised(power)).replaceAll("*", "·");
 }
 
-/* [factor, unit] in which numbers of that size read well (runtime/language/plot_units.py); angles in degrees. */
+/* Return [factor, unit] in which numbers of a size are readable (runtime/language/plot_units.py); angles in degrees. */
 function readable(size, unit) {
     if (unit === "rad" || unit.startsWith("rad/")) return [180 / Math.PI, `°${pretty(unit.slice(3))}`];
     const plain = !(size > 0) || !Number.isFinite(size) || (size >= 0.1 && size < 3000);
@@ -19,7 +19,7 @@ function readable(size, unit) {
     return [10 ** -power, PREFIXES[power] + pretty(unit)];
 }
 
-/* A number for people: so many digits, no more than it needs. */
+/* Return a number as text with a number of digits, without trailing zeros. */
 function told(x, digits = 5) {
     if (!Number.isFinite(x)) return "–";
     const [digit, power] = String(Number(x.toPrecision(digits))).replace(/^-/, "−").split("e");
@@ -27,15 +27,16 @@ function told(x, digits = 5) {
     return `${digit}·10${raised(power.replace("+", ""))}`;
 }
 
-/* With its unit, as it reads well. */
+/* Return a number with its unit as text. */
 function quantity(x, unit, digits) {
     const [factor, short_] = readable(Math.abs(x), unit);
     return `${told(x * factor, digits)} ${short_}`;
 }
 
+/* Return a power in superscript. */
 function raised(power) { return [...power].map((c) => RAISED[c]).join(""); }
 
-/* Round numbers between two, about so many. */
+/* Return about `count` round numbers between two limits. */
 function ticks(low, high, count) {
     const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
     const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= raw * 0.999), found = [];
@@ -43,7 +44,7 @@ function ticks(low, high, count) {
     return found;
 }
 
-/* The least and the largest finite number of several series. */
+/* Return the smallest and the largest finite number of several series. */
 function extent(...all) {
     let [low, high] = [Infinity, -Infinity];
     for (const values of all)
@@ -52,7 +53,7 @@ function extent(...all) {
     return low <= high ? [low, high] : [0, 0];
 }
 
-/* SVG's path through points, broken where there is no number. */
+/* Return the SVG path through points, interrupted where there is no finite number. */
 function curve(xs, ys, to_x, to_y) {
     let [text, pen] = ["", "M"];
     for (let i = 0; i < xs.length; i++) {
@@ -68,7 +69,7 @@ function curve(xs, ys, to_x, to_y) {
 /* Violations of the constraints are shown by powers of ten, from rounding to a drift: at least these. */
 const [LEAST, MOST] = [-17, -9];
 
-/* One series over time. `page` knows the names and hears of a time that is pointed at, or that the chart goes. */
+/* Chart of one series over time; `page` is the App, which learns of a selected time or a removed chart. */
 class Chart {
     constructor(page, name) {
         Object.assign(this, {page, name});
@@ -98,12 +99,13 @@ class Chart {
         this.root.onpointerdown = this.root.onpointermove = (event) => event.buttons && this.seek(event);
     }
 
+    /* Show the time at the pointer. */
     seek(event) {
         const {left} = this.root.getBoundingClientRect(), [from, to] = this.range;
         this.page.seek(from + (event.clientX - left - PAD.left) / this.wide * (to - from));
     }
 
-    /* The present run, and behind it the file's. */
+    /* Draw the series of the present run, and of the file's run behind it. */
     draw() {
         const {run, before} = this.page, {name} = this, full = Math.max(this.box.clientWidth, 200);
         this.run = run;
@@ -131,12 +133,13 @@ class Chart {
         this.cursor(this.page.k);
     }
 
-    /* What is drawn of a run: the series, of a violation its power of ten. */
+    /* Return the drawn values of a run: the series, or the exponents of a constraint violation. */
     scaled(run) {
         const y = run.names.includes(this.name) ? run.series(this.name) : run.t.map(() => NaN);
         return this.powers ? y.map((x) => Math.max(Math.log10(x), LEAST)) : y;
     }
 
+    /* Draw the axes. */
     axes(low, high, full, to_y) {
         const {axes} = this.parts, bottom = HIGH - PAD.bottom, [from, to] = this.range;
         axes.replaceChildren();
@@ -156,6 +159,7 @@ class Chart {
         });
     }
 
+    /* Mark sample k, and show its value. */
     cursor(k) {
         const {y, to_x, to_y} = this, x = short(to_x(this.page.run.t[k]));
         this.now.style.transform = `translate(${x}px, ${PAD.top}px)`;
@@ -166,7 +170,7 @@ class Chart {
     }
 }
 
-/* The journal's centre in its clearance circle. */
+/* Path of a journal's centre in its clearance circle. */
 class Orbit {
     constructor(page, name, place) {
         Object.assign(this, {page, name, place});
@@ -182,6 +186,7 @@ class Orbit {
         this.caption = element("figcaption", {}, this.box);
     }
 
+    /* Draw the path of the present run. */
     draw() {
         const {run} = this.page, {name} = this, c = run.p[this.place];
         this.run = run;
@@ -193,6 +198,7 @@ class Orbit {
         this.line.setAttribute("d", curve(this.x, this.y, (x) => x * this.scale, (y) => -y * this.scale));
     }
 
+    /* Mark sample k. */
     cursor(k) {
         const [x, y] = [this.x[k], this.y[k]], [factor, unit] = readable(this.c, "m");
         this.dot.setAttribute("cx", short(x * this.scale));

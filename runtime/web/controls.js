@@ -1,4 +1,4 @@
-/* The numbers of the file and what a run is asked for, as fields that a hand or a keyboard moves. */
+/* Edit the parameters of the file and the options of a run, as fields for pointer and keyboard. */
 const METHODS = {
     auto: "auto", driven: "rk4 (all rows of Φ kept: they drift)", kinematic: "kinematic (Φ = 0 by Newton)", rk4: "rk4 (Baumgarte, not projected)",
     dop853: "dop853 (projected onto Φ = 0)", rodas5p: "rodas5p (implicit, projected)",
@@ -6,7 +6,7 @@ const METHODS = {
 
 const HOLDS = 0.4; // 2 alpha h up to which Baumgarte's terms do more good than harm
 
-/* An element of HTML. */
+/* Create an HTML element. */
 function element(name, attributes = {}, parent = null) {
     const made = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -14,7 +14,7 @@ function element(name, attributes = {}, parent = null) {
     return made;
 }
 
-/* A folded part of the panel. */
+/* Create a folding section of the panel. */
 function section(title, open, parent) {
     const box = element("details", {class: "g-section"}, parent);
     box.open = open;
@@ -25,15 +25,17 @@ function section(title, open, parent) {
     return box;
 }
 
-/* A unit as UNITS of runtime/language/units.py has it. */
+/* Return a unit as in UNITS of runtime/language/units.py. */
 function asWritten(unit) {
     const signs = {"°": "deg", "·": "*", "²": "^2", "³": "^3", "µ": "u", "μ": "u", " ": ""};
     return unit.replace(/[°·²³µμ ]/g, (sign) => signs[sign]);
 }
 
 /*
- * What somebody typed, in SI: a number, with a decimal comma too, in the field's unit or in one that stands behind it.
- * Of a decimal prefix it is the number nearest to the text.
+ * Return the number that a user typed in SI: with decimal point or comma, in the field's unit or with its own; NaN if
+ * invalid.
+ *
+ * With a decimal prefix it is the number nearest to the text.
  */
 function typed(text, {factor, unit: own = ""}, units = {}) {
     const plain = text.trim().replace(",", ".").replace("−", "-");
@@ -46,14 +48,14 @@ function typed(text, {factor, unit: own = ""}, units = {}) {
     return Number(`${digits}e${Number(power) + ten}`);
 }
 
-/* What is said of a text that is no number, of a field that is marked with it. */
+/* Mark a field as invalid, and return the message. */
 function refusal(field, name, text, units = {}) {
     field.setAttribute("aria-invalid", true);
     const names = Object.keys(units).join(", ");
     return `${name}: ${text} is no number${names && `; a unit may stand behind one: ${names}`}`;
 }
 
-/* One number: a slider over its range, and a field for any other. */
+/* Parameter with a slider over its range, and a field for any value. */
 class NumberField {
     constructor(panel, told, slot, parent) {
         Object.assign(this, {panel, told, slot, units: panel.units[slot.unit]});
@@ -72,19 +74,20 @@ class NumberField {
         this.back.onclick = () => panel.forget(slot.address);
     }
 
-    /* The slider's place as a number with four digits. */
+    /* Set the parameter to the slider's position, rounded to four digits. */
     slide() {
         const {low, high, factor} = this.told, x = low + this.slider.value / 1000 * (high - low);
         const digits = String(Number((x / factor).toPrecision(4)));
         this.take(typed(digits, this.told), digits);
     }
 
+    /* Set the parameter, or report an invalid text. */
     take(value, text) {
         if (Number.isFinite(value)) this.panel.set(this.slot.address, value);
         else this.panel.complain(refusal(this.field, this.slot.address, text, this.units));
     }
 
-    /* What the run has; the field that is being typed in is left alone. */
+    /* Show the value of the run; a field with focus keeps its text. */
     show(p, given) {
         const {k, low, high, factor} = this.told, value = given ?? p[k];
         const mine = given !== undefined;
@@ -100,7 +103,7 @@ class NumberField {
     }
 }
 
-/* A choice of the file. */
+/* Parameter with a choice of words. */
 class Choice {
     constructor(panel, told, slot, parent) {
         Object.assign(this, {slot, told});
@@ -111,15 +114,16 @@ class Choice {
         this.select.onchange = () => panel.set(slot.address, this.select.value);
     }
 
+    /* Show the chosen word. */
     show(p, given) {
         this.row.classList.toggle("g-mine", given !== undefined);
         this.select.value = given ?? this.slot.words[p[this.told.k]];
     }
 }
 
-const MOST_BLAMED = 12; // numbers of which each is tried without the others' help
+const MOST_BLAMED = 12; // largest number of parameters that are tried one by one
 
-/* Everything that a run may be given. `changed` is called after each move, `complain` with what is refused. */
+/* All parameters and options of a run; `changed` is called after each change, `complain` with messages. */
 class Panel {
     constructor(form, {groups, units, drift, drifts}, about, {changed, complain, formulated}) {
         Object.assign(this, {about, changed, complain, formulated, units, drift, drifts, given: {},
@@ -143,18 +147,21 @@ class Panel {
         form.onsubmit = (event) => event.preventDefault();
     }
 
+    /* Set a parameter. */
     set(address, value) {
         this.given[address] = value;
         this.since.add(address);
         this.changed();
     }
 
+    /* Reset a parameter to the file's value. */
     forget(address) {
         delete this.given[address];
         this.since.delete(address);
         this.changed();
     }
 
+    /* Show the values of the simulator. */
     show(sim) {
         for (const field of this.fields) field.show(sim.p, this.given[field.slot.address]);
         this.options.show(sim);
@@ -162,7 +169,7 @@ class Panel {
         this.reset.disabled = !Object.keys(this.given).length;
     }
 
-    /* The numbers that make a refusal, for one that does not name them; their fields are marked. */
+    /* Return the parameters that cause an error which does not name them, as text; their fields are marked. */
     blamed(error, sim) {
         const words = error.message.split(/[\s,:;=]+/), named = (one) => words.includes(one);
         const found = Object.keys(this.given).some(named) ? [] : this.culprits(error, sim);
@@ -177,7 +184,11 @@ class Panel {
         return `. ${error.partial ? "Moved since the last whole run" : "What makes it"}: ${told_.join(", ")}`;
     }
 
-    /* Without which it begins; where no single one does it, those that are refused alone, else all. Later all moved. */
+    /*
+     * Return parameters without which the run starts; if no single one suffices, those that fail alone, otherwise all.
+     *
+     * After the start of a run: all changed ones.
+     */
     culprits(error, sim) {
         const all = Object.keys(this.given), {given} = this, {p, projected, given: values, mask} = sim;
         if (error.partial) return [...this.since];
@@ -203,7 +214,7 @@ class Panel {
     }
 }
 
-/* Method, tolerance, length, samples. Empty fields: as the scene has it. */
+/* Method, tolerance, length and samples; empty fields stand for the scene's defaults. */
 class Options {
     constructor(form, about, panel) {
         const box = section("Run", true, form);
@@ -227,7 +238,7 @@ class Options {
         this.fit();
     }
 
-    /* The same motion in coordinates of a tree, where joints hold by themselves, or of all bodies, where they drift. */
+    /* Add the choice of the formulation: reduced, where tree joints do not drift, or full, where all joints drift. */
     formulations(box, panel) {
         const made = this.formulation = this.row(box, "formulation", element("select", {class: "g-across"}));
         for (const [name, told_] of [["", "reduced (a tree’s coordinates)"], ["-full", "full (all rows of Φ)"]])
@@ -235,6 +246,7 @@ class Options {
         made.onchange = () => panel.formulated(made.value);
     }
 
+    /* Add a row with an element. */
     row(box, name, made, unit = "") {
         const row = element("div", {class: "g-number"}, box), id = `g-run-${name}`;
         element("label", {for: id}, row).textContent = name;
@@ -244,23 +256,24 @@ class Options {
         return made;
     }
 
-    /* Why no constraint drifts here, and Python in which they do. */
+    /* Show why no constraint drifts here, with Python code in which they do. */
     drift(box, {note, code}) {
         element("p", {class: "g-quiet"}, box).textContent = note;
         const more = section("A drift in Python", false, box);
         element("pre", {}, more).textContent = code;
     }
 
+    /* Add a text field. */
     field(box, name, unit) {
         return this.row(box, name, element("input", {type: "text", size: 8}), unit);
     }
 
-    /* Baumgarte's terms act on rows that are integrated and not projected. */
+    /* Return whether Baumgarte's terms act: on integrated constraints without projection. */
     get heldByGains() {
         return this.method.value === "rk4" && (this.drifts || this.formulation?.value === "-full");
     }
 
-    /* What an empty field stands for. */
+    /* Show the defaults in empty fields. */
     show(sim) {
         const given = typed(this.t_end.value, {factor: 1}, this.seconds);
         const usual = {rtol: sim.about.rtol, ...sim.usual(given > 0 ? given : undefined)};
@@ -272,7 +285,7 @@ class Options {
         this.step.title = "estimated for the file’s numbers";
     }
 
-    /* Whether Baumgarte's terms hold at this step, or push Φ away themselves (docs/error_control.md). */
+    /* Show whether Baumgarte's terms hold Φ at this step or destabilize it (docs/error_control.md). */
     hold({p}, usual) {
         const {gains} = this.about, own = typed(this.step?.value ?? "", {factor: 1}, this.seconds), h = own > 0 ? own : usual;
         this.held.hidden = !this.heldByGains || !gains.length;
@@ -283,7 +296,7 @@ class Options {
         this.held.textContent = `2αh = ${told(share, 2)} ${what}.`;
     }
 
-    /* A step belongs to rk4, a tolerance to all others. */
+    /* Show the field of the step for rk4, that of the tolerance for other methods. */
     fit() {
         for (const one of [this.rtol, this.step, this.t_end, this.output]) one?.removeAttribute("aria-invalid");
         const fixed = this.method.value === "rk4";
@@ -291,7 +304,7 @@ class Options {
         if (this.rtol) this.rtol.parentElement.hidden = fixed;
     }
 
-    /* For `sim.running`. Throws for a text that is no number. */
+    /* Return the options for `sim.running`. Throws an Error for text that is not a number. */
     read() {
         const found = {method: this.method.value}, fixed = found.method === "rk4";
         for (const name of fixed ? ["step", "t_end", "output"] : ["rtol", "t_end", "output"]) {

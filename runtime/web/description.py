@@ -1,4 +1,4 @@
-"""What simulator.js must know of a scene beside its module: names, units, numbers, as JSON; no more than it reads."""
+"""Describe a scene for simulator.js as JSON: names, units, parameters, methods, columns of arrays."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump
 
-SEEN = 1.0 / 60.0  # share of a run, of a step of rk4 at which rows are seen to drift
+SEEN = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the length of the run
 NOT_SEEN = "jumps of drives that their form does not show are looked for in Python only"
 
 
 def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
-    """The JSON of a scene; with the start of the file's own numbers where a page cannot find it.
+    """Return the JSON of a scene, with the start at the file's values if a page cannot find it.
 
-    seen_step (s): of rk4, where the drives leave no freedom and rows drift.
+    seen_step (s): step of rk4 for scenes without degrees of freedom, at which constraints drift visibly.
     """
     source = compiled.source
     place = {slot.address: k for k, slot in enumerate(source.slots)}
@@ -46,7 +46,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "title": source.title,
         "coordinates": source.coordinates,
         "bodies": [body.name for body in source.bodies],
-        "slots": [_slot(slot) for slot in source.slots],
+        "slots": [_parameter_json(slot) for slot in source.slots],
         "derived": source.derived,
         "conditions": [[one.address, one.relation, one.bound, one.message] for one in conditions(source)],
         "partials": [
@@ -55,7 +55,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         ],
         "divides": sorted(DIVIDING),
         "gains": [place[name] for name in GAINS if name in place],
-        "methods": _methods(source),
+        "methods": _page_methods(source),
         "begins": begins_with(source),
         "stiff": stiff_of(source, RTOL),
         "automatic": not source.explicit,
@@ -73,16 +73,16 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "reach": REACH,
         "memory": source.n_memory,
         "events": [[event.name, event.action] for event in source.events],
-        "widths": _widths(source),
-        "unknown": _unknown(source),
-        "left_out": _left_out(compiled),
+        "widths": _array_widths(source),
+        "unknown": _indeterminate_series(source),
+        "left_out": _redundant_rows(compiled),
         "open": OPEN,
         "rows": [[row.owner, row.unit] for row in source.start_rows],
-        "simulate": _simulate(source),
-        "step": _step(compiled, seen_step),
-        "start": _start(compiled),
-        "columns": dict(_columns(source)),
-        "points": {point.name: _point(source, point) for point in source.points},
+        "simulate": _default_options(source),
+        "step": _default_step(compiled, seen_step),
+        "start": _stored_start(compiled),
+        "columns": dict(_series_columns(source)),
+        "points": {point.name: _point_json(source, point) for point in source.points},
         "outputs": {
             name: [series.unit, source.outputs[name]]
             for name, series in catalogue(source).items()
@@ -93,19 +93,20 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
     return json.dumps(found, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
-def _methods(source: KernelSource) -> list[str]:
-    """Python's; where the drives leave no freedom, rows that are kept may be integrated too, events not looked for."""
+def _page_methods(source: KernelSource) -> list[str]:
+    """Return the methods of a page: those of Python, and rk4 for driven scenes without events."""
     driven = source.methods == (KINEMATIC,)
     return [*source.methods, *(["rk4"] if driven and not source.events else [])]
 
 
-def _slot(slot: Slot) -> dict[str, Any]:
+def _parameter_json(slot: Slot) -> dict[str, Any]:
+    """Return a parameter as JSON: address, unit, default, words of a choice."""
     told: dict[str, Any] = {"address": slot.address, "unit": slot.unit, "default": said(slot, slot.default)}
     return told | ({"words": slot.words} if slot.words else {}) | ({"follows": True} if slot.follows else {})
 
 
-def _widths(source: KernelSource) -> dict[str, int]:
-    """Columns of what gudgeon_evaluate fills, in its order."""
+def _array_widths(source: KernelSource) -> dict[str, int]:
+    """Return the number of columns of each array that gudgeon_evaluate fills, in its order."""
     return {
         "a": len(source.coordinates),
         "multipliers": len(source.rows),
@@ -120,16 +121,16 @@ def _widths(source: KernelSource) -> dict[str, int]:
     }
 
 
-def _unknown(source: KernelSource) -> list[str]:
-    """Names that redundancy leaves open, NaN in a page as in Python."""
+def _indeterminate_series(source: KernelSource) -> list[str]:
+    """Return the series that redundancy leaves indeterminate; they are NaN in a page as in Python."""
     owners = set(source.indeterminate)
     joints = {f"{name}.{last}" for name in owners for last in ("Fx", "Fy", "M", "torque", "force")}
     rows = {f"lambda.{row.name}" for row in source.rows if row.owner in owners}
     return sorted((joints | rows) & {*catalogue(source)})
 
 
-def _columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
-    """Series that are a column of an array: [unit, array, column]; others follow from these (simulator.js)."""
+def _series_columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
+    """Yield each series that is a column of an array: [unit, array, column]. simulator.js derives the others."""
     widths = {"reactions": 3, "clearance": 10, "friction": 2}
     for name, series in catalogue(source).items():
         if series.stored is not None:
@@ -140,39 +141,39 @@ def _columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
             yield name, [series.unit, part, row * widths.get(part, 0) + column]
 
 
-def _point(source: KernelSource, point: PointInfo) -> list[int]:
-    """Its body's place in q (−1: ground), places in p of both coordinates (−1: zero) and their signs."""
+def _point_json(source: KernelSource, point: PointInfo) -> list[int]:
+    """Return a point: index of its body in q (-1: ground), indices of its coordinates in p (-1: zero), their signs."""
     body = source.bodies[point.body].index if point.body >= 0 else -1
     return [body, point.x, point.y, point.sign_x, point.sign_y]
 
 
-def _left_out(compiled: CompiledModel) -> list[list[Any]]:
-    """Rows that were redundant: number among the rows of the closed linkage, owner, whether it is a length."""
+def _redundant_rows(compiled: CompiledModel) -> list[list[Any]]:
+    """Return redundant constraint equations: index in the closed linkage, owner, whether it is a length."""
     rows = compiled.source.start_rows
     return [[k, rows[k].owner, rows[k].unit == "m"] for k in left_out(compiled)]
 
 
-def _simulate(source: KernelSource) -> dict[str, Any]:
-    """The scene's t_end, output and step: numbers, or trees of parameters."""
+def _default_options(source: KernelSource) -> dict[str, Any]:
+    """Return the scene's t_end, output and step: numbers, or expression trees of parameters."""
     trees = {one.address.rpartition(".")[2]: json.loads(one.tree) for one in source.simulate_written}
     return {"t_end": T_END, "output": DEFAULT_OUTPUT, **source.simulate, **trees}
 
 
-def _step(compiled: CompiledModel, seen_step: float | None) -> list[float] | None:
-    """Of rk4 where nobody says a step: share of a run's length, and its bound (s) with the file's numbers."""
+def _default_step(compiled: CompiledModel, seen_step: float | None) -> list[float] | None:
+    """Return the default step of rk4: fraction of the run's length, and its bound (s) at the file's values."""
     if "rk4" not in compiled.source.methods:
         return None if seen_step is None else [SEEN, seen_step]
     return [SMOOTH, default_step(compiled, prepare(compiled, {})[0], math.inf)]
 
 
-def _start(compiled: CompiledModel) -> dict[str, Any] | None:
-    """q and q̇ of the file's numbers where C alone does not find them; None where it does."""
+def _stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
+    """Return q and q̇ at the file's values if C alone does not find them, otherwise None."""
     p = prepare(compiled, {})[0]
     if compiled.n < LARGE:
         closed = compiled.close(0.0, p, mechanism_size(compiled, p))
         if closed is not None and np.isfinite(closed[1]).all():
             return None
-    found, large = assemble(compiled, p), compiled.n >= LARGE  # no page asks C then, as Python does not
+    found, large = assemble(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
     values = [max(len(array), 1) for array in compiled.start_values(p)]
     told = {"q": found.q.tolist(), "v": found.v.tolist(), "rows": len(compiled.source.start_rows), "values": values}
     return told | ({"large": True} if large else {})

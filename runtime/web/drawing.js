@@ -1,12 +1,15 @@
 /*
- * The drawing of a mechanism at any coordinates and numbers. What its shapes look like and what carries each of their
- * points was found where the page was written (runtime/drawing/rig.py); here points are only placed:
+ * Draw a mechanism at any coordinates and parameter values.
  *
- *     x = r_P(p, q) + A(φ) (c₀ + s c₁)
+ * runtime/drawing/rig.py found the appearance of shapes and the carrier of each of their points when the page was
+ * written; here points are only placed:
+ *
+ * x = r_P(p, q) + A(φ) (c₀ + s c₁)
  */
 const SVG = "http://www.w3.org/2000/svg";
 const LONGEST = 9, HEAD = 1.3; // of an arrow of force and of its head, in units of the drawing
 
+/* Create an SVG element. */
 function svg(name, attributes = {}, parent = null) {
     const made = document.createElementNS(SVG, name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -14,7 +17,7 @@ function svg(name, attributes = {}, parent = null) {
     return made;
 }
 
-/* A point [its body's place in q, places in p, signs] of a mechanism, into out[at], out[at + 1]. */
+/* Write the position of a point [index of its body in q, indices in p, signs] to out[at], out[at + 1]. */
 function placePoint(point, q, p, out, at) {
     if (!point) return out.fill(0, at, at + 2);
     const [body, x, y, sign_x, sign_y] = point, a = x < 0 ? 0 : sign_x * p[x], b = y < 0 ? 0 : sign_y * p[y];
@@ -26,7 +29,7 @@ function placePoint(point, q, p, out, at) {
     return out;
 }
 
-/* Carriers with their frames: r_P, cos φ, sin φ and s of each, five numbers side by side. */
+/* Carriers with their frames: r_P, cos φ, sin φ and s, five consecutive numbers each. */
 class Carriers {
     constructor(told, points) {
         this.told = told.map(([name, turn, by]) => ({point: points[name], turn, by, other: points[turn[1]]}));
@@ -34,14 +37,14 @@ class Carriers {
         this.other = new Float64Array(2);
     }
 
-    /* Whether a carrier moves with q or a force, not with the numbers alone. */
+    /* Return whether a carrier moves with q or a force, not with parameters only. */
     moves(k) {
         const {point, turn, other} = this.told[k], [kind, , , last] = turn;
         const turns = kind === "body" || kind === "load" || (kind === "axis" && last >= 0);
         return turns || (point && point[0] >= 0) || (kind === "pair" && other[0] >= 0);
     }
 
-    /* All frames; `load` gives the force of an element by its name, [x, y]. */
+    /* Update all frames; `load` returns the force of an element by its name, [x, y]. */
     update(q, p, load) {
         const {frames} = this;
         this.told.forEach((told, k) => {
@@ -53,6 +56,7 @@ class Carriers {
         });
     }
 
+    /* Return the direction of a carrier's axis, [x, y]. */
     way({turn: [kind, i, j, body], other}, q, p, load, k) {
         if (kind === "body") return [Math.cos(q[i]), Math.sin(q[i])];
         if (kind === "load") return load(i);
@@ -67,7 +71,7 @@ class Carriers {
         return [c * x - s * y, s * x + c * y];
     }
 
-    /* Where a carrier takes an offset (c₀, c₁), [x, y]. */
+    /* Return the position of an offset (c₀, c₁) of a carrier, [x, y]. */
     place(k, offsets, at) {
         const [x, y, c, s, by] = this.frames.subarray(5 * k, 5 * k + 5);
         const a = offsets[at] + by * offsets[at + 2], b = offsets[at + 1] + by * offsets[at + 3];
@@ -75,7 +79,7 @@ class Carriers {
     }
 }
 
-/* A shape [part, role, tint, closed or [r₀, r₁, k], carrier, [numbers], …] with its points side by side. */
+/* Return a shape [part, role, tint, closed or [r₀, r₁, k], carrier, [numbers], …] with an array of its points. */
 function unfolded([part, role, tint, kind, ...runs], carriers, step) {
     const which = [], offsets = [];
     for (let i = 0; i < runs.length; i += 2) {
@@ -90,7 +94,7 @@ function unfolded([part, role, tint, kind, ...runs], carriers, step) {
     return {part, role, tint, disc, closed: kind === 1, which, offsets: Float64Array.from(offsets)};
 }
 
-/* All shapes of a rig, at its carriers' last frames. */
+/* All shapes of a drawing, at the last frames of its carriers. */
 class Rig {
     constructor(rig, points) {
         this.carriers = new Carriers(rig.carriers, points);
@@ -99,17 +103,20 @@ class Rig {
         this.labels = rig.labels.map(([k, ...offsets]) => ({k, offsets: offsets.map((x) => x * rig.step)}));
     }
 
+    /* Move the carriers. */
     update(q, p, load = () => [0, 0]) { this.carriers.update(q, p, load); }
 
-    /* Points of a shape, [[x, y], …], m. */
+    /* Return the points of a shape, [[x, y], …], in m. */
     points({which, offsets}) { return which.map((k, i) => this.carriers.place(k, offsets, 4 * i)); }
 
+    /* Return the radius of a disc in m. */
     radius({disc: [r0, r1, k]}, p) { return k < 0 ? r0 : r0 + r1 * p[k]; }
 
+    /* Return the position of a label in m. */
     label({k, offsets}) { return this.carriers.place(k, offsets, 0); }
 }
 
-/* A rig in an element <svg>: paths, names that keep their size on the screen, arrows of the joints' forces. */
+/* Drawing in an <svg> element: paths, names of constant size on the screen, arrows of the joints' forces. */
 class Drawing {
     constructor(root, {rig, names, joints, looks, pixels}, about) {
         Object.assign(this, {root, about, joints, rig: new Rig(rig, about.points), box: [...rig.low, ...rig.high]});
@@ -127,7 +134,7 @@ class Drawing {
         this.view(this.box);
     }
 
-    /* Neighbours of one look and part are one path. */
+    /* Create the paths; consecutive shapes of one class and part share a path. */
     makePaths(looks) {
         const found = [];
         this.rig.shapes.forEach((shape, k) => {
@@ -140,7 +147,7 @@ class Drawing {
         return found;
     }
 
-    /* The part of the plane that is seen, [low x, low y, high x, high y], m. */
+    /* Show a part of the plane, [low x, low y, high x, high y], in m. */
     view(box) {
         this.box = box;
         const [x, y] = this.at([box[0], box[3]]), k = this.scale;
@@ -148,7 +155,7 @@ class Drawing {
         this.resize();
     }
 
-    /* Names keep a readable size; on a narrow screen they stand where they were placed for it. */
+    /* Adapt the names to the size on the screen; narrow screens have their own planned positions. */
     resize() {
         const {width, height} = this.root.getBoundingClientRect(), [x0, y0, x1, y1] = this.box;
         const metre = Math.min(width / (x1 - x0), height / (y1 - y0)) || this.scale;
@@ -169,12 +176,13 @@ class Drawing {
         }
     }
 
+    /* Return a position in the drawing's pixels. */
     at([x, y]) { return [(x - this.low[0]) * this.scale, (this.high[1] - y) * this.scale]; }
 
-    /* The path of a point, from series of its coordinates. */
+    /* Draw the path of a point from series of its coordinates. */
     trail(xs, ys) { this.way.setAttribute("d", curve(xs, ys, (x) => this.at([x, 0])[0], (y) => this.at([0, y])[1])); }
 
-    /* Everything at q with the numbers p; `forces` are [point, Fx, Fy] and metres of arrow to a newton. */
+    /* Draw everything at q with the parameters p; `forces`: [point, Fx, Fy, metres of arrow per newton]. */
     show(q, p, load, forces = []) {
         const same = this.p === p;
         this.p = p;
@@ -190,7 +198,7 @@ class Drawing {
         this.arrows(q, p, forces);
     }
 
-    /* All lines, as segments x, y, x, y, …; circles as many-sided. */
+    /* Return all lines as segments x, y, x, y, …; circles as polygons. */
     lines() {
         const found = [];
         for (const shape of this.rig.shapes) {
@@ -206,6 +214,7 @@ class Drawing {
         return found;
     }
 
+    /* Return the SVG path of a shape. */
     path(shape, p) {
         const points = this.rig.points(shape).map((point) => this.at(point));
         if (!shape.disc) return `M${points.map((xy) => xy.map(short).join(" ")).join("L")}${shape.closed ? "z" : ""}`;
@@ -213,6 +222,7 @@ class Drawing {
         return `M${short(x - r)} ${short(y)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0z`;
     }
 
+    /* Draw the arrows of forces. */
     arrows(q, p, forces) {
         let [lines, heads] = ["", ""];
         for (const [name, x, y, metres] of forces) {
@@ -229,7 +239,7 @@ class Drawing {
         this.force[1].setAttribute("d", heads);
     }
 
-    /* The box of a run, so that what other numbers make larger is still seen; never smaller than at first. */
+    /* Enlarge the view so that the motion of a run is visible; it never becomes smaller than the first one. */
     fit(run) {
         const n = this.about.coordinates.length, box = [...this.low, ...this.high], margin = 2.6 * this.unit;
         const every = Math.max(1, Math.floor(run.t.length / 32)), {frames} = this.rig.carriers;
@@ -246,9 +256,10 @@ class Drawing {
     }
 }
 
+/* Return a number with one decimal. */
 function short(x) { return Math.round(10 * x) / 10; }
 
-/* What a part is called by whoever lights it: "joint A" is joint-A, a point lies on its body. */
+/* Return the identifier of a part for cross-highlighting: "joint A" is joint-A; a point belongs to its body. */
 function tokens(part) {
     const [kind, name = ""] = part.split(" ");
     return kind === "point" ? `body-${name.split(".")[0]}` : `${kind}-${name}`;

@@ -1,4 +1,4 @@
-"""What a page says of drift where it shows none at first: why constraints hold, and Python in which they drift."""
+"""Explain on a page why constraints do not drift there, with Python code in which they drift."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gudgeon.loading.shipped import shipped, shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
-STEPS = 60  # of a turn
+STEPS = 60  # steps in one turn
 SOLVED = "The drives leave no freedom: Φ = 0 is solved at each sample, so that no constraint drifts."
 KEPT = (
     " Method rk4 integrates a = Φ_q⁻¹ (γ − 2α Φ̇ − β² Φ) instead, with all rows kept: Φ drifts (its trace is Phi.max),"
@@ -59,22 +59,25 @@ print(sim.simulate()["Phi.max"].max())  # projected onto Phi = 0 after each step
 
 
 def seen_step(run: Result) -> float:
-    """Step (s) of rk4 at which a driven mechanism's drift is seen: a share of its fastest turn, or of a run that is
-    shorter; gains of some 0.1 / step hold it then."""
+    """Return the step (s) of rk4 at which the drift of a driven mechanism is visible.
+
+    It is a fraction of the fastest turn, or of a shorter run. Gains of about 0.1/step hold the constraints then.
+    """
     rates = [float(np.abs(run.v[:, body.index + 2]).max()) for body in run.source.bodies]
     turn = 2.0 * np.pi / max([*rates, 1e-300])
     return min(turn, float(run.t[-1] - run.t[0])) / STEPS
 
 
 def told(simulation: Simulation, run: Result, size: int, most: int) -> dict[str, str] | None:
-    """{note, code} of a scene; None where the page itself has a formulation that drifts.
+    """Return {note, code} of a scene; None if the page has a formulation that drifts.
 
-    run: with the file's numbers. size, most: bytes of its module, and of one beside which there is room for another.
+    run: at the file's values. size: bytes of the scene's module. most: bytes of a module next to which a second one
+    fits.
     """
     numbers = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
         note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
-        numbers = _numbers(run)
+        numbers = _step_and_gains(run)
     elif simulation.source.formulation == "reduced" and size > most:
         note, code = HELD.format(size=round(size / 1e3), most=round(most / 1e3), loaded=loaded(simulation)), RUN
     else:
@@ -82,20 +85,20 @@ def told(simulation: Simulation, run: Result, size: int, most: int) -> dict[str,
     return {"note": note, "code": code.substitute(numbers, loaded=loaded(simulation))}
 
 
-def _numbers(run: Result) -> dict[str, str]:
-    """How many steps, and gains: one that holds, and 1/h."""
+def _step_and_gains(run: Result) -> dict[str, str]:
+    """Return the number of steps, and two gains for the code: one that holds the constraints, and 1/h."""
     step, length = seen_step(run), float(run.t[-1] - run.t[0])
     steps = max(1, round(length / step))
     return {"steps": str(steps), "gains": f"{0.1 * steps / length:.1g}, {steps / length:.3g}"}
 
 
 def drifts(simulation: Simulation) -> bool:
-    """Whether rk4 of a page integrates all rows of the scene, which Baumgarte's terms hold then."""
+    """Return whether rk4 on the page integrates all constraint equations, with Baumgarte's terms."""
     return simulation.source.formulation != "reduced" or simulation.source.methods == (KINEMATIC,)
 
 
 def loaded(simulation: Simulation) -> str:
-    """What `gudgeon.load` is given: the name of a shipped file or that of the user's, without its folder; the scene."""
+    """Return the arguments of `gudgeon.load`: name of a shipped or of the user's file without its folder, and scene."""
     name = simulation.file.stem
     own = name not in shipped() or not simulation.file.samefile(shipped_file(name))
     return ", ".join(json.dumps(one) for one in (simulation.file.name if own else name, simulation.source.scene))

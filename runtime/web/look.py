@@ -1,4 +1,4 @@
-"""How a page looks: the style of what runs (page.css), and the colours of drawings by paper, light or dark."""
+"""Define the style of a page: page.css, and colours of drawings on light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from gudgeon.drawing.page import PIXELS
 from gudgeon.drawing.roles import DRIVEN, EDGES, GREY, INK, LOADED, NAMES, ROLES, TINTS, WOUND, WRONG, colour_of
 
-# what turns with the paper; in print and in light as roles.py has it
+# colours of paper and ink, which depend on the colour scheme
 FRAME = {INK: "var(--ink)", GREY: "var(--quiet)", "white": "var(--paper)", "#ffffff": "var(--paper)"}
 DARK = {
     DRIVEN: "#ff8a80",
@@ -30,7 +30,7 @@ DARK_TINTS = ("#1d3a4d", "#4a3510", "#153f32", "#45263a", "#4d2a14", "#234152", 
 
 
 def style(looks: Iterable[tuple[str, int]], names: Iterable[tuple[str, int]]) -> str:
-    """CSS: of the panel, of shapes by role and tint, `look`, and of names, `look-name`."""
+    """Return the CSS of the panel, of shapes by role and tint (class `look`), and of names (class `look-name`)."""
     light, dark = list[str](), list[str]()
     for role, tint in looks:
         here = f".{look(role, tint)}"
@@ -52,7 +52,7 @@ def style(looks: Iterable[tuple[str, int]], names: Iterable[tuple[str, int]]) ->
 
 
 def look(role: str, tint: int) -> str:
-    """The class of a role; of what has a body's colours with its turn."""
+    """Return the CSS class of a role; roles with the colours of a body include the tint."""
     word = role.replace(" ", "-")
     coloured = role in ROLES and {"tint", "edge"} & {ROLES[role].edge, ROLES[role].face}
     return f"d-{word}-{tint % len(TINTS)}" if coloured or (role == "body") else f"d-{word}"
@@ -60,15 +60,17 @@ def look(role: str, tint: int) -> str:
 
 @cache
 def _sheet() -> str:
-    """page.css as a page carries it: without indents."""
+    """Return page.css without indentation."""
     return re.sub(r"(?m)^ +", "", Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
 
 
 def _light(word: str, tint: int) -> str:
+    """Return a colour on a light background."""
     colour = colour_of(word, tint)
     return FRAME.get(colour, colour)
 
 
 def _dark(word: str, tint: int) -> str:
+    """Return a colour on a dark background."""
     colour = colour_of(word, tint)
     return DARK_TINTS[TINTS.index(colour)] if word == "tint" else FRAME.get(colour) or DARK.get(colour, colour)

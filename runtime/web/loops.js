@@ -1,8 +1,10 @@
 /*
- * The time loops: calls of the engine, some steps or samples each, and what becomes of their statuses. They do what
- * engine/batch/many.c, runtime/integrators/batch.py and kinematic.py do, call for call, so that bits are the same.
+ * Run the time loops: call the engine for some steps or samples at a time, and handle its statuses.
+ *
+ * The calls are the same as in engine/batch, runtime/integrators/batch.py and kinematic.py, so that results are equal
+ * bit by bit.
  */
-const AT_ONCE = 2000; // steps between samples of a motion without a freedom, before somebody else has a turn
+const AT_ONCE = 2000; // steps between samples of a kinematic analysis before it yields
 const {ENDED, EVENTS_FULL, EVENT_STOPS, MAX_LISTED, N_IMPACT_COLUMNS, N_WORK} = Boundary;
 const TOLD = {
     [Boundary.NOT_FINITE]: "the motion is no longer finite",
@@ -19,25 +21,25 @@ const KINEMATIC_TOLD = {
     [Boundary.STALLED]: "the motion takes more steps than can be made",
 };
 
-/* To how many seconds an event and a sample are told apart. */
+/* Return the time difference in s below which an event and a sample coincide. */
 function resolution(t) {
     const end = t[t.length - 1];
     return Math.max(32 * Number.EPSILON * Math.max(end, t[0]), Math.min(1e-11, 1e-10 * (end - t[0])));
 }
 
-/* How many of increasing times lie before one. */
+/* Return how many of increasing times are less than a time. */
 function before(t, time) {
     const row = t.findIndex((x) => x >= time);
     return row < 0 ? t.length : row;
 }
 
-/* The error of a status at a time, with the run so far. */
+/* Return the error of a status at a time, with the run so far. */
 function failure(run, status, told, pivots, t) {
     const why = told[status] ?? `singular: the pivot of constraint row ${pivots[status - 1]} vanished`;
     return Object.assign(new Error(`${why}: t = ${said(t, "s", 9)}`), {partial: run, status, t});
 }
 
-/* A run whose motion is integrated: its struct, and rows of samples as C fills them. */
+/* Integration of one run: its struct in the engine, and rows of samples as C writes them. */
 class Session {
     constructor(sim, {t, method, rtol, step}, memory, run) {
         const {lib, n, about} = sim, p = method === "rk4" ? sim.p : sim.projected;
@@ -59,7 +61,7 @@ class Session {
         this.setUp(rtol);
     }
 
-    /* Tolerances as runtime/integrators/adaptive.py has them: of coordinates, then of velocities. */
+    /* Set tolerances and methods, as runtime/integrators/adaptive.py does. */
     setUp(rtol) {
         const {about, size, p} = this.sim, play = about.clearances.map(([, k]) => p[k]).filter((c) => c > 0);
         const length = play.length ? Math.min(...play) : size, share = length / size;
@@ -75,17 +77,18 @@ class Session {
             memory.numbers(scale.length, scale), memory.numbers(2, [length, share]), this.step ?? 0);
     }
 
+    /* Return the number of samples that are filled. */
     get done() { return this.memory.longs(this.filled, 1)[0]; }
 
     set done(rows) { this.memory.longs(this.filled, 1)[0] = rows; }
 
-    /* Some steps; the status of C. */
+    /* Integrate some steps, and return the status. */
     advance(slice) {
         const samples = [this.t.length, this.times, slice, this.y, this.latched, this.state, this.filled];
         return this.lib.gudgeon_adaptive_run(this.struct, this.p, ...samples);
     }
 
-    /* The present time, and counts by name. */
+    /* Return the present time, and counts by name. */
     report() {
         this.lib.gudgeon_run_report(this.struct, ...this.report_at);
         const counts = this.memory.longs(this.report_at[1], Boundary.N_COUNTS);
@@ -93,7 +96,7 @@ class Session {
         return {t: this.memory.view(this.report_at[0], 1)[0], counts: named};
     }
 
-    /* What is said of statuses here: of journals that are too deep which one, and how deep. */
+    /* Return the messages of statuses; that of OUTSIDE names the deepest journal. */
     get told() {
         const {N_PEAK, PEAK_NAMES, OUTSIDE} = Boundary, {about, p} = this.sim, e_max = PEAK_NAMES.indexOf("e_max");
         const peaks = this.memory.view(this.report_at[3], N_PEAK * this.width.state);
@@ -108,14 +111,14 @@ class Session {
         return depths.length ? {...TOLD, [OUTSIDE]: deep} : TOLD;
     }
 
-    /* The first sample from a row on that is no number; undefined: none is. */
+    /* Return the first sample from a row on that is not finite, or undefined. */
     odd(from) {
         for (let i = from; i < this.done; i++)
             if (!this.memory.view(this.y + 8 * i * this.width.y, 2 * this.n).every(Number.isFinite)) return i;
         return undefined;
     }
 
-    /* The present state as the last sample, in place of those that are as late. */
+    /* Store the present state as the last sample, in place of samples that are not earlier. */
     close() {
         const {t} = this.report(), row = Math.min(this.done, before(this.t, t - resolution(this.t)));
         this.run.t = Float64Array.of(...this.t.subarray(0, row), t);
@@ -124,7 +127,7 @@ class Session {
         this.done = row + 1;
     }
 
-    /* Lists of events and impacts into the run; with `last` the impacts that still go on too. */
+    /* Move lists of events and impacts into the run; `last`: unfinished impacts too. */
     takeLists(last) {
         const {lib, struct, run, width} = this, rows = this.sim.about.events.length ? MAX_LISTED : 1;
         within(lib, (memory) => {
@@ -144,7 +147,7 @@ class Session {
         });
     }
 
-    /* What was reached into the run. */
+    /* Move all results so far into the run. */
     take() {
         const {run, n, memory, done} = this, y = memory.copy(this.y, done * this.width.y);
         const part = (from, count) => columns(y, this.width.y, from, count);
@@ -156,14 +159,14 @@ class Session {
     }
 }
 
-/* Columns of a table by rows, as a table of their own. */
+/* Return columns of a row-major table as a table of their own. */
 function columns(rows, width, from, count) {
     const found = new Float64Array(rows.length / width * count);
     for (let i = 0; i < found.length; i++) found[i] = rows[Math.floor(i / count) * width + from + i % count];
     return found;
 }
 
-/* Whatever is integrated in C. */
+/* Integrate a run in C; a generator that yields the fraction done. */
 function* integrate(sim, asked, memory, run) {
     const session = new Session(sim, asked, memory, run), t_end = asked.t[asked.t.length - 1];
     run.soFar = () => session.take();
@@ -184,7 +187,7 @@ function* integrate(sim, asked, memory, run) {
     run.checkLeftOut();
 }
 
-/* A scene without a freedom: rows of the samples, and the courses of motion and works. */
+/* Kinematic analysis of a scene without degrees of freedom: samples, and the engine's state of motion and works. */
 class Way {
     constructor(sim, {t}, memory, run) {
         const {lib, n} = sim, rows = t.length;
@@ -205,10 +208,10 @@ class Way {
         lib.gudgeon_kinematic_begin(this.course, sim.about.reach, sim.size, this.t_end, 0, 0, 1);
     }
 
-    /* Places of a row: time, q, v. */
+    /* Return the addresses of a row: time, q, v. */
     row(i) { return [this.times + 8 * i, this.q + 8 * i * this.n, this.v + 8 * i * this.n]; }
 
-    /* Rows up to `last`: the last one that was reached, and why no further; not one where the next is far away. */
+    /* Compute rows up to `last`; return the last one that was reached, and the status. */
     motion(first, last, room = AT_ONCE) {
         const [t, q, v] = this.row(first), a = this.a + 8 * first * this.n, {lib, course} = this;
         lib.gudgeon_kinematic_record(course, room && this.tape, room);
@@ -219,7 +222,7 @@ class Way {
         return [moved, full ? 0 : status];
     }
 
-    /* Many steps have not led to the next row: it stands where they ended until `goOn` or `arrive`. */
+    /* Store the intermediate state as the next row after many steps without reaching a sample; see `goOn`, `arrive`. */
     rest(first) {
         const {n, memory, row_size} = this, [time, q, v] = this.row(first + 1);
         const [t, ...state] = memory.view(this.tape + 8 * (AT_ONCE - 1) * row_size, row_size);
@@ -228,7 +231,7 @@ class Way {
         [q, v].forEach((place, k) => memory.view(place, n).set(state.slice(k * n, k * n + n)));
     }
 
-    /* From the place of that rest, which takes the row of the last sample; what that one has is kept. */
+    /* Continue from the intermediate state, which replaces the row of the last sample; its values are saved. */
     goOn(first) {
         const {memory, n, resting} = this, places = [...this.row(first), this.work + 8 * first * N_WORK];
         const sizes = [1, n, n, N_WORK], next = [...this.row(first + 1), this.work + 8 * (first + 1) * N_WORK];
@@ -239,7 +242,7 @@ class Way {
         this.resting = null;
     }
 
-    /* The sample has its row again. */
+    /* Restore the row of the last sample. */
     arrive() {
         const {kept, memory} = this;
         if (!kept) return;
@@ -248,7 +251,7 @@ class Way {
         this.kept = null;
     }
 
-    /* Works of the same rows: the last one, and why no further. */
+    /* Compute the works of rows; return the last one that was reached, and the status. */
     works(first, last) {
         if (last === first) return [last, 0];
         const [t, q, v] = this.row(first);
@@ -257,7 +260,7 @@ class Way {
         return [status ? first + this.memory.longs(this.longs, 2)[1] : last, status];
     }
 
-    /* Events between rows; whether one ends the run. Behind the last row a little more is looked at. */
+    /* Find events between rows; return whether one ends the run. A short time after the end is searched too. */
     eventStops(first, end) {
         if (!this.sim.about.events.length || end === first) return false;
         const times = [...this.t.subarray(first, end + 1)];
@@ -275,6 +278,7 @@ class Way {
         return false;
     }
 
+    /* Find events between times, and enter them in the run; return the status and the number of searched intervals. */
     look(row, times) {
         return within(this.lib, (memory) => {
             const [, q, v] = this.row(row), counts = memory.bytes(8), {capacity, run} = this;
@@ -289,7 +293,7 @@ class Way {
         });
     }
 
-    /* An event ends the run among these rows: the last sample stands at its time. */
+    /* End the run at the event among these rows: the last sample is at its time. */
     cut(first, end) {
         const t_end = Math.max(...this.run.events.map(({t}) => t));
         const rows = before(this.t.subarray(first, end + 1), t_end - resolution(this.run.t));
@@ -303,7 +307,7 @@ class Way {
         return last;
     }
 
-    /* Where the motion (0) or the works (1) are (s). */
+    /* Return the time in s that the motion (0) or the works (1) have reached. */
     reached(which) {
         return within(this.lib, (memory) => {
             const t = memory.numbers(2);
@@ -312,6 +316,7 @@ class Way {
         });
     }
 
+    /* Move the results of the first rows into the run. */
     take(rows) {
         this.arrive();
         const {memory, n} = this, of = (place, width) => memory.copy(place, rows * width);
@@ -322,7 +327,7 @@ class Way {
     }
 }
 
-/* The distance from a positive number to the next one. */
+/* Return the distance from a positive number to the next one. */
 function spacing(x) {
     const bits = new BigUint64Array(1), number = new Float64Array(bits.buffer);
     number[0] = x;
@@ -330,7 +335,7 @@ function spacing(x) {
     return number[0] - x;
 }
 
-/* Newton's method from sample to sample; works and events of the same samples. */
+/* Solve the motion from sample to sample by Newton's method, with works and events; yields the fraction done. */
 function* follow(sim, asked, memory, run) {
     const way = new Way(sim, asked, memory, run), samples = asked.t.length - 1;
     let first = 0, last = samples, stops = false;
@@ -358,8 +363,9 @@ function* follow(sim, asked, memory, run) {
 }
 
 /*
- * No freedom, and integrated all the same: rk4 over a = Phi_q^-1 (gamma - 2 alpha Phi_dot - beta^2 Phi), in which all
- * rows, those of the drives too, drift or are held. For classes; Python solves Phi = 0 instead, and so does `follow`.
+ * Integrate a driven scene all the same, for classes: rk4 with all constraint equations, which drift or are held.
+ *
+ * a = Φ_q⁻¹ (γ − 2 α Φ̇ − β² Φ). Python and `follow` solve Φ = 0 instead. Yields the fraction done.
  */
 function* drift(sim, {t, step, slice}, memory, run) {
     const {lib, n, about} = sim, width = 2 * n + N_WORK, rows = memory.numbers(t.length * width);

@@ -1,7 +1,7 @@
-"""A scene's C and the engine as a WebAssembly module, compiled by the zig that comes as a Python wheel.
+"""Compile a scene's C and the engine to a WebAssembly module, with zig from a Python wheel.
 
 The module is a reactor: it has functions and a memory, and no main. simulator.js calls the functions of calls.h as
-Python does. It asks its host for nothing but the time of day, and for that only where somebody waits to be asked.
+Python does. The only import is the time of day, for polling a cancellation.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from gudgeon.waiting.asking import working
 from gudgeon.waiting.programs import Programs
 
 MODULE = "simulator.wasm"
-# what simulator.js calls, where a scene has it
+# functions that simulator.js calls if the scene has them
 CALLED = (
     "prepare",
     "mass",
@@ -53,7 +53,7 @@ CALLED = (
     "kinematic_works",
     "kinematic_events",
 )
-DRIVEN = ("rhs",)  # and where its drives leave no freedom
+DRIVEN = ("rhs",)  # further functions for scenes without degrees of freedom
 # No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). Loops stay loops: a
 # module is a tenth shorter. The stack is as large as programs have it; zig puts it first, so that what overflows it
 # traps instead of writing over numbers.
@@ -80,27 +80,27 @@ FLAGS = (
 
 
 def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
-    """The module of a scene, compiled if the cache has none (the first time ever, a C library too: a minute).
+    """Return the module of a scene from the cache, or compile it (the first time with the C library: a minute).
 
-    Raises BuildError where the compiler is not installed or the C does not compile, BadValueError for a source that
-    is compiled without the engine.
+    Raises BuildError if the compiler is missing or the C does not compile, BadValueError for sources without engine.
     """
     if source.cdef:
         raise BadValueError(f"{source.mechanism}/{source.scene} is no scene that the engine runs: it has no simulator")
-    found, cache = _zig(), cache or default_cache()
-    line = [str(found), "cc", *FLAGS, *_exports(source), *include_flags(), source.main, str(UNIT), "-o", MODULE]
+    found, cache = _find_zig(), cache or default_cache()
+    line = [str(found), "cc", *FLAGS, *_export_options(source), *include_flags(), source.main, str(UNIT), "-o", MODULE]
     texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
     key = digest(["web/1", version("ziglang"), *line[1:], engine_digest(), *texts])
 
     def build(folder: Path) -> None:
+        """Compile the module into a folder of the cache."""
         with working(f"compiling {source.mechanism}, scene {source.scene}, for pages"):
-            _build(source, line, folder)
+            _compile_module(source, line, folder)
 
     return (cache.fetch("web", key, build) / MODULE).read_bytes()
 
 
-def _zig() -> Path:
-    """The compiler. BuildError where its wheel is not installed."""
+def _find_zig() -> Path:
+    """Return the path of the compiler. Raises BuildError if its wheel is not installed."""
     try:
         return zig()
     except ImportError as error:
@@ -110,14 +110,18 @@ def _zig() -> Path:
         ) from error
 
 
-def _exports(source: KernelSource) -> list[str]:
+def _export_options(source: KernelSource) -> list[str]:
+    """Return the linker options that export the functions which simulator.js calls."""
     declared = set(re.findall(r"\bgudgeon_(\w+)\(", declarations(source)))
     called = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
     return [f"-Wl,--export=gudgeon_{name}" for name in called if name in declared]
 
 
-def _build(source: KernelSource, line: list[str], folder: Path) -> None:
-    """The C files into the folder, and the module; zig keeps its C library beside our entries, for all scenes."""
+def _compile_module(source: KernelSource, line: list[str], folder: Path) -> None:
+    """Write the C files into the folder and compile the module.
+
+    zig stores its C library next to the cache entries, for all scenes. Raises BuildError.
+    """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
     kept = os.environ.get("ZIG_GLOBAL_CACHE_DIR") or str(folder.parents[1] / "zig")

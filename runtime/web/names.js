@@ -1,7 +1,9 @@
 /*
- * Names follow what they belong to, as runtime/drawing/labels.py has it: each keeps where it stands beside that until
- * it would lie on another name or leave the picture. Then it goes back to where it was planned, or else to the nearest
- * place that is free, on no line if there is one. Lengths are the drawing's, y down.
+ * Keep names next to their parts without overlap, like runtime/drawing/labels.py.
+ *
+ * A name keeps its position relative to its part until it would overlap another name or leave the picture. Then it
+ * returns to its planned position, or moves to the nearest free one, on no line if possible. Lengths are those of the
+ * drawing, y down.
  */
 const RINGS = [2, 6, 11, 17, 25, 35, 48, 64, 84, 110, 145, 190]; // pixels from what is named
 const WAYS = [45, 0, 90, 180, 270, 135, 315, 225, ...[0, 1, 2, 3, 4, 5, 6, 7].map((k) => 22.5 + 45 * k)]
@@ -14,7 +16,7 @@ const boxed = (at, beside, [width, height]) => {
 const apart = (a, b) => a[0] >= b[2] || b[0] >= a[2] || a[1] >= b[3] || b[1] >= a[3];
 const within = (a, room) => a[0] >= room[0] && a[1] >= room[1] && a[2] <= room[2] && a[3] <= room[3];
 
-/* Of names {at, half, clear, planned, beside} the last: how far their middles are from what they name. */
+/* Update the relative position `beside` of each name {at, half, clear, planned, beside}. */
 function settle(names, room, pixel, lines) {
     const taken = [];
     let found = null;
@@ -29,7 +31,7 @@ function settle(names, room, pixel, lines) {
     }
 }
 
-/* The nearest free place on no line; where every place has one, that with the fewest; null where there is none. */
+/* Return the nearest free position on no line, otherwise that with the fewest crossings; null if there is none. */
 function nearest({at, half, clear}, free, pixel, lines) {
     let [best, fewest] = [null, Infinity];
     for (const ring of RINGS) {
@@ -47,7 +49,7 @@ function nearest({at, half, clear}, free, pixel, lines) {
     return best;
 }
 
-/* How many segments x, y, x, y, … meet a box (Liang and Barsky). */
+/* Return how many segments x, y, x, y, … intersect a box (Liang and Barsky). */
 function crossing([left, top, right, bottom], lines) {
     let count = 0;
     for (let i = 0; i < lines.length; i += 4) {

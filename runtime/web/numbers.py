@@ -1,4 +1,4 @@
-"""The numbers of a file as a page offers them: by section, in the unit that the file has, with a range of a slider."""
+"""Arrange the parameters of a file for the panel of a page: sections, units of the file, ranges of sliders."""
 
 from __future__ import annotations
 
@@ -35,17 +35,19 @@ SECTIONS = {
     "baumgarte": "Baumgarte's terms",
     "start": "Start",
 }
-MORE, TURN = 4.0, 3.141592653589793  # how many times a positive number, how far an angle goes either way
-SMALL = 0.05  # share of the mechanism's size below which a length is none of its links
+MORE, TURN = 4.0, 3.141592653589793  # range of a positive number over its value, half range of an angle in rad
+SMALL = 0.05  # lengths below this fraction of the mechanism's size are not link lengths
 STAY = ("bodies", "bearings", "guides", "contacts", "materials", "baumgarte")  # whose positive numbers keep their sign
-HALVINGS = 30  # of what lies between a number and an end that is refused
-EDGE = 1e-3  # share of the range that a slider keeps from a bound that is out of reach
+HALVINGS = 30  # bisections between a valid value and a refused end
+EDGE = 1e-3  # distance of a slider from an open bound, over its range
 WRITTEN = re.compile(r".*?(?:[\d.)]|\bpi)\s+([A-Za-zµΩ°%][\w*/^.()µ°-]*)$")  # "2*pi rad/s": the unit at its end
 ANGLES = ("deg", "rad", "°")
 
 
 def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
-    """Sections of numbers, the parameters first: [{title, numbers: [{k, name, unit, factor, low, high}]}]."""
+    """Return the sections of parameters, with `parameters` first: [{title, numbers: [{k, name, unit, factor, low,
+    high}]}].
+    """
     source, units = simulation.source, _Units(simulation)
     size, found = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
     worn = in_contours(source)
@@ -55,22 +57,22 @@ def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
         if not slot.words:
             unit, factor = units.of(slot)
             angle = unit in ANGLES or slot.address.endswith((".theta", ".angle"))
-            low, high = _range(source, slot, p, size, angle)
-            low, high = (_allowed(simulation.compiled, slot, float(p[k]), end) for end in (low, high))
+            low, high = _slider_range(source, slot, p, size, angle)
+            low, high = (_limit_range(simulation.compiled, slot, float(p[k]), end) for end in (low, high))
             told |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
         found.setdefault(section, []).append(told)
     order = [*(name for name in SECTIONS if name in found), *(name for name in found if name not in SECTIONS)]
-    return [{"title": SECTIONS.get(name, name.capitalize()), "numbers": _together(found[name])} for name in order]
+    return [{"title": SECTIONS.get(name, name.capitalize()), "numbers": _sort_by_owner(found[name])} for name in order]
 
 
-def _together(numbers: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Those of one body, bearing, … beside each other."""
+def _sort_by_owner(numbers: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return the parameters sorted so that those of one body, bearing, … follow each other."""
     owners = list(dict.fromkeys(one["name"].partition(".")[0] for one in numbers))
     return sorted(numbers, key=lambda one: owners.index(one["name"].partition(".")[0]))
 
 
 def units(source: KernelSource) -> dict[str, dict[str, float]]:
-    """What may be typed behind a number, by its unit in SI: units of the same dimension, and how many of SI each is."""
+    """Return the units that may be typed after a number, by SI unit: name and value in SI."""
     kinds = {"s": TIME} | {slot.unit: dimension(*slot.dimension) for slot in source.slots if not slot.words}
     return {
         si: {name: factor for name, (factor, of) in UNITS.items() if of == own and name.isascii()}
@@ -78,47 +80,49 @@ def units(source: KernelSource) -> dict[str, dict[str, float]]:
     }
 
 
-def _allowed(compiled: CompiledModel, slot: Slot, value: float, end: float) -> float:
-    """The end of a slider; where what follows from the number breaks a condition, the last one before that."""
+def _limit_range(compiled: CompiledModel, slot: Slot, value: float, end: float) -> float:
+    """Return the end of a slider; if a derived condition refuses it, the last value before by bisection."""
 
-    def refused(at: float) -> bool:
+    def is_refused(at: float) -> bool:
+        """Return whether the value breaks a condition."""
         try:
             prepare(compiled, {slot.address: at})
         except GudgeonError:
             return True
         return False
 
-    if not refused(end) or refused(value):
+    if not is_refused(end) or is_refused(value):
         return end
     good, bad = value, end
     for _ in range(HALVINGS):
         middle = 0.5 * (good + bad)
-        good, bad = (good, middle) if refused(middle) else (middle, bad)
-    return 0.0 if abs(good) < EDGE * abs(value) and not refused(0.0) else good + EDGE * (value - good)
+        good, bad = (good, middle) if is_refused(middle) else (middle, bad)
+    return 0.0 if abs(good) < EDGE * abs(value) and not is_refused(0.0) else good + EDGE * (value - good)
 
 
 class _Units:
-    """Units as the file writes them; of what it does not write those that it has for the like, or as figures have."""
+    """Units of parameters as the file writes them, or as it writes similar ones, or as figures have them."""
 
     def __init__(self, simulation: Simulation) -> None:
+        """Read the units from the mechanism file; if it does not exist any more, none are known."""
         from gudgeon.generator.yaml import parse_yaml
 
         try:
             tree: Any = parse_yaml(simulation.file.read_bytes(), str(simulation.file))
-        except (GudgeonError, OSError):  # it is not there any more
+        except (GudgeonError, OSError):  # the file does not exist any more
             tree = {}
         self.written, counts = dict[str, tuple[str, float]](), dict[str, Counter[tuple[str, float]]]()
         for slot in simulation.source.slots:
-            if (unit := _unit_at(tree, slot)) is not None:
+            if (unit := _read_unit(tree, slot)) is not None:
                 self.written[slot.address] = unit
                 counts.setdefault(slot.unit, Counter())[unit] += 1
         self.usual: Mapping[str, tuple[str, float]] = {si: most.most_common(1)[0][0] for si, most in counts.items()}
 
     def of(self, slot: Slot) -> tuple[str, float]:
-        """The unit, and how many of SI it is."""
+        """Return the unit of a parameter and its value in SI."""
         if slot.address in self.written:
             return self.written[slot.address]
-        if slot.unit in self.usual and (slot.unit == "m" or slot.follows):  # 1/s may be a rate, a gain, a speed
+        if slot.unit in self.usual and (slot.unit == "m" or slot.follows):  # 1/s may be a rate or a gain
             return self.usual[slot.unit]
         if slot.address.endswith((".theta", ".angle")):
             return "deg", number_of_text("1 deg", slot.address, (0, 0, 0))
@@ -126,8 +130,8 @@ class _Units:
         return unit, 1.0 / factor
 
 
-def _unit_at(tree: Any, slot: Slot) -> tuple[str, float] | None:
-    """The unit that stands at an address of the file: of a scalar, or of a coordinate of a point."""
+def _read_unit(tree: Any, slot: Slot) -> tuple[str, float] | None:
+    """Return the unit written at an address of the file, and its value in SI; None if there is none."""
     node = tree
     for key in slot.address.split("."):
         if isinstance(node, list):
@@ -144,15 +148,18 @@ def _unit_at(tree: Any, slot: Slot) -> tuple[str, float] | None:
         return None
 
 
-def _range(source: KernelSource, slot: Slot, p: Array, size: float, angle: bool) -> tuple[float, float]:
-    """Of a slider, SI: within the conditions that are numbers; four times a positive number, twice a length, half a
-    turn about an angle, once its size about a place, twice either way what may turn round."""
+def _slider_range(source: KernelSource, slot: Slot, p: Array, size: float, angle: bool) -> tuple[float, float]:
+    """Return the range of a slider in SI, within the constant conditions.
+
+    Positive numbers: 0 to four times the value; lengths: 0 to twice the value; angles: half a turn in both directions;
+    positions: zero to twice the value; other numbers: twice the value in both directions.
+    """
     value = float(p[[other.address for other in source.slots].index(slot.address)])
     mine = [one for one in source.conditions if one.address == slot.address and not one.addresses]
     lower = [(float(one.bound), one.relation) for one in mine if one.relation in (">", ">=")]
     upper = [(float(one.bound), one.relation) for one in mine if one.relation in ("<", "<=")]
     section, place = slot.address.partition(".")[0], slot.unit == "m"
-    small = place and abs(value) < SMALL * size  # a clearance, a film's width: no place
+    small = place and abs(value) < SMALL * size  # a clearance or a bearing width, not a position
     if value > 0.0 and (lower or small or (section in STAY and not place)):
         low, high = 0.0, (2.0 if place and not small else MORE) * value
     elif angle:

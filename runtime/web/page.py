@@ -1,4 +1,4 @@
-"""A scene's page: its equations, and above them what runs, in one file that needs nothing else."""
+"""Write the page of a scene: its equations and the simulator in one self-contained HTML file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from gudgeon.web.module import simulator
 
 UNDEFINED = "undefined.js"
 FILES = ("boundary.js", "run.js", UNDEFINED, "loops.js", "start.js", "simulator.js")
-DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of what is not shown
+DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of hidden elements
 
 
 class Parts(NamedTuple):
@@ -30,11 +30,11 @@ class Parts(NamedTuple):
 
 
 def write(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> str:
-    """The page of a scene, HTML: its equations and all that runs. `scenes`: pages beside it by scene, itself among
-    them; it leads to them with the numbers that it has.
+    """Return the HTML of a scene's page.
 
-    Raises InputError where the file was edited since, GudgeonError without the extras `docs` and `plot`, BuildError
-    where the C does not compile, SolverError where not even a start is found.
+    scenes: pages of other scenes by name, itself included, to which it links with its parameter values. Raises
+    InputError if the file was edited since, GudgeonError without the extras `docs` and `plot`, BuildError if the C does
+    not compile, SolverError if no start is found.
     """
     from gudgeon.generator.targets.latex import equations_html
 
@@ -42,9 +42,9 @@ def write(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> st
 
 
 def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
-    """What a page runs. Without the compiler for pages (the extra `web`) it is one run of the file's numbers.
+    """Return what a page runs; without the compiler (extra `web`) it is one recorded run at the file's values.
 
-    A small simulator has that of the full formulation beside it, in which constraints drift. Raises as `write`.
+    A small simulator is accompanied by the full formulation, in which constraints drift. Raises as `write`.
     """
     import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
     from gudgeon.web.running import running_parts
@@ -53,9 +53,9 @@ def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Pa
 
 
 def script(source: KernelSource) -> str:
-    """JavaScript that declares `gudgeon` with `gudgeon.load`: for a page's <script>, or a file that Node requires.
+    """Return JavaScript that declares `gudgeon` with `gudgeon.load`, for a page's <script> or a file for Node.
 
-    Whether expressions are defined is checked in scenes with expressions that may not be.
+    The check for undefined expressions is included if a scene needs it.
     """
     texts = [code(name) for name in FILES if name != UNDEFINED or partials(source)]
     return "\n".join(
@@ -72,39 +72,39 @@ def script(source: KernelSource) -> str:
 
 
 def carried(compiled: CompiledModel) -> str:
-    """HTML of simulator, description and module, for a page of your own: `gudgeon.load` of both elements' texts.
+    """Return HTML of simulator, description and module for a user's page; `gudgeon.load` takes both elements' texts.
 
-    Raises BuildError where the compiler for pages is not installed.
+    Raises BuildError if the compiler for pages is not installed.
     """
     module = packed_module(compiled)
     return f"<script>\n{script(compiled.source)}</script>\n{element(DESCRIPTION, description(compiled))}{module}"
 
 
 def packed_module(compiled: CompiledModel, which: str = "") -> str:
-    """The module of a scene as an element that is not shown: gzip, base64."""
+    """Return the module of a scene as a hidden element: gzip, base64."""
     return packed_element(f"{MODULE}{which}", simulator(compiled.source))
 
 
 def packed_element(name: str, data: bytes) -> str:
-    """Bytes that are not shown, for `gudgeon.unpacked`."""
+    """Return bytes as a hidden element, for `gudgeon.unpacked`."""
     packed = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
     return f'<script type="text/plain" id="{name}">{packed}</script>\n'
 
 
 def element(name: str, told: str) -> str:
-    """JSON that is not shown; no text of a file ends the element."""
+    """Return JSON as a hidden element; a text in it cannot end the element."""
     safe = told.replace("<", "\\u003c")
     return f'<script type="application/json" id="{name}">{safe}</script>\n'
 
 
 @cache
 def code(name: str) -> str:
-    """JavaScript of this room, as a page carries it."""
+    """Return a JavaScript file of this folder in the form for pages."""
     from gudgeon.generator.targets.javascript.module import carried_script
 
     return carried_script(file_text(name))
 
 
 def file_text(name: str) -> str:
-    """A file of this room."""
+    """Return the text of a file of this folder."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What the running part of a page shows at first, as JSON: the drawing, numbers and their ranges, traces, one run."""
+"""Prepare the initial contents of a page's panel as JSON: drawing, parameters with ranges, traces, one run."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.look import look
 from gudgeon.web.numbers import groups, units
 
-WIDE, NARROW = 7.0, 3.6  # inches of a drawing on a desk and on a phone: names are placed for either
-SHOWN_AT = 24  # postures of the run that the drawing is made from
-MORE = ("reaction", "reaction head", "path")  # roles that only the page draws
-KEPT, MOST = 400, 60  # samples and series of a run that is carried
+WIDE, NARROW = 7.0, 3.6  # inches of a drawing on wide and narrow screens; names are placed for both
+SHOWN_AT = 24  # number of postures from which the drawing is made
+MORE = ("reaction", "reaction head", "path")  # roles that exist on pages only
+KEPT, MOST = 400, 60  # samples and series of a recorded run
 
 
 def rig_of(run: Result) -> Rig:
-    """The drawing of a run."""
+    """Return the drawing of a run."""
     motion = postures_of(run, SHOWN_AT)
     return make_rig(motion, make_plan(motion))
 
 
 def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
-    """Of a scene, with a run of the file's numbers."""
+    """Return the contents for a scene, from a run at the file's values."""
     source, span = run.source, float(run.t[-1] - run.t[0])
     ends = dict(_journals(source))
     return {
@@ -56,23 +56,23 @@ def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
 
 
 def _journals(source: KernelSource) -> list[tuple[str, str]]:
-    """Joints, those with play first, and the points at which their forces act."""
+    """Return the joints, those with play first, and the points on which their forces act."""
     worn = [(joint.name, joint.point) for joint in source.clearances]
     return [*worn, *((joint.name, joint.point) for joint in source.joints)]
 
 
 def _first_traces(run: Result) -> list[str]:
-    """What is watched, what drives it, a force, the drift: four at most, of what the scene has."""
+    """Return the traces shown at first: a watched series, a drive, a force, the drift; at most four."""
     source = run.source
     drives = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
     joints = [f"{name}.F" for name, _ in _journals(source)]
-    wanted = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drives if name in run.names)][:2]
-    wanted += [name for name in joints if name in run.names and np.isfinite(run[name]).any()][:1]
-    return [*dict.fromkeys(wanted), "Phi.max"]
+    names = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drives if name in run.names)][:2]
+    names += [name for name in joints if name in run.names and np.isfinite(run[name]).any()][:1]
+    return [*dict.fromkeys(names), "Phi.max"]
 
 
 def _first_values(run: Result) -> list[str]:
-    """Live values: what is watched with its rate, outputs, drives, eccentricities, forces of the joints."""
+    """Return the live values: watched series with their rates, outputs, drives, eccentricities, forces of joints."""
     source, found = run.source, list[str]()
     for name in default_watch(run):
         found += [name, rates(name)[0]]
@@ -84,13 +84,13 @@ def _first_values(run: Result) -> list[str]:
 
 
 def _first_path(rig: Rig) -> str:
-    """A point that the file names for nothing but to be looked at."""
+    """Return a point that no body, joint or force uses, for the path; "" if there is none."""
     marks = [one.shape.part.partition(" ")[2] for one in rig.shapes if one.shape.part.startswith("point ")]
     return marks[0] if marks else ""
 
 
 def looks_of(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
-    """Roles and tints of its shapes and of its names, each once."""
+    """Return the roles and tints of shapes and of names, each once."""
     shapes = dict.fromkeys((one.shape.role, one.shape.tint) for one in rig.shapes)
     unique = {look(role, tint): (role, tint) for role, tint in [*shapes, *((role, 0) for role in MORE)]}
     names = {look(role, tint): (role, tint) for role, tint in _name_looks(rig)}
@@ -98,14 +98,18 @@ def looks_of(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
 
 
 def _name_looks(rig: Rig) -> Iterator[tuple[str, int]]:
+    """Yield role and tint of each name."""
     tints = {one.shape.part: one.shape.tint for one in rig.shapes}
     for label in rig.sketch.labels:
         yield label.role, tints.get(label.part, 0)
 
 
 def _names(rig: Rig) -> Iterator[list[Any]]:
-    """[text, part, class, shift on a desk, on a phone, clear]: shifts in pixels, y down, clear in metres."""
-    wide, narrow = _beside(rig.sketch, WIDE), _beside(rig.sketch, NARROW)
+    """Yield [text, part, class, shift on a wide screen, on a narrow one, clear] of each name.
+
+    Shifts in pixels with y down, None where the name is hidden; clear in m.
+    """
+    wide, narrow = _name_shifts(rig.sketch, WIDE), _name_shifts(rig.sketch, NARROW)
     for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
         shifts = [[round(x, 1), round(-y, 1)] for x, y in (at.get(label.part, (0.0, 0.0)) for at in (wide, narrow))]
         hidden = [part not in at for part, at in ((label.part, wide), (label.part, narrow))]
@@ -113,8 +117,8 @@ def _names(rig: Rig) -> Iterator[list[Any]]:
         yield [label.text, label.part, f"{look(role, tint)}-name", *told, float(f"{label.clear:.3g}")]
 
 
-def _beside(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
-    """How far names are from what they name, at PIXELS to the inch."""
+def _name_shifts(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
+    """Return the distances of names from their parts in pixels, at a figure width in inches."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=size_of(sketch, inches), dpi=PIXELS)
@@ -126,7 +130,7 @@ def _beside(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
 
 
 def recorded(run: Result, named: list[str]) -> dict[str, Any]:
-    """A run for a page without a simulator: at most KEPT samples, float32, packed; the series that are named first."""
+    """Return a run for a page without simulator: at most KEPT samples, float32, packed; the `named` series first."""
     rows = np.unique(np.linspace(0, len(run.t) - 1, KEPT).round().astype(int))
     drawn = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]
     names = list(dict.fromkeys(name for name in [*named, *drawn, *run.names] if name in run.names))[:MOST]

@@ -1,8 +1,10 @@
 /*
- * A run and what follows from it by name, as runtime/results/series.py has it: columns of what the loops stored and of
- * what C evaluates at the samples, points of bodies, magnitudes, outputs of the file.
+ * Store a run and compute its series by name, like runtime/results/series.py.
+ *
+ * Series are columns of stored arrays and of what C evaluates at the samples, points of bodies, magnitudes, outputs of
+ * the file.
  */
-const FUNCTIONS = { // of outputs; others are those of the browser, whose last digit may be another one than NumPy's
+const FUNCTIONS = { // of outputs; other functions are the browser's, whose last digit may differ from NumPy's
     "+": (a, b) => a + b, "*": (a, b) => a * b, "/": (a, b) => a / b, "**": Math.pow,
     "-": (a, b) => (b === undefined ? -a : a - b),
     where: (left, right, then, otherwise) =>
@@ -18,7 +20,7 @@ const FUNCTIONS = { // of outputs; others are those of the browser, whose last d
     },
 };
 
-/* The value of an expression: a number, a name, or [function, ...]. */
+/* Return the value of an expression: a number, a name, or [function, ...]. */
 function valueOf(tree, named) {
     if (typeof tree === "number") return tree;
     if (typeof tree === "string") return named(tree);
@@ -29,6 +31,7 @@ function valueOf(tree, named) {
 
 const UNPACKED = new Map(); // tables of long curves: base64 of binary64, by their text
 
+/* Return the numbers of a packed table, cached. */
 function unpacked(text) {
     if (!UNPACKED.has(text)) {
         const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -37,7 +40,7 @@ function unpacked(text) {
     return UNPACKED.get(text);
 }
 
-/* The piece between knots in which x lies, or the outermost one. */
+/* Return the index of the interval between knots that contains x, or of the outermost one. */
 function pieceOf(knots, x) {
     let low = 0, high = knots.length - 1;
     while (high - low > 1) {
@@ -48,7 +51,7 @@ function pieceOf(knots, x) {
     return low;
 }
 
-/* A cubic spline as runtime/language/curves.py has it: [name, knots, coefficients, ends, outside, unit]. */
+/* Return the value of a cubic spline (runtime/language/curves.py): [name, knots, coefficients, ends, outside, unit]. */
 function curveAt([, knots, pieces, ends, outside], x) {
     if (typeof knots === "string") knots = unpacked(knots);
     const first = knots[0], last = knots[knots.length - 1], range = last - first, margin = 1e-9 * range;
@@ -65,7 +68,7 @@ function curveAt([, knots, pieces, ends, outside], x) {
 
 const RATES = [["x", "y"], ["vx", "vy"], ["ax", "ay"]];
 const POINT_UNITS = ["m", "m/s", "m/s^2"];
-const STORED = ["q", "v", "work", "memory", "state"]; // what loops store; accelerations where they know them
+const STORED = ["q", "v", "work", "memory", "state"]; // arrays that the loops store
 
 /* Samples by rows: t (N), q, v (N n), work (N 3), memory, state; impacts, events; counts of the loop. */
 class Run {
@@ -76,26 +79,27 @@ class Run {
         this.ways = this.followUps();
     }
 
-    /* The start, which is known before all else; whether it was followed from the file's. */
+    /* Return the start, which is known first; `followed`: it was continued from the file's start. */
     begin() {
         this.first = this.sim.start();
         this.followed = Boolean(this.first.followed);
         return this.first;
     }
 
-    /* An event of the file at a time (s), or from when on its expression is no number. */
+    /* Enter an event at a time (s), or the time from which its expression is not a number. */
     noteEvent(which, t) {
         const {events} = this.about, told = which >= events.length;
         if (told) this.noNumber.push({name: events[which - events.length][0], t});
         else if (t > this.t[0] + resolution(this.t)) this.events.push({name: events[which][0], t});
     }
 
+    /* Enter an impact from its columns. */
     noteImpact(which, columns) {
         const named = Boundary.IMPACT_COLUMN_NAMES.map((name, k) => [name, columns[k]]);
         this.impacts.push({joint: this.about.clearances[which][0], ...Object.fromEntries(named)});
     }
 
-    /* By time, and not beyond the last sample. */
+    /* Sort the lists by time, without entries after the last sample. */
     closeLists() {
         const last = this.t[this.t.length - 1] + resolution(this.t);
         for (const name of ["events", "noNumber"])
@@ -103,24 +107,26 @@ class Run {
         this.impacts.sort((a, b) => a.t_on - b.t_on);
     }
 
+    /* Return the names of all series. */
     get names() { return [...this.ways.keys()]; }
 
-    /* SI unit of a series; "": a pure number. */
+    /* Return the SI unit of a series; "" for a pure number. */
     unit(name) { return name === "t" ? "s" : this.way(name).unit; }
 
-    /* A series by name, Float64Array (N), SI. */
+    /* Return a series by name, Float64Array (N), SI. */
     series(name) {
         if (name === "t") return this.t;
         if (!this.found.has(name)) this.found.set(name, this.way(name).compute());
         return this.found.get(name);
     }
 
+    /* Return unit and function of a series. Throws an Error for an unknown name. */
     way(name) {
         if (!this.ways.has(name)) throw new Error(`this scene has no series named ${name}`);
         return this.ways.get(name);
     }
 
-    /* Everything that has a name: unit, and how it is computed. */
+    /* Return all series by name: unit, and the function that computes it. */
     followUps() {
         const {columns, points, outputs, clearances, unknown} = this.about, ways = new Map();
         const add = (name, unit, compute) => ways.set(name, {unit, compute});
@@ -144,23 +150,24 @@ class Run {
         return ways;
     }
 
-    /* What a name in an output's expression stands for at a sample. */
+    /* Return the value of a name in an output's expression at a sample. */
     named(path, i) {
         if (path === "t" || this.ways.has(path)) return this.series(path)[i];
         const {place} = this.sim;
         return this.p[place.get(path) ?? place.get(`parameters.${path}`)];
     }
 
-    /* A column of what is stored, or of what C evaluates. */
+    /* Return a column of a stored or evaluated array. */
     column(array, column) {
         const values = STORED.includes(array) ? this[array] : this.accelerations(array) ?? this.evaluation[array];
         const width = values.length / this.t.length;
         return Float64Array.from(this.t, (_, i) => values[i * width + column]);
     }
 
-    /* Those that the loop found, where nothing is integrated. */
+    /* Return the accelerations that the loop found, if nothing is integrated. */
     accelerations(array = "a") { return array === "a" ? this.a : undefined; }
 
+    /* Return the residual of the energy balance in J. */
     residual() {
         const [kinetic, potential, ...works] = ["energy.kinetic", "energy.potential", "work.drives", "work.forces",
             "work.clearances"].map((name) => this.series(name));
@@ -168,7 +175,7 @@ class Run {
         return kinetic.map((T, i) => T + potential[i] - start - (works[0][i] + works[1][i] + works[2][i]));
     }
 
-    /* r_P = r + A(theta) s and its time derivatives; s = (x, y) in the body's frame. */
+    /* Return a coordinate of r_P = r + A(theta) s or of its time derivatives; s = (x, y) in the body's frame. */
     point([body, x, y, sign_x, sign_y], axis, order) {
         const s = [x < 0 ? 0 : sign_x * this.p[x], y < 0 ? 0 : sign_y * this.p[y]];
         if (body < 0) return new Float64Array(this.t.length).fill(s[axis]);
@@ -183,15 +190,16 @@ class Run {
         });
     }
 
-    /* Accelerations, multipliers, forces and energies at all samples, once. */
+    /* Return accelerations, multipliers, forces and energies at all samples, computed once. */
     get evaluation() {
         this.evaluated ??= within(this.sim.lib, (memory) => this.evaluate(memory));
         return this.evaluated;
     }
 
+    /* Evaluate all samples in C. */
     evaluate(memory) {
         const {widths, beyond} = this.about, N = this.t.length, {lib} = this.sim;
-        // velocities are those behind a corner, and rounding hides on which side of it a time is
+        // velocities are those after a switching point, although rounding may put the time before it
         const t = beyond ? this.t.map((x) => x + Math.max(32 * Number.EPSILON * Math.abs(x), 1e-100)) : this.t;
         const given = [t, this.q, this.v, this.memory, this.p].map((values) => memory.numbers(values.length, values));
         const places = Object.entries(widths).map(([name, width]) => [name, memory.numbers(N * width), N * width]);
@@ -201,7 +209,7 @@ class Run {
         return Object.fromEntries(places.map(([name, place, count]) => [name, memory.copy(place, count)]));
     }
 
-    /* Rows that were redundant with the file's numbers go on saying nothing new (assembly/rank.py). */
+    /* Check that constraint equations redundant at the file's values are satisfied (assembly/rank.py); else throw. */
     checkLeftOut() {
         const {left_out, open, rows} = this.about, {lib, n} = this.sim;
         if (!left_out.length) return;

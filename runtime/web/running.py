@@ -1,4 +1,4 @@
-"""The running part of a page in three strings: style, what is seen, and what runs it."""
+"""Assemble the running part of a page in three strings: style, visible frame, scripts."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 
 APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js")
 PANEL = "gudgeon-panel"
-PROGRAM = "gudgeon-program"  # what begin.js unpacks and runs: a third of its size
-ROOM = 62_000  # bytes of a module beside which there is room for the full formulation
+PROGRAM = "gudgeon-program"  # packed program that begin.js unpacks and runs
+MAX_MODULE_BYTES = 62_000  # largest module, in bytes, that is accompanied by the full formulation
 NO_SIMULATOR = (
     "This page carries one run, with the numbers of the file: it was written without the compiler for pages"
     " (pip install 'gudgeon[web]'), with which its numbers can be moved."
@@ -36,15 +36,15 @@ NO_SIMULATOR = (
 
 
 def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
-    """What `page.parts` gives."""
-    run = _run(simulation)
+    """Return the parts of a page for `page.parts`."""
+    run = _run_scene(simulation)
     rig = rig_of(run)
-    told, note = panel(simulation, run, rig) | _scales(rig) | {"scenes": dict(scenes)}, ""
+    told, note = panel(simulation, run, rig) | _drawing_scales(rig) | {"scenes": dict(scenes)}, ""
     carried = packed_element(DESCRIPTION, description(simulation.compiled, drift.seen_step(run)).encode())
     try:
         module = packed_module(simulation.compiled)
-        carried += _modules(simulation, module)
-        told["drift"] = drift.told(simulation, run, len(module), ROOM)
+        carried += _pack_modules(simulation, module)
+        told["drift"] = drift.told(simulation, run, len(module), MAX_MODULE_BYTES)
         told |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
@@ -60,17 +60,17 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
 
 
-def _modules(simulation: Simulation, module: str) -> str:
-    """The simulator; where it is small, that of the full formulation too, in which constraints drift."""
+def _pack_modules(simulation: Simulation, module: str) -> str:
+    """Return the simulator as hidden elements; if it is small, that of the full formulation too."""
     reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
-    if not reduced or len(module) > ROOM:
+    if not reduced or len(module) > MAX_MODULE_BYTES:
         return module
     full = simulation.full.compiled
     return module + packed_element(f"{DESCRIPTION}-full", description(full).encode()) + packed_module(full, "-full")
 
 
-def _run(simulation: Simulation) -> Result:
-    """A plain run of the scene; up to where it fails, if it does."""
+def _run_scene(simulation: Simulation) -> Result:
+    """Return a run of the scene at the file's values, or the part before its failure with a warning."""
     try:
         return simulation.simulate()
     except SolverError as error:
@@ -80,8 +80,8 @@ def _run(simulation: Simulation) -> Result:
         return error.partial
 
 
-def _scales(rig: Rig) -> dict[str, Any]:
-    """Looks of the shapes, and how many pixels a metre has on a desk and on a phone."""
+def _drawing_scales(rig: Rig) -> dict[str, Any]:
+    """Return the CSS classes of the shapes, and the pixels per metre on wide and narrow screens."""
     pixels = []
     for inches in (WIDE, NARROW):
         size, sketch = size_of(rig.sketch, inches), replace(rig.sketch, labels=())
@@ -91,5 +91,5 @@ def _scales(rig: Rig) -> dict[str, Any]:
 
 @cache
 def app() -> str:
-    """JavaScript of what is seen, behind `script` of page.py."""
+    """Return the JavaScript of the visible part, which follows `script` of page.py."""
     return "\n".join(("(() => {", '"use strict";', *(code(name) for name in APP), "})();", ""))

@@ -1,16 +1,16 @@
 /*
- * A scene of gudgeon in a page or in Node: the C that was emitted for it and the engine's, as WebAssembly, called as
- * Python calls them. Numbers are SI, angles rad. With start.js, run.js and loops.js this is one script
- * (`script` of web.page):
+ * Simulate a scene in a page or in Node by its C and the engine as WebAssembly, called as Python calls them.
+ *
+ * Numbers are SI, angles rad. With start.js, run.js and loops.js this is one script (`script` of web.page):
  *
  *     const sim = await gudgeon.load(description, module);   // JSON, and base64 or bytes, as Python wrote them
  *     sim.setParameters({omega: 3, "joints.A.clearance": 5e-4});   // all others are the file's
  *     const run = sim.run({t_end: 2, output: 500, method: "auto", rtol: 1e-8});
  *     run.t, run.series("S9.y"), run.unit("S9.y"), run.names, run.events, run.impacts
  *
- * A page that keeps its frame rate takes `sim.running(...)`, a generator that yields the share that is done after some
- * steps each and returns the run; `return()` gives it up and frees its memory, `throw(error)` with `error.stops` too,
- * and the run up to there is the error's `partial`:
+ * To keep its frame rate, a page uses `sim.running(...)`, a generator that yields the fraction done after some steps and
+ * returns the run. `return()` stops it and frees its memory. `throw(error)` with `error.stops` stops it too, and the run
+ * up to there is the error's `partial`:
  *
  *     const way = sim.running({t_end: 2});
  *     const some = () => {
@@ -22,23 +22,23 @@
  * What cannot be computed is an Error; its `partial` is the run up to there.
  */
 const SMALLEST_RTOL = 1e-14, MOST_STEPS = 2 ** 31, MOST_OUTPUT = 1e7, FURTHEST = 1e18;
-const DRIVEN_STEP = 1e-3; // share of a run, of rk4 where the drives leave no freedom
-const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // steps or samples between two shares, where nobody says
+const DRIVEN_STEP = 1e-3; // default step of rk4 for driven scenes, over the length of the run
+const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // default steps or samples between two yields
 const OPTIONS = "t_end, output, method, rtol, step, slice";
 const RELATIONS = {">": (a, b) => a > b, ">=": (a, b) => a >= b, "<": (a, b) => a < b, "<=": (a, b) => a <= b};
 
-/* The simulator of a description (JSON, or what it says) and a module: base64 of its bytes packed by gzip, or bytes. */
+/* Return a simulator of a description (JSON or object) and a module (bytes, or base64 of bytes packed by gzip). */
 async function load(description, module) {
     const about = typeof description === "string" ? JSON.parse(description) : description;
     const bytes = typeof module === "string" ? await unpacked(module) : module;
-    // the engine reads the clock only to ask somebody whether to go on, and nobody is asked: 52 is "no such call"
+    // the engine reads the clock to poll cancellation only, which pages do not use: 52 is "no such call"
     const host = {wasi_snapshot_preview1: {clock_time_get: () => 52}};
     const {instance} = await WebAssembly.instantiate(bytes, host);
     instance.exports._initialize();
     return new Simulator(about, instance.exports);
 }
 
-/* Bytes of base64 that gzip made. */
+/* Return the bytes of base64 text that gzip packed. */
 async function unpacked(text) {
     const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
     const way = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -46,8 +46,9 @@ async function unpacked(text) {
 }
 
 /*
- * Pieces of the module's memory that one call, or one run, works with; they are freed together. Views are made anew at
- * each use: memory that grows takes the old ones away.
+ * Blocks of the module's memory for one call or one run, freed together.
+ *
+ * Views are created at each use, because growing memory invalidates old ones.
  */
 class Memory {
     constructor(lib) {
@@ -55,7 +56,7 @@ class Memory {
         this.places = [];
     }
 
-    /* So many bytes, zero. */
+    /* Allocate zeroed bytes, and return their address. */
     bytes(count, values) {
         const place = this.lib.malloc(Math.max(count, 8));
         if (!place) throw new Error("no memory is left: ask for fewer samples");
@@ -65,26 +66,31 @@ class Memory {
         return place;
     }
 
+    /* Allocate doubles, and return their address. */
     numbers(count, values) {
         const place = this.bytes(8 * count);
         if (values) this.view(place, count).set(values);
         return place;
     }
 
+    /* Return a view of doubles. */
     view(place, count) { return new Float64Array(this.lib.memory.buffer, place, count); }
 
     longs(place, count) { return new Int32Array(this.lib.memory.buffer, place, count); } // `long` of wasm32, and `int`
 
+    /* Return a copy of doubles. */
     copy(place, count) { return this.view(place, count).slice(); }
 
+    /* Return a copy of signed bytes. */
     codes(place, count) { return new Int8Array(this.lib.memory.buffer, place, count).slice(); }
 
+    /* Free all blocks. */
     free() {
         for (const place of this.places.splice(0)) this.lib.free(place);
     }
 }
 
-/* What `work` returns of a memory that is freed behind it. */
+/* Return the result of `work(memory)`, and free that memory afterwards. */
 function within(lib, work) {
     const memory = new Memory(lib);
     try {
@@ -94,6 +100,7 @@ function within(lib, work) {
     }
 }
 
+/* Simulator of one scene with its parameter values. */
 class Simulator {
     constructor(about, lib) {
         this.about = about;
@@ -106,7 +113,7 @@ class Simulator {
         this.beginning = new Start(this);
     }
 
-    /* Numbers by address or parameter name, of a choice its word; those that are not named are the file's. */
+    /* Set parameters by address or name (a choice by its word); all others get the file's values. Throws an Error. */
     setParameters(values = {}) {
         expect(isMapping(values), "parameters", values, "an object {address: number}");
         const given = new Float64Array(this.place.size), mask = new Uint8Array(this.place.size);
@@ -126,7 +133,7 @@ class Simulator {
         this.projected = this.withoutGains(given, mask);
     }
 
-    /* Every number of a run; what is chosen has numbers of this run (runtime/model/choices.py). */
+    /* Return all parameter values of a run; a chosen material defines further ones (runtime/model/choices.py). */
     prepared(given, mask) {
         const p = this.called(given, mask), chosen = this.about.slots.filter((slot, k) => slot.words && mask[k]);
         if (!chosen.length) return p;
@@ -142,6 +149,7 @@ class Simulator {
         return this.called(values, filled);
     }
 
+    /* Return the values that `gudgeon_prepare` computes. */
     called(given, mask) {
         const count = this.place.size + this.about.derived.length;
         return within(this.lib, (memory) => {
@@ -151,14 +159,14 @@ class Simulator {
         });
     }
 
-    /* The same without Baumgarte's terms, for methods that project onto the constraints. */
+    /* Return the values without Baumgarte's terms, for methods that project onto the constraints. */
     withoutGains(given, mask) {
         const [values, filled] = [given.slice(), mask.slice()];
         for (const k of this.about.gains) [values[k], filled[k]] = [0, 1];
         return this.prepared(values, filled);
     }
 
-    /* Every condition of the file again, and that every expression is defined as it is written. */
+    /* Check the conditions of the file, and that all expressions are defined as written. Throws an Error. */
     check(p, mask) {
         const {conditions, slots, derived} = this.about, value = (address) => p[this.place.get(address)];
         const unit = (address) => slots[this.place.get(address)].unit;
@@ -181,27 +189,28 @@ class Simulator {
         }
     }
 
-    /* The numbers of so large a share of the way from the file's to those that are given; words are as given. */
+    /* Return values at a fraction of the path from the file's values to the given ones; words are as given. */
     between(share) {
         const along = (x, k) => this.about.slots[k].words ? x : this.file[k] + share * (x - this.file[k]);
         return share === 1 ? this.p : this.prepared(this.given.map(along), this.mask);
     }
 
-    /* Whether the drives leave no freedom. */
+    /* Return whether the scene has no degrees of freedom. */
     get driven() { return this.about.methods[0] === "kinematic"; }
 
-    /* As mechanism_sizes of sizes.py (m). */
+    /* Return the size of the mechanism in m, as mechanism_sizes of sizes.py. */
     get size() { return this.sizeOf(this.p); }
 
+    /* Return the size for parameter values p. */
     sizeOf(p) {
         const length = ([x, y]) => Math.sqrt(p[x] * p[x] + (y < 0 ? 0 : p[y] * p[y])); // to the bit as in Python and C
         return Math.max(0, ...this.about.sizes.map(length)) || 1;
     }
 
-    /* q and q̇ of the closed linkage at t = 0; `followed`: from the file's, where the guess leads nowhere. */
+    /* Return q and q̇ of the closed linkage at t = 0; `followed`: continued from the file's start. */
     start() { return this.beginning.find(); }
 
-    /* The run of `running`, all the way. */
+    /* Return the complete run of `running`. */
     run(options = {}) {
         const way = this.running(options);
         for (;;) {
@@ -211,8 +220,11 @@ class Simulator {
     }
 
     /*
-     * Options as `simulate` of Python has them: t_end (s), output (a number of intervals, or times), method, rtol,
-     * step (s); `slice`: steps, or samples without a freedom, between two shares. `begun` hears of the run first.
+     * Run with options like `simulate` of Python: t_end (s), output (number of intervals, or times), method, rtol, step
+     * (s).
+     *
+     * A generator that yields the fraction done. `slice`: steps or samples between two yields. `begun` receives the run
+     * at first.
      */
     *running(options = {}, begun = () => {}) {
         expect(isMapping(options), "options", options, "an object {t_end, output, ...}");
@@ -234,7 +246,7 @@ class Simulator {
         }
     }
 
-    /* Options with what the scene says where they say nothing. */
+    /* Return all options with the scene's defaults. Throws an Error. */
     checked({t_end, output, method = "auto", rtol, step, slice, ...unknown}) {
         for (const name of Object.keys(unknown)) throw new Error(`${name} is no option: expected ${OPTIONS}`);
         for (const [name, value] of Object.entries({t_end, rtol, step, slice}))
@@ -260,7 +272,7 @@ class Simulator {
         return {t, method, rtol, step, slice, estimated};
     }
 
-    /* What a run has where nobody says it: the scene's; a step of rk4 is else estimated for the file's numbers. */
+    /* Return the default options: those of the scene; a step of rk4 may be estimated for the file's values. */
     usual(t_end) {
         const {simulate, step} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
         const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
@@ -270,23 +282,24 @@ class Simulator {
     }
 }
 
+/* Throw an Error unless a condition holds. */
 function expect(holds, name, value, expected) {
     if (!holds) throw new Error(`${name} is ${told(value)}: expected ${expected}`);
 }
 
-/* A number in SI with its unit. */
+/* Return a number in SI with its unit. */
 function said(x, unit, digits = 6) { return `${Number(x.toPrecision(digits))} ${unit}`.trim(); }
 
-/* A value in a message, whatever it is: of an object its kind, [object Map]. */
+/* Return a value for a message; of an object its kind, such as [object Map]. */
 function told(value) {
     const plain = value === null || typeof value !== "object" || Array.isArray(value);
     return plain ? String(value) : Object.prototype.toString.call(value);
 }
 
-/* Whether names and values can be read from it: a list, a Map or a number would say nothing and be taken. */
+/* Return whether a value is an object with names and values, not a list or a Map. */
 function isMapping(value) { return typeof value === "object" && value !== null && !(Symbol.iterator in value); }
 
-/* Times of samples (s), made as NumPy's linspace makes them, so that they have the same bits. */
+/* Return the times of samples (s), with the same bits as NumPy's linspace. */
 function outputTimes(end, output, given_end) {
     if (typeof output !== "number") {
         const times = Float64Array.from(output), last = times[times.length - 1];

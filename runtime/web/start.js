@@ -1,24 +1,27 @@
 /*
- * The start of a run: q and v of the closed linkage. As in Python C closes it near its guess; where that does not do,
- * the file's start, which Python found by all its means, is followed from the file's numbers to those of the run.
+ * Find the start of a run: q and v of the closed linkage.
+ *
+ * As in Python, C closes the linkage near its guess. If that fails, the file's start, which Python found, is continued
+ * from the file's parameter values to those of the run.
  */
-const FIRST_STEP = 1 / 8, LEAST_STEP = 1e-7; // shares of that way
-const NEAR = 0.2; // rad, or share of the size: tells two assemblies apart (assembly/followed.py); no step goes so far
-const MOST_TRIES = 3000; // steps of that way, some milliseconds each for the largest linkages
+const FIRST_STEP = 1 / 8, LEAST_STEP = 1e-7; // fractions of the path of parameters
+const NEAR = 0.2; // rad, or fraction of the size: largest step; distinguishes two assemblies (assembly/followed.py)
+const MOST_TRIES = 3000; // steps of the continuation, some milliseconds each for the largest linkages
 
-/* The error of a start that a page does not look for any further, as Python does (assembly/start.py). */
+/* Return an error for a start that a page does not search any further, unlike Python (assembly/start.py). */
 function searched(text) { return Object.assign(new Error(text), {searched: true}); }
 
-/* A length or an angle with the unit that people read, any other number in SI. */
+/* Return a length or an angle with a readable unit, any other number in SI. */
 function readably(x, unit, digits) {
     const [factor, shown] = {m: [1e3, "mm"], rad: [180 / Math.PI, "°"]}[unit] ?? [1, unit];
     return `${Number((factor * x).toPrecision(digits))}${shown === "°" ? "" : " "}${shown}`.trim();
 }
 
+/* Search for the start of a simulator's scene. */
 class Start {
     constructor(sim) { Object.assign(this, {sim, lib: sim.lib, about: sim.about, n: sim.n}); }
 
-    /* With the numbers of the run. */
+    /* Return the start at the parameter values of the run. Throws an Error if there is none. */
     find() {
         const {sim, about} = this, own = about.start, now = own && this.follows(sim.p);
         const same = (part) => now[part].every((x, k) => Object.is(x, this.before[part][k]));
@@ -30,7 +33,7 @@ class Start {
         return this.along(near?.gap ?? "", stands);
     }
 
-    /* Near the guess, by C; or `open`, and where. */
+    /* Return the start near the guess, found by C; {open, gap} if the linkage does not close. */
     near(numbers) {
         const {lib, n, sim} = this;
         return within(lib, (memory) => {
@@ -41,7 +44,7 @@ class Start {
         });
     }
 
-    /* The row that is furthest open at q, in words; "" where none is. */
+    /* Return the most violated constraint equation at q as text; "" if all are satisfied. */
     gap(memory, p, q) {
         const {rows, open} = this.about, phi = memory.numbers(rows.length);
         const far = ([x, unit]) => x / (unit === "m" ? this.sim.size : 1);
@@ -53,7 +56,9 @@ class Start {
         return `: the largest gap, ${readably(x, unit, 3)}, is in a row of ${owner}`;
     }
 
-    /* What a start follows from: rows that close and their slopes, the guess; what the velocities follow from. */
+    /*
+     * Return what a start depends on: constraint equations with slopes, the guess, and what the velocities depend on.
+     */
     follows(numbers) {
         const {lib, n} = this, {q, rows, values: [guesses, sets, rates]} = this.about.start;
         return within(lib, (memory) => {
@@ -71,7 +76,7 @@ class Start {
         });
     }
 
-    /* The start that one with other numbers leads to, if it is near: by Newton's steps of C. */
+    /* Return the start for other parameter values if it is near `from`, by Newton steps of C; otherwise null. */
     next(numbers, from) {
         const {lib, n} = this, size = this.sim.sizeOf(numbers);
         return within(lib, (memory) => {
@@ -83,7 +88,7 @@ class Start {
         });
     }
 
-    /* The file's assembly, from the file's numbers on; where the rows stand it is as it was. */
+    /* Return the start by continuation from the file's assembly. Throws an Error if it does not reach the values. */
     along(gap, stands) {
         const {sim} = this, own = this.about.start ?? (this.closed ??= this.near(sim.file));
         let [found, share, step] = [own, 0, stands ? 1 : FIRST_STEP];
@@ -98,7 +103,7 @@ class Start {
         return stands ? {q: Float64Array.from(own.q), v: found.v} : {...found, followed: true};
     }
 
-    /* How far it went. */
+    /* Return the message for a continuation that ended at a fraction of the path. */
     ends(share, gap) {
         const {slots} = this.about, {given, mask, file} = this.sim;
         const moved = slots.filter((slot, k) => mask[k] && !slot.words && given[k] !== file[k]);

@@ -1,20 +1,18 @@
-/*
- * Parts of expressions, as they are written, that are no finite numbers: simplified formulas of C may lack them. Does
- * what runtime/language/defined.py and runtime/model/written.py do.
- */
+/* Return the arguments of a node. */
 const argumentsOf = (tree) => (tree[0] === "curve" ? [tree[2]] : tree.slice(1));
 
+/* Return all names in an expression. */
 function namesOf(tree) {
     if (!Array.isArray(tree)) return typeof tree === "string" ? [tree] : [];
     return argumentsOf(tree).flatMap(namesOf);
 }
 
-/* The argument by which an operator or a function divides. */
+/* Return the index of the argument by which an operator or function divides, otherwise -1. */
 function divisorOf(tree, divides) {
     return tree[0] === "/" || divides.includes(tree[0]) ? tree.length - 2 : -1;
 }
 
-/* The largest parts that known names alone determine, and 1 over each of them that divides. */
+/* Return the largest parts that depend on known names only, and 1 over each of them that is a divisor. */
 function constantParts(tree, known, divides) {
     if (namesOf(tree).every((name) => Object.hasOwn(known, name))) return [tree];
     if (!Array.isArray(tree)) return [];
@@ -23,7 +21,7 @@ function constantParts(tree, known, divides) {
         .map((part) => (k === divisor && part === argument ? ["/", 1, part] : part)));
 }
 
-/* The parts of a constant whose infinity or NaN its value may lack; of a `where` those of the branch that holds. */
+/* Return the parts of a constant whose infinity or NaN may not appear in its value; of a `where` the active branch. */
 function absorbedParts(tree, known, divides) {
     if (!Array.isArray(tree)) return [];
     const [head] = tree;
@@ -40,7 +38,7 @@ function absorbedParts(tree, known, divides) {
     return [...rest, ...rest.flatMap((argument) => absorbedParts(argument, known, divides))];
 }
 
-/* The value of the first part that known names alone determine and that is not finite; undefined: there is none. */
+/* Return the first value of a known part that is not finite, or undefined. */
 function undefinedPart(tree, known, divides) {
     return constantParts(tree, known, divides)
         .flatMap((part) => [part, ...absorbedParts(part, known, divides)])
