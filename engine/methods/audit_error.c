@@ -82,7 +82,7 @@ static double largest_error(const Integrator *run, const Step *step, const doubl
  * Check the local error of a step by the integral of the defect of its dense output u: e = y(t + h) - y(t) - int f(s,
  * u(s)) ds. It uses neither the method's error estimate nor its coefficients. In stiff components u itself has errors:
  * there e is divided by 1 - h J. This also applies to explicit steps near the stability limit. Steps over which a force
- * has another branch, or that were computed in lanes, are omitted.
+ * has another branch, and steps near a singular position, are omitted.
  */
 static void check_length(Integrator *run, Step *step, const Parameters *p)
 {

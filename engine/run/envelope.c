@@ -17,7 +17,8 @@ static void extend_force_envelope(Integrator *run, int i, double t, double F)
 static void extend_path_envelope(Integrator *run, int i, double t, const Clearance *joint)
 {
     double *columns = run->envelope.rows[run->envelope.row].joint[i];
-    if (!(joint->e * joint->e > columns[TRACE_ex_out] * columns[TRACE_ex_out] + columns[TRACE_ey_out] * columns[TRACE_ey_out]))
+    if (!(joint->e * joint->e
+            > columns[TRACE_ex_out] * columns[TRACE_ex_out] + columns[TRACE_ey_out] * columns[TRACE_ey_out]))
         return;
     columns[TRACE_ex_out] = joint->ex;
     columns[TRACE_ey_out] = joint->ey;
