@@ -2,10 +2,10 @@
 #include "cancellation.h"
 #include <time.h>
 
-enum { MAX_POLL_AFTER = 64, MONITOR_TIMES = 3, MIN_DOUBLED_STEPS = 1 << 18 };
+enum { MAX_POLL_AFTER = 64, MAX_SLOW_CHECKS = 3, MIN_DOUBLED_STEPS = 1 << 18 };
 #define MAX_STEPS_LEFT_SLOW 1e8   /* steps left at which a run that became slow is ended */
 #define MAX_STEPS_LEFT 1e11  /* steps left at which any run is ended */
-#define SHORT_STEP_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
+#define MIN_GAIN_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
 /* Return the present time of the clock, s. */
 double seconds_now(void)
@@ -94,7 +94,7 @@ int has_stalled(ProgressMonitor *x, double t, double t_end)
     if (x->steps == 1)
         return 0;
     const double left = steps_left(x, t, t_end);
-    x->crawls = left > MAX_STEPS_LEFT_SLOW && x->gain * (double)x->good < SHORT_STEP_RATIO * x->sum;
+    x->crawls = left > MAX_STEPS_LEFT_SLOW && x->gain * (double)x->good < MIN_GAIN_RATIO * x->sum;
     if (left > MAX_STEPS_LEFT || x->crawls) {
         x->slow = x->gain > 1.1 * before ? 0 : x->slow + 1;
     } else {
@@ -102,7 +102,7 @@ int has_stalled(ProgressMonitor *x, double t, double t_end)
         x->sum += x->gain;
         x->good++;
     }
-    return x->slow >= MONITOR_TIMES;
+    return x->slow >= MAX_SLOW_CHECKS;
 }
 
 /* Return how many of the next calls of has_stalled() only count. */

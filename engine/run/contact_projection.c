@@ -8,7 +8,7 @@ static int project_contacts(
 {
     unsigned char closed[N_RIGID];
     DiscreteState now = run->discrete;
-    without_friction(&now);
+    disable_friction(&now);
     for (int k = 0; k < contacts->n; k++) {
         ContactState *contact = &now.contact[contacts->joint[k]];
         closed[k] = (unsigned char)contact->closed;
@@ -43,7 +43,7 @@ static int project_contacts(
 }
 
 /* Project a state y onto delta = 0 and deltadot = 0 of all closed contacts. */
-static void hold_contacts(Integrator *run, double t, double *y, const Parameters *p)
+static void project_closed_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
     const double none[N_RIGID] = {0.0};
     Delassus contacts;

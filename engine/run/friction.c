@@ -24,7 +24,7 @@ static double friction_indicator(const DiscreteState *discrete, const RhsOutputs
  * Evaluate the right-hand side with the present friction modes. A sticking element whose pivot vanishes is already held
  * by a drive or another sticking element: its force is indeterminate, and it becomes MODE_HELD without force.
  */
-static int rates_of_modes(Integrator *run, const Parameters *p)
+static int evaluate_rates_of_modes(Integrator *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
@@ -44,7 +44,7 @@ static int begin_at_rest(Integrator *run, const Parameters *p)
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
-    const int status = rates_of_modes(run, p);
+    const int status = evaluate_rates_of_modes(run, p);
     if (!status)
         (void)remove_slip_residuals(run, run->t, run->y, &run->rhs, p);
     run->discrete = known;
@@ -93,7 +93,7 @@ static int update_modes(Integrator *run, const Parameters *p)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
     for (int i = 0; i < MAX_TRIES; i++) {
-        const int status = rates_of_modes(run, p);
+        const int status = evaluate_rates_of_modes(run, p);
         if (status || !correct_worst_mode(run))
             return status;
     }
@@ -101,14 +101,14 @@ static int update_modes(Integrator *run, const Parameters *p)
 }
 
 /* Change the mode of each friction element whose event function has reached zero, then update all modes. */
-static int switch_friction(Integrator *run, const Parameters *p)
+static int change_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
         double *mode = &run->discrete.mode[i];
         if (friction_indicator(&run->discrete, &run->rhs, i) > 0.0)
             continue;
-        count_switch(run);
+        count_mode_change(run);
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
             *mode = friction->force > 0.0 ? -1.0 : 1.0;
         else
@@ -164,13 +164,13 @@ static inline int rates_at_rest(Integrator *run, double t, double *y, const Para
 }
 
 /* Leave the state unchanged: the scene has no friction that may stick. */
-static inline void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
+static inline void project_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     (void)run, (void)t, (void)y, (void)p;
 }
 
 /* Return 0: the scene has no friction that may stick. */
-static inline int switch_friction(Integrator *run, const Parameters *p)
+static inline int change_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
