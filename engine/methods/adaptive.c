@@ -106,8 +106,8 @@ static int record_inside_step(Integrator *run, Step *step, double fraction, int 
     if (!run->step_record.rows)
         return 0;
     int status = make_dense(run, p, step);
-    for (int k = !run->step_record.jumped; k < TAPE_PARTS + jumps && !status; k++) {
-        const double s = k == 0 ? offset : k == TAPE_PARTS ? fraction - offset : fraction * k / TAPE_PARTS;
+    for (int k = !run->step_record.jumped; k < RECORD_PARTS + jumps && !status; k++) {
+        const double s = k == 0 ? offset : k == RECORD_PARTS ? fraction - offset : fraction * k / RECORD_PARTS;
         const double t = step->t + s * step->h;
         double now[N_Y];
         if (!(s > 0.0 && s < fraction && t > step->t))

@@ -38,7 +38,7 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
-#define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
+#define WORTH 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
 #define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
@@ -128,7 +128,7 @@ static void choose_method(Integrator *run, const Parameters *p)
 {
     /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
-        && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
+        && run->control.h < WORTH * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.stability;
     const int against = stiff ? stability < SLACK : stability > run->choice.method->bounded || slower;

@@ -48,7 +48,7 @@ static int diagnose_stall(const Integrator *run, int otherwise, const Parameters
         contacts.n = list_closed(&now, contacts.joint);
         if (smooth)
             disable_friction(&now);
-        if (compute_delassus(motion_of_laws, N_Y, run->t, run->y, &now, p, &contacts))
+        if (compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &now, p, &contacts))
             return otherwise;
         solve_part(&contacts, NULL, contacts.r, force[smooth]);
         for (int k = 0; k < contacts.n; k++) {
@@ -70,7 +70,7 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
         RhsOutputs rhs;
         changed = 0;
         count_evaluations(run, 1);
-        if (motion_of_laws(run->t, run->y, &run->discrete, p, dy, &rhs))
+        if (motion_with_inner_states(run->t, run->y, &run->discrete, p, dy, &rhs))
             return; /* the next evaluation reports the status */
         for (int k = 0; k < N_SWITCHES; k++)
             if (run->discrete.branch[k] * rhs.g[k] < 0.0) {
@@ -100,7 +100,7 @@ static int slips_after_impact(Integrator *run, const Delassus *impact, const dou
             y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
     }
     count_evaluations(run, 1);
-    const int status = motion_of_laws(run->t, y, &now, p, dy, &rhs);
+    const int status = motion_with_inner_states(run->t, y, &now, p, dy, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const Clearance *joint = &rhs.clearance[impact->joint[k]];
         slip[k] = joint->v_t;
@@ -121,7 +121,7 @@ static int tangential_response(Integrator *run, const Delassus *impact, int j, c
     RhsOutputs rhs;
     now.contact[impact->joint[j]].along = unit;
     count_evaluations(run, 2);
-    int status = motion_of_laws(run->t, run->y, &now, p, pushed, &rhs);
+    int status = motion_with_inner_states(run->t, run->y, &now, p, pushed, &rhs);
     now.contact[impact->joint[j]].along = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
@@ -129,7 +129,7 @@ static int tangential_response(Integrator *run, const Delassus *impact, int j, c
         friction->velocity[j][i] = (pushed[N_X + i] - base[N_X + i]) / unit;
         y[N_X + i] += friction->velocity[j][i] * unit;
     }
-    status = status ? status : motion_of_laws(run->t, y, &now, p, pushed, &rhs);
+    status = status ? status : motion_with_inner_states(run->t, y, &now, p, pushed, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const int i = impact->joint[k];
         friction->gap_rate[k][j] = (rhs.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
@@ -220,7 +220,7 @@ static int friction_impulses(
     for (int k = 0; k < impact->n; k++)
         run->discrete.contact[impact->joint[k]].force = 0.0;
     count_evaluations(run, 1);
-    int status = motion_of_laws(run->t, run->y, &run->discrete, p, base, &before);
+    int status = motion_with_inner_states(run->t, run->y, &run->discrete, p, base, &before);
     solve_part(impact, pushes, meeting, stop);
     status = status ? status : slips_after_impact(run, impact, stop, unit, p, friction->plastic, none);
     status = status ? status : slips_after_impact(run, impact, impulse, unit, p, friction->after, friction->mu);

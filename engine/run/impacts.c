@@ -52,7 +52,7 @@ static double flight_step_limit(const Integrator *run, const Step *step, const P
 static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
-    return compute_delassus(motion_of_laws, N_Y, run->t, run->y, &run->discrete, p, contacts);
+    return compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
 /*

@@ -9,7 +9,7 @@
  * Evaluate the right-hand side with the inner states of contact laws, for given rigid contact forces. The laws read
  * their inner states from the contact states; the rates of these follow the works in dy. Return 0 or the status.
  */
-static int motion_of_laws(
+static int motion_with_inner_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     show_states(discrete, y);
@@ -35,9 +35,9 @@ static int rates(Integrator *run, double t, const double *y, const Parameters *p
     int joint[N_RIGID];
     const int n = list_closed(&run->discrete, joint);
     count_evaluations(run, n ? n + 1 : 0);
-    return rates_in_contact(motion_of_laws, N_Y, t, y, &run->discrete, p, dy, rhs);
+    return rates_in_contact(motion_with_inner_states, N_Y, t, y, &run->discrete, p, dy, rhs);
 #else
-    return motion_of_laws(t, y, &run->discrete, p, dy, rhs);
+    return motion_with_inner_states(t, y, &run->discrete, p, dy, rhs);
 #endif
 }
 
