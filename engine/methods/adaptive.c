@@ -5,8 +5,8 @@
 enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just after an event */ };
 
 /*
- * Set signs of user-defined events that were held at zero before a step and are again from its end on, held by friction
- * or a contact: the signs of their values inside the step.
+ * Set the signs of user-defined events that are at zero before and after a step, held by friction or a contact, from
+ * their values inside the step.
  */
 static void update_event_signs_inside(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {

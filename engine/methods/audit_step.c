@@ -21,7 +21,7 @@
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /*
- * Return the defect of rates `rate` against `dy` at a state y of a step, in multiples of its limit, 0 if it is not the
+ * Return the defect of rates `rate` against `dy` at a state y of a step in multiples of its limit, 0 if it is not the
  * largest so far. A stiff component within its tolerance may have any rate: there h times the difference is divided by
  * 1 - h J.
  */

@@ -35,8 +35,8 @@ static double largest_film_force(const RhsOutputs *rhs, int *where)
 
 /*
  * Return the relative error of film forces from the accelerations `dy` of a state and `rate` of the dense output there.
- * The difference is divided by the acceleration that a film force `most` (N) gives the lightest body, or by `part` of
- * the largest acceleration of its kind, if larger. Rounding of velocities over short steps is subtracted.
+ * The scale is the acceleration of the lightest body by a film force `most` (N), or `part` of the largest acceleration
+ * of its kind, if larger. Rounding of velocities over short steps is subtracted.
  */
 static double relative_film_error(const Integrator *run, const Step *step, const double *rate, const double *dy,
     double most, double part)

@@ -121,7 +121,7 @@ static int can_close(Integrator *run, int open, double t, const double *y, const
 
 /*
  * Start the next step with the length that fitted after the previous event of this kind, *known (s, 0: none yet), which
- * that step then updates. rough: order of the error of such a step, 0: that of the method.
+ * that step then updates. first_step_order: order of the error of such a step, 0: that of the method.
  */
 static void set_first_length(Integrator *run, double *known, double first_step_order)
 {
@@ -194,7 +194,7 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
     project_if_needed(run, step->t + step->h, step->y, p);
     const double missed = distance_from_rows(run, before, step->y);
     if (missed > max_of(FAR_FROM_ROWS, CONSTRAINT_ROUNDING / tolerance_of(run)) && run->counts.steps > 0
-        && run->control.attempt.strayed++ < MAX_STRAYED)
+        && run->control.attempt.n_strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
     project_closed_contacts(run, step->t + step->h, step->y, p);
     const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);

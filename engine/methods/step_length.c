@@ -1,10 +1,10 @@
 /*
  * Step-size control, and the choice between the explicit and the stiff method.
  *
- * After a step with the error e, in tolerances, and one with the error e' before it, the next length is h SAFETY
- * e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power), power = 1 / (order of the estimate + 1). This is the PI
- * controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer, G. Wanner, Solving
- * ODEs II (1996), section IV.2. Gustafsson recommends the exponents 0.7 and 0.4 for explicit methods.
+ * After a step with the error e, in tolerances, and one with the error e' before it, the next length is
+ *     h SAFETY e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power),   power = 1 / (order of the estimate + 1).
+ * This is the PI controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer,
+ * G. Wanner, Solving ODEs II (1996), section IV.2. Gustafsson recommends 0.7 and 0.4 for explicit methods.
  *
  * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
  * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
@@ -230,7 +230,7 @@ static void next_length(Integrator *run, const Step *step, int again, int whole)
 }
 
 /*
- * Return a step length h, shortened to end just after the separation of a contact if h would reach beyond. The force is
+ * Return a step length h, n_shortened to end just after the separation of a contact if h would reach beyond. The force is
  * not smooth there. The time to separation follows from penetration and rate.
  */
 static double limit_by_separation(const Integrator *run, double h)
@@ -358,14 +358,14 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
         return retry_step(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
-    if (good && (unresolved || has_wrong_film_force(run, step, at_ends)) && now->shortened++ < MAX_SHORTENED) {
+    if (good && (unresolved || has_wrong_film_force(run, step, at_ends)) && now->n_shortened++ < MAX_SHORTENED) {
         now->again = 1;
         count_rejected(run);
         now->h *= SHRINK_UNRESOLVED;
         return retry_step(run);
     }
     const double transient = good && now->h > MIN_TRANSIENT_FRACTION * now->far ? missed_transient(run, step, p) : 0.0;
-    if (transient > 0.0 && now->shortened++ < MAX_SHORTENED) {
+    if (transient > 0.0 && now->n_shortened++ < MAX_SHORTENED) {
         now->again = 1;
         count_rejected(run);
         now->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);

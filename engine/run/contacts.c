@@ -154,7 +154,7 @@ static int begin_contacts_of_start(Integrator *run, const Parameters *p)
         const Clearance *now = &run->rhs.clearance[i];
         const int closed = run->discrete.contact[i].closed;
         const int touches = now->delta >= 0.0 && (now->delta > -penetration_rounding(p, i) || now->deltadot > 0.0);
-        if (!gives(i)) /* these begin and end where they are located (impacts.c) */
+        if (!gives(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!closed && touches)
             close_joint(run, i, run->t, fabs(now->deltadot), slowest_impact(p, i));

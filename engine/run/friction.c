@@ -35,7 +35,7 @@ static int evaluate_rates_of_modes(Integrator *run, const Parameters *p)
 }
 
 /*
- * Set the slip of elements that stick or start to slip to exactly zero where modes change, so that rounding does not
+ * Set the slip of elements that stick or start to slip to exactly zero where modes change. Otherwise rounding would
  * decide the next mode.
  */
 static int begin_at_rest(Integrator *run, const Parameters *p)

@@ -1,9 +1,9 @@
 /*
  * Impacts and closed contacts of rigid surfaces with Newton's restitution. Velocities jump where a gap closes; a closed
- * contact lasts until its force is zero. All contacts of one time are solved together as one linear complementarity
- * problem (scene/contact_forces.h), for impulses (r = u + e u, u the approach rate) and for forces (r = delta''). J. J.
- * Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral
- * Contacts (1996).
+ * contact lasts until its force is zero. One linear complementarity problem (scene/contact_forces.h) determines all
+ * contacts of one time: impulses (r = u + e u, u the approach rate) and forces (r = delta'').
+ * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
+ * Unilateral Contacts (1996).
  */
 #if N_RIGID
 #define TOUCHING 1e-10 /* times the clearance: surfaces with a smaller gap touch */

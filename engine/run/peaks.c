@@ -9,7 +9,7 @@ enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the
 #define MIN_PEAK_TOL 1e-10
 #define MAX_PEAK_TOL 1e-5
 
-/* Record the force F (N) of joint i at time t (s) in the envelope and in the peaks of the run and of its contact. */
+/* Record the force F (N) of joint i at time t (s) in the envelope and the peaks of run and contact. */
 static void record_force(Integrator *run, int i, double t, double F)
 {
     if (run->envelope.rows)

@@ -31,8 +31,8 @@ static double gap_rounding(const Integrator *run, const Parameters *p)
 
 /*
  * Return the separation speed in m/s up to which contact i closes: v_0, or that of a bounce too low or too short to be
- * resolved. An impact located with an error in gap g or time t adds 2 a g, or 2 a u t, to u^2, with the acceleration a.
- * That must be less than the (1 - e^2) u^2 that is lost.
+ * resolved. An error of an impact in gap g or time t adds 2 a g or 2 a u t to u^2, a being the acceleration. That must
+ * be less than the (1 - e^2) u^2 that is lost.
  */
 static double closing_speed_limit(const Integrator *run, const Parameters *p, int i, double gap)
 {

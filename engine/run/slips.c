@@ -6,8 +6,8 @@
 #define MAX_RESIDUAL_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
 /*
- * Return the change of the rate of slip i, and in dy of all rates, when its friction force changes from +1 to -1 factor
- * the limit. 0: the change is not known.
+ * Return the change of the rate of slip i when its friction force reverses (mode 1 to -1), and in dy that of all rates.
+ * 0: the change is unknown.
  */
 static double slip_response(Integrator *run, double t, const double *y, int i, const Parameters *p, double *dy)
 {
