@@ -230,7 +230,7 @@ static void next_length(Integrator *run, const Step *step, int again, int whole)
 }
 
 /*
- * Return a step length h, n_shortened to end just after the separation of a contact if h would reach beyond. The force is
+ * Return a step length h, shortened to end just after the separation of a contact if h would reach beyond. The force is
  * not smooth there. The time to separation follows from penetration and rate.
  */
 static double limit_by_separation(const Integrator *run, double h)

@@ -121,7 +121,7 @@ typedef struct {
     double far, refused;             /* s: magnitude of the times; length of the last rejected attempt */
     double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
     int open, lane, again;           /* whether attempts go on; method in lanes; whether an attempt was rejected */
-    int n_shortened, n_strayed, methods_failed; /* attempts unresolved, or far from the constraints; both methods failed */
+    int n_shortened, n_strayed, methods_failed; /* attempts unresolved, or off the constraints; both failed */
 } Attempt;
 
 /* Destination of the samples of a run: n times t (s), rows of states, discrete states and codes, number stored. */
