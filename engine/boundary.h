@@ -94,8 +94,8 @@ enum TapeColumn { TAPE_JUMPED, TAPE_T, N_TAPE_HEAD };
 
 /* Columns of each joint with play in a row of the envelope; the row begins with its time. */
 enum TraceColumn {
-    TRACE_F_low, TRACE_t_F_low, TRACE_F_high, TRACE_t_F_high, TRACE_ex_out, TRACE_ey_out, TRACE_t_out, TRACE_ex,
-    TRACE_ey, N_TRACE_COLUMNS
+    TRACE_F_low, TRACE_t_F_low, TRACE_F_high, TRACE_t_F_high, TRACE_ex_out, TRACE_ey_out,
+    TRACE_t_out, TRACE_ex, TRACE_ey, N_TRACE_COLUMNS
 };
 
 /* Works that are integrated with the state: of drives, of force elements, of joints with play. */

@@ -95,7 +95,8 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
             return;
-    if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE || make_dense(run, p, step))
+    if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE
+        || make_dense(run, p, step))
         return; /* the first step projects a start that violates the constraints */
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {

@@ -8,7 +8,8 @@ static int set_initial_branches(Integrator *run, const Parameters *p)
         int zeros = 0;
         for (int i = 0; i < N_USER_EVENTS; i++)
             zeros |= run->discrete.event_sign[i] == 0;
-        const int status = zeros ? events_ahead(run, run->t, fraction * run->control.h, run->y, run->dy, p, value) : 0;
+        const double ahead = fraction * run->control.h; /* s */
+        const int status = zeros ? events_ahead(run, run->t, ahead, run->y, run->dy, p, value) : 0;
         if (status || !zeros)
             return fraction > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)

@@ -48,7 +48,8 @@ typedef struct {
 /* Return the values number k, an event function or SEEN_..., of all stages of a step. */
 static StageValues stage_values(const Step *step, int k)
 {
-    return step->seen_lane ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
+    return step->seen_lane
+        ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
         : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_SEEN)};
 }
 

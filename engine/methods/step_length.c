@@ -373,7 +373,8 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
     }
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
-        *status = note_short_step(run, now->h < SHORT_STEP * now->far) ? diagnose_stall(run, TOO_SMALL, p) : 0;
+        const int is_short = now->h < SHORT_STEP * now->far;
+        *status = note_short_step(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;

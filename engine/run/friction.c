@@ -158,7 +158,8 @@ static inline double friction_indicator(const DiscreteState *discrete, const Rhs
 }
 
 /* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. */
-static inline int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
+static inline int rates_at_rest(
+    Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return rates(run, t, y, p, dy, rhs);
 }

@@ -175,11 +175,11 @@ static void find_largest_eccentricity(Integrator *run, Step *step, double fracti
         const double round = low.e - outward_coordinate(&low); /* 0 without a contour */
         const double s = from
             + (to - from)
-                * cubic_top(outward_coordinate(&low), h * low.deltadot, outward_coordinate(&high), h * high.deltadot,
-                    &top);
+                * cubic_top(outward_coordinate(&low), h * low.deltadot,
+                    outward_coordinate(&high), h * high.deltadot, &top);
         RhsOutputs rhs;
-        if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i]) || make_dense(run, p, step)
-            || play_in(run, step, s, p, &rhs))
+        if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i])
+            || make_dense(run, p, step) || play_in(run, step, s, p, &rhs))
             return;
         const Clearance *now = &rhs.clearance[i];
         if (run->envelope.rows)
@@ -314,7 +314,8 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
     for (int i = 0; i < N_CLEARANCES; i++) {
         const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was zero in between */
         const int near = trends[i] != LOW, falls = near && trends[i] < 0;
-        if (near && (((falls || turned) && run->contacts.is_rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
+        if (near && (((falls || turned) && run->contacts.is_rising[i]) || arches[i])
+            && make_dense(run, p, step) == 0)
             find_inner_peak(run, step, fraction, i, before[i], after[i], p);
         set_rising(run, i, !falls);
     }

@@ -64,7 +64,8 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
 }
 
 /* Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. */
-static int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
+static int rates_at_rest(
+    Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     const int status = rates(run, t, y, p, dy, rhs);
     return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);

@@ -85,8 +85,8 @@ static int record_crossed_events(Integrator *run, const double *before, const Pa
 /*
  * Evaluate the user-defined event functions `ahead` seconds after a state, along its rates; 0 below their uncertainty.
  */
-static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy, const Parameters *p,
-    double *value)
+static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy,
+    const Parameters *p, double *value)
 {
     double there[N_Y], scrap[N_Y];
     RhsOutputs rhs;
