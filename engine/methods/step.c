@@ -109,8 +109,8 @@ static void record_stage_state(Step *step, const double *y)
  * Compute the corrections dq, dv that close the constraints at a state, if `open`. *worst: the largest residual. Return
  * whether the corrections are finite.
  */
-static int can_close(Integrator *run, int open, double t, const double *y, const Parameters *p, double *dq, double *dv,
-    double *worst)
+static int can_close(Integrator *run, int open, double t, const double *y, const Parameters *p,
+    double *dq, double *dv, double *worst)
 {
     return open && !closing_of_state(t, y, &run->discrete, p, dq, dv, worst) && all_finite(dq, N_X)
         && all_finite(dv, N_X);
