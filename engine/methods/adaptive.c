@@ -150,7 +150,7 @@ static int repeat_step(
     set_length(run, h);
     open_attempt(run, t_end, p);
     run->discrete.held = 1;
-    const int status = accepted_step(run, p, step);
+    const int status = find_accepted_step(run, p, step);
     if (!status)
         *fraction = first_event(run, step, p, event);
     return status;
@@ -303,7 +303,7 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
     relink_choice(run);
     run->step.method = local_method(run->step.method);
     for (long i = 0; needs_step(run, i == limit, p, &out, &status); i++) {
-        status = accepted_step(run, p, &run->step);
+        status = find_accepted_step(run, p, &run->step);
         if (!status)
             status = accept_step(run, p, &out);
         if (status)

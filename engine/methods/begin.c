@@ -123,7 +123,7 @@ static int begin_adaptive(Integrator *run, double left, const Parameters *p)
     if (!status)
         status = start_just_after(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
-        status = initial_step(run, left, p);
+        status = estimate_initial_step(run, left, p);
         if (!status && is_starting_in_contact(run)) { /* the contact force may have just begun: as at an onset */
             set_first_length(run, &run->control.after_contact[count_closed(run)][0], ONSET_ORDER);
             status = first_step_after_event(run, left, p);

@@ -89,7 +89,7 @@ static double relative_film_error_at(Integrator *run, const Step *step, double t
  * Return the error of film forces inside a step in multiples of its limit, at the fraction where the dense output has
  * its largest error. A velocity within the tolerance, times the damping of a thin film, may give any force.
  */
-static double film_error(Integrator *run, Step *step, const Parameters *p)
+static double measure_film_error(Integrator *run, Step *step, const Parameters *p)
 {
     int where;
     const double ends = max_of(largest_film_force(&step->rhs, &where), largest_film_force(&run->rhs, &where));
@@ -117,7 +117,7 @@ static int has_wrong_film_force_at(Integrator *run, const Step *step, double fra
  * Compute the rates of velocities of a stiff method's dense output at an end of a step. weight: of its n stages;
  * of_end: of y - y0.
  */
-static void rates_at_end(
+static void compute_end_rates(
     const Integrator *run, const Step *step, const double *weight, int n, double of_end, double *rate)
 {
     const double *k = step->stages_lane ? step->stages_lane : step->k[0];
@@ -136,8 +136,8 @@ enum { FILM_STEPS = 16 /* steps between two measurements */ };
 
 /*
  * Return the error of film forces at the ends of a step in multiples of the limit, without a right-hand side. At the
- * beginning it is the error of the dense output, at the end that of the iteration of velocities. film_error() was
- * observed to be up to 37 times as large, for errors far below the limit.
+ * beginning it is the error of the dense output, at the end that of the iteration of velocities. measure_film_error()
+ * was observed to be up to 37 times as large, for errors far below the limit.
  */
 static double film_error_at_ends(const Integrator *run, const Step *step, double part)
 {
@@ -147,10 +147,10 @@ static double film_error_at_ends(const Integrator *run, const Step *step, double
     if (!method->stiff || !has_films())
         return 0.0;
     const double most = largest_film_force(&step->rhs, &where);
-    rates_at_end(run, step, method->begins, method->n_begin_weights, method->begin_weight_of_end, rate);
+    compute_end_rates(run, step, method->begins, method->n_begin_weights, method->begin_weight_of_end, rate);
     double fraction = relative_film_error(run, step, rate, run->dy, most, part);
     if (method->n_end_weights) {
-        rates_at_end(run, step, method->ends, method->n_end_weights, method->end_weight_of_end, rate);
+        compute_end_rates(run, step, method->ends, method->n_end_weights, method->end_weight_of_end, rate);
         fraction = max_of(fraction, relative_film_error(run, step, rate, step->dy, most, part));
     }
     return fraction / film_limit(run);

@@ -18,7 +18,7 @@ enum { MAX_FITTED = 3 };
  * Estimate the length of the first step of a run from the sizes of the first two derivatives of the motion. left: time
  * to the end, s. Return 0 or the status.
  */
-static int initial_step(Integrator *run, double left, const Parameters *p)
+static int estimate_initial_step(Integrator *run, double left, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
     RhsOutputs rhs;
@@ -42,7 +42,7 @@ static int initial_step(Integrator *run, double left, const Parameters *p)
  * Compute the change of accelerations over a time h (s) of straight motion, and their size, in velocity tolerances per
  * s.
  */
-static int acceleration_change(Integrator *run, double h, const Parameters *p, double *change, double *size)
+static int compute_acceleration_change(Integrator *run, double h, const Parameters *p, double *change, double *size)
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
@@ -59,8 +59,7 @@ static int acceleration_change(Integrator *run, double h, const Parameters *p, d
 
 /*
  * Return the factor by which a step of length h must change to fit. fits: allowed error; change, size: of the
- * accelerations (acceleration_change). At an onset the error grows as h^(first_step_order - 1), as forces begin as
- * delta^n. Elsewhere accelerations change in proportion to h, and changes below one tolerance do not count.
+ * accelerations. At an onset the error grows as h^(first_step_order - 1), as forces begin as delta^n. Elsewhere accelerations change in proportion to h, and changes below one tolerance do not count.
  */
 static double length_ratio(const Integrator *run, double h, double change, double size, double fits)
 {
@@ -92,7 +91,7 @@ static int first_step_after_event(Integrator *run, double left, const Parameters
     for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
         const double h = min_of(run->control.h, left);
         double change, size, by = FIT_FAILED;
-        const int status = acceleration_change(run, h, p, &change, &size);
+        const int status = compute_acceleration_change(run, h, p, &change, &size);
         if (status == STOPPED)
             return status;
         if (!status && isfinite(change + size)) {

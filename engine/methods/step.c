@@ -18,7 +18,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
         return discrete->branch[k] * rhs->g[k];
     k -= N_SWITCHES;
     if (k < N_FRICTIONS)
-        return friction_indicator(discrete, rhs, k);
+        return friction_event_function(discrete, rhs, k);
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 

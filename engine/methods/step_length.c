@@ -336,7 +336,7 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
     const int fits = !tried && step->error <= run->control.accept;
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
     if (fits && !is_film_error_small(run, step, at_ends)) {
-        const double error = film_error(run, step, p);
+        const double error = measure_film_error(run, step, p);
         if (!(error > FILM_ERROR_RATIO * now->film_error_norm)) /* not rounding */
             step->error = max_of(step->error, error);
         now->film_error_norm = error > run->control.accept ? error : INFINITY;
@@ -415,7 +415,7 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
 static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
 /* Try steps until one is accepted; return 0 or the status. */
-static int accepted_step(Integrator *run, const Parameters *p, Step *step)
+static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;
     while (!is_step_accepted(run, try_step(run, p, step), p, step, &status))

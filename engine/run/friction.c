@@ -1,6 +1,6 @@
 /*
  * Friction that may stick: its modes, and their changes at events. A step ends where the slip reaches zero or the force
- * of stick reaches its limit: at the zero of friction_indicator() on the step.
+ * of stick reaches its limit: at the zero of friction_event_function() on the step.
  */
 #if N_FRICTIONS
 #define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
@@ -10,7 +10,7 @@ enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
  * Return the event function of friction element i, positive while its mode lasts: static limit minus |force| in stick
  * (N), slip in its direction otherwise (m/s).
  */
-static double friction_indicator(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     const Friction *friction = &rhs->friction[i];
     if (discrete->mode[i] == MODE_HELD)
@@ -106,7 +106,7 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
         double *mode = &run->discrete.mode[i];
-        if (friction_indicator(&run->discrete, &run->rhs, i) > 0.0)
+        if (friction_event_function(&run->discrete, &run->rhs, i) > 0.0)
             continue;
         count_mode_change(run);
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
@@ -137,7 +137,7 @@ static int begin_friction(Integrator *run, const Parameters *p)
 static int update_friction_modes(Integrator *run, const Parameters *p) { return update_modes(run, p); }
 
 /* Set the friction modes after an impact: an element that the impact moves slips. */
-static int modes_after_impact(Integrator *run, const Parameters *p)
+static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     const int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && !status; i++) {
@@ -151,7 +151,7 @@ static int modes_after_impact(Integrator *run, const Parameters *p)
 
 #else
 /* Return a positive value: the scene has no friction that may stick. */
-static inline double friction_indicator(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static inline double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     (void)discrete, (void)rhs, (void)i;
     return 1.0;
@@ -193,7 +193,7 @@ static inline int update_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /* Return 0: the scene has no friction modes that an impact changes. */
-static inline int modes_after_impact(Integrator *run, const Parameters *p)
+static inline int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;

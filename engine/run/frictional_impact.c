@@ -84,7 +84,7 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
  * Compute the slips (m/s) after normal impulses, and mu = F_t/F_n of the friction laws there, 0 without an impulse.
  * unit: a normal force in N at which the laws are evaluated.
  */
-static int slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
+static int compute_slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
     const Parameters *p, double *slip, double *mu)
 {
     double y[N_Y], dy[N_Y];
@@ -113,7 +113,7 @@ static int slips_after_impact(Integrator *run, const Delassus *impact, const dou
  * Compute the response of gap rates, slips and velocities to a unit tangential impulse in contact j (columns of
  * `friction`).
  */
-static int tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
+static int compute_tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
     const RhsOutputs *before, double unit, const Parameters *p, FrictionImpulses *friction)
 {
     double pushed[N_Y], y[N_Y];
@@ -204,7 +204,7 @@ static void solve_friction_impulses(const Delassus *impact, const double *impuls
  * Compute the tangential impulses of an impact and update the normal impulses. meeting: approach speeds, m/s. Return 0
  * or the status of the motion.
  */
-static int friction_impulses(
+static int compute_friction_impulses(
     Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p,
     FrictionImpulses *friction)
 {
@@ -222,14 +222,14 @@ static int friction_impulses(
     count_evaluations(run, 1);
     int status = motion_with_inner_states(run->t, run->y, &run->discrete, p, base, &before);
     solve_part(impact, pushes, meeting, stop);
-    status = status ? status : slips_after_impact(run, impact, stop, unit, p, friction->plastic, none);
-    status = status ? status : slips_after_impact(run, impact, impulse, unit, p, friction->after, friction->mu);
+    status = status ? status : compute_slips_after_impact(run, impact, stop, unit, p, friction->plastic, none);
+    status = status ? status : compute_slips_after_impact(run, impact, impulse, unit, p, friction->after, friction->mu);
     for (int j = 0; j < impact->n && !status; j++) {
         double column[N_RIGID], more[N_RIGID];
         friction->before[j] = before.clearance[impact->joint[j]].v_t;
         if (friction->mu[j] <= 0.0)
             continue;
-        status = tangential_response(run, impact, j, base, &before, unit, p, friction);
+        status = compute_tangential_response(run, impact, j, base, &before, unit, p, friction);
         for (int k = 0; k < impact->n; k++)
             column[k] = friction->gap_rate[k][j];
         solve_part(impact, pushes, column, more);
@@ -277,7 +277,7 @@ static inline int diagnose_stall(const Integrator *run, int otherwise, const Par
 static inline void update_slip_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
 
 /* Return 0: the scene has no friction between rigid surfaces. */
-static inline int friction_impulses(
+static inline int compute_friction_impulses(
     Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p,
     FrictionImpulses *friction)
 {

@@ -109,7 +109,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int pass, int li
     disable_friction(&run->discrete);
     int status = struck ? compute_present_delassus(run, p, &impact) : 0;
     status = !status && struck ? complementary(&impact, r, impulse) : status;
-    status = !status && struck ? friction_impulses(run, &impact, meeting, impulse, p, &friction) : status;
+    status = !status && struck ? compute_friction_impulses(run, &impact, meeting, impulse, p, &friction) : status;
     run->discrete = known;
     if (status || !struck)
         return status;
@@ -123,7 +123,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int pass, int li
             status = list_impact(run, &bounce, pass >= LISTED_PASSES, !known.contact[i].closed);
         *approach += impulse[k] * u;
     }
-    return status ? status : modes_after_impact(run, p);
+    return status ? status : update_modes_after_impact(run, p);
 }
 
 /*
