@@ -59,7 +59,8 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
 
 /*
  * Return the factor by which a step of length h must change to fit. fits: allowed error; change, size: of the
- * accelerations. At an onset the error grows as h^(first_step_order - 1), as forces begin as delta^n. Elsewhere accelerations change in proportion to h, and changes below one tolerance do not count.
+ * accelerations. At an onset the error grows as h^(first_step_order - 1), as forces begin as delta^n. Elsewhere
+ * accelerations change in proportion to h, and changes below one tolerance do not count.
  */
 static double length_ratio(const Integrator *run, double h, double change, double size, double fits)
 {
