@@ -12,20 +12,27 @@
  */
 enum Status {
     NEWTON_FAILED = -1, /* kinematic analysis: Newton's method found no position */
-    NOT_FINITE = -2,
+    NOT_FINITE = -2,    /* a state or rate is not finite */
     EVENTS_FULL = -3,   /* the caller must fetch the lists of events and contacts before the run resumes */
-    CHATTERING = -4, TOO_SMALL = -5, LOST = -6,
+    CHATTERING = -4,    /* events, impacts or modes change without an end at one time */
+    TOO_SMALL = -5,     /* step size underflow */
+    LOST = -6,          /* a free journal or slider is outside its walls: contact detection failed */
     ENDED = -7,         /* a user-defined event ended the run */
     OUTSIDE = -8,       /* a penetration exceeds the range of validity of its contact law */
     NOT_CLOSED = -9,    /* Python must compute the start of this run of a batch */
     STOPPED = -10,      /* the caller requested cancellation */
-    STALLED = -11, UNBOUNDED = -12, FRICTION_INCONSISTENT = -13, NOT_FOUND = -14, AUDITED = -15,
+    STALLED = -11,      /* time no longer advances */
+    UNBOUNDED = -12,    /* the second rate of a drive is unbounded, with fixed steps */
+    FRICTION_INCONSISTENT = -13, /* no consistent contact force exists (Painleve) */
+    NOT_FOUND = -14,    /* the iteration of the stages did not converge */
+    AUDITED = -15,      /* a check of the audit failed */
     EVENT_STOPS = 1     /* of gudgeon_kinematic_events: an event ends the run */
 };
 
-/* Phases of a run in a batch, and the results of a call that advances the runs of a batch. */
+/* Phases of a run in a batch. */
 enum RunPhase { NEW, BEGUN, OVER };
-/* Result of a call that advances a batch: all runs ended, lists are full, one run ended, or more to do. */
+
+/* Results of a call that advances the runs of a batch: all ended, lists are full, one ended, or more to do. */
 enum BatchResult { ALL_OVER, LISTS, RUN_OVER, GOES_ON };
 
 /* Contact code of a joint with play in a sample: an impact lasts until the penetration first stops growing. */
@@ -94,8 +101,8 @@ enum TapeColumn { TAPE_JUMPED, TAPE_T, N_TAPE_HEAD };
 
 /* Columns of each joint with play in a row of the envelope; the row begins with its time. */
 enum TraceColumn {
-    TRACE_F_low, TRACE_t_F_low, TRACE_F_high, TRACE_t_F_high, TRACE_ex_out, TRACE_ey_out, TRACE_t_out, TRACE_ex,
-    TRACE_ey, N_TRACE_COLUMNS
+    TRACE_F_low, TRACE_t_F_low, TRACE_F_high, TRACE_t_F_high, TRACE_ex_out, TRACE_ey_out,
+    TRACE_t_out, TRACE_ex, TRACE_ey, N_TRACE_COLUMNS
 };
 
 /* Works that are integrated with the state: of drives, of force elements, of joints with play. */

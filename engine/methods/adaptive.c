@@ -5,8 +5,8 @@
 enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just after an event */ };
 
 /*
- * Set signs of user-defined events that were held at zero before a step and are again from its end on, held by friction
- * or a contact: the signs of their values inside the step.
+ * Set the signs of user-defined events that are at zero before and after a step, held by friction or a contact, from
+ * their values inside the step.
  */
 static void update_event_signs_inside(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -37,7 +37,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     int status = fraction < 1.0 ? state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
-    inner_peaks(run, step, fraction, p);
+    find_inner_peaks(run, step, fraction, p);
     flip_ignored_branches(run, step);
     note_works(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
@@ -45,18 +45,18 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
         run->dy[k] = step->dy[k];
     }
     run->rhs = step->rhs;
-    set_last_step(run, t_new - run->t);
+    set_last_length(run, t_new - run->t);
     record_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
     run->t = t_new;
     count_step(run, !!step->method->stiff);
-    forget_linear(run);
-    forget_series(run);
+    discard_linearization(run);
+    discard_series(run);
     note_speed(run);
     update_error_weights(run);
     for (int i = 0; i < N_CLEARANCES; i++)
         note_turn(run, i, run->rhs.clearance[i].deltadot);
     const double drift = run->residuals.phi_dot_max; /* at a jump of a drive, rates are those before the impulse */
-    status = watch(run, p);
+    status = record_accepted_state(run, p);
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */
@@ -70,7 +70,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
 }
 
 /* Return the time difference in s within which a sample is at the end t of a fixed step: both are rounded products. */
-static double rounded_end(const Integrator *run, double t)
+static double end_time_rounding(const Integrator *run, double t)
 {
     return run->control.fixed > 0.0 ? rounded(t, run->control.fixed) : 0.0;
 }
@@ -87,7 +87,7 @@ static int sample_step(Integrator *run, Step *step, double t_new, const Paramete
             return status;
         interpolate(run, step, (t - step->t) / step->h, now);
         project_state(run, t, now, p);
-        hold_slips(run, t, now, p);
+        project_slips(run, t, now, p);
         store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
     }
     restore_evaluations(run, evaluations); /* samples are output, not integration */
@@ -106,8 +106,8 @@ static int record_inside_step(Integrator *run, Step *step, double fraction, int 
     if (!run->step_record.rows)
         return 0;
     int status = make_dense(run, p, step);
-    for (int k = !run->step_record.jumped; k < TAPE_PARTS + jumps && !status; k++) {
-        const double s = k == 0 ? offset : k == TAPE_PARTS ? fraction - offset : fraction * k / TAPE_PARTS;
+    for (int k = !run->step_record.jumped; k < RECORD_PARTS + jumps && !status; k++) {
+        const double s = k == 0 ? offset : k == RECORD_PARTS ? fraction - offset : fraction * k / RECORD_PARTS;
         const double t = step->t + s * step->h;
         double now[N_Y];
         if (!(s > 0.0 && s < fraction && t > step->t))
@@ -131,31 +131,33 @@ static void record_step_end_state(Integrator *run, int jumped, int is_last, cons
         record_state(run, run->t, run->y, p);
 }
 
+/* Whether the scene has periodic functions (mod). */
 #ifndef PERIODS
 #define PERIODS 0
 #endif
 #define NEAR_END 1.02 /* times the fraction of the event: length of a repeated step that ends just after it */
 #define PERIOD_END 1.1 /* the same for scenes with periodic functions */
+/* Whether the scene has curves with knots. */
 #ifndef KNOTS
 #define KNOTS 0
 #endif
 #define KNOT_REACH 0.4 /* of a piece of a curve: it is extrapolated this far beyond its knot (scene/curves.h) */
 
 /* Repeat a step with length h (s), and find its first event. Return 0 or the status. */
-static int step_again(
+static int repeat_step(
     Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
 {
     set_length(run, h);
     open_attempt(run, t_end, p);
     run->discrete.held = 1;
-    const int status = accepted_step(run, p, step);
+    const int status = find_accepted_step(run, p, step);
     if (!status)
         *fraction = first_event(run, step, p, event);
     return status;
 }
 
 /* Return whether the dense output of a step is needed, for an event or a sample, and cannot be computed. */
-static int lacks_dense(Integrator *run, Step *step, const Parameters *p, const Samples *out)
+static int is_dense_output_missing(Integrator *run, Step *step, const Parameters *p, const Samples *out)
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
     const int needed = step->dense_ready == FAILED || out->t[*out->done] < step->t + step->h;
@@ -168,7 +170,7 @@ static int lacks_dense(Integrator *run, Step *step, const Parameters *p, const S
  * Return whether a step extends so far beyond a knot at `fraction` that it may have evaluated another piece of the
  * curve.
  */
-static int reaches_far(const Integrator *run, const Step *step, double fraction)
+static int is_far_beyond_knot(const Integrator *run, const Step *step, double fraction)
 {
     const double piece = step->t + fraction * step->h - run->roots.t_crossed;
     return KNOTS && (1.0 - fraction) * step->h > KNOT_REACH * piece;
@@ -180,22 +182,23 @@ static int reaches_far(const Integrator *run, const Step *step, double fraction)
  * beyond a knot of a curve; steps whose film forces are wrong at the event. A step without dense output is repeated
  * with a shorter length. Return 0 or the status.
  */
-static int event_of_step(
+static int find_event_of_step(
     Integrator *run, const Samples *out, const Parameters *p, Step *step, double *fraction, int *event)
 {
     const double t_end = out->t[out->n - 1], longer = PERIODS ? PERIOD_END : NEAR_END;
     const int free = run->control.fixed <= 0.0;
     int status = 0;
     *fraction = first_event(run, step, p, event);
-    for (int k = 0; k < MAX_SHORTENED && !status && free && lacks_dense(run, step, p, out); k++)
-        status = step_again(run, 0.25 * step->h, t_end, p, step, fraction, event);
+    for (int k = 0; k < MAX_SHORTENED && !status && free && is_dense_output_missing(run, step, p, out); k++)
+        status = repeat_step(run, 0.25 * step->h, t_end, p, step, fraction, event);
     for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && longer * *fraction < 1.0; k++) {
         const double next = run->control.h, h = longer * *fraction * step->h;
         if (h <= run->roots.time_resolution)
             break; /* the event is at the beginning of the step, where constraints do not differ */
-        if (free && !PERIODS && !reaches_far(run, step, *fraction) && !misses_film_at(run, step, *fraction, p))
+        if (free && !PERIODS && !is_far_beyond_knot(run, step, *fraction)
+            && !has_wrong_film_force_at(run, step, *fraction, p))
             break; /* a fixed step is repeated: its dense output may be of low order */
-        status = step_again(run, h, t_end, p, step, fraction, event);
+        status = repeat_step(run, h, t_end, p, step, fraction, event);
         set_length(run, next);
     }
     return status;
@@ -218,7 +221,7 @@ static int needs_step(Integrator *run, int last, const Parameters *p, const Samp
         return !last; /* attempts continue */
     if (*status)
         return 0;
-    const double here = run->t + rounded_end(run, run->t);
+    const double here = run->t + end_time_rounding(run, run->t);
     for (; *out->done < out->n && out->t[*out->done] <= here; ++*out->done)
         store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
     if (*out->done == out->n || last)
@@ -245,7 +248,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
     int event;
     double fraction;
     choose_method(run, p);
-    int status = event_of_step(run, out, p, step, &fraction, &event);
+    int status = find_event_of_step(run, out, p, step, &fraction, &event);
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* results of a cancelled search are invalid */
     if (run->control.fixed > 0.0)
@@ -254,7 +257,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
         : step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = fraction < 1.0 ? run->t + fraction * step->h : t_whole;
     /* samples this close to the event are at it */
-    const double close = event < 0 ? rounded_end(run, t_new)
+    const double close = event < 0 ? end_time_rounding(run, t_new)
         : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.time_resolution);
     status = sample_step(run, step, t_new - close, p, out);
     /* the end of a fixed step may lie at the jump of a drive, as that of a run may */
@@ -277,7 +280,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *out)
         status = pass_drive_jumps_here(run, p);
     }
     if (!status && run->t == t_end)
-        status = end_on_zeros(run, 0.0, p);
+        status = record_events_at_end(run, 0.0, p);
     if (AUDITS && (!status || status == ENDED))
         status = audit_state(run, listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
@@ -298,9 +301,9 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
     relink_choice(run);
-    run->step.method = own_method(run->step.method);
+    run->step.method = local_method(run->step.method);
     for (long i = 0; needs_step(run, i == limit, p, &out, &status); i++) {
-        status = accepted_step(run, p, &run->step);
+        status = find_accepted_step(run, p, &run->step);
         if (!status)
             status = accept_step(run, p, &out);
         if (status)

@@ -11,7 +11,7 @@ enum { AUDIT_ENOUGH = 3 }; /* measured steps for a mean error */
  * Return whether the frozen branches and contacts agree with a state. Near a switching point or a separation they may
  * not.
  */
-static int branches_fit(const Integrator *run, const RhsOutputs *rhs)
+static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
 {
     int fit = 1;
     for (int k = 0; k < N_SWITCHES; k++)
@@ -29,7 +29,7 @@ static double audit_weight(const Integrator *run, int k)
 }
 
 /* Return whether the second rate of a drive jumps, or is unbounded, at the beginning or end of a step. */
-static int meets_jump(const Integrator *run, const Step *step, const Parameters *p)
+static int is_at_drive_jump(const Integrator *run, const Step *step, const Parameters *p)
 {
     for (int end = 0; end < 2 && N_DRIVES; end++) {
         const double t = end ? step->t + step->h : run->t;
@@ -56,11 +56,13 @@ static void check_order(Integrator *run, double error, double change)
     audit->changes += change;
     const double limit = AUDIT_ORDER * max_of(1.0, sqrt(tolerance_of(run) / AUDIT_LOOSE));
     if (audit->measured >= AUDIT_ENOUGH && audit->errors / audit->measured * (double)run->counts.steps > AUDIT_SUM)
-        record(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
+        record_check(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
 }
 
-/* Nodes and weights of Gauss quadrature of order 8 over (0, 1). */
+/* Nodes of Gauss quadrature of order 8 over (0, 1). */
 static const double gauss_node[] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
+
+/* Weights of Gauss quadrature of order 8 over (0, 1). */
 static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
     0.17392742256872692};
 
@@ -82,9 +84,9 @@ static double largest_error(const Integrator *run, const Step *step, const doubl
  * Check the local error of a step by the integral of the defect of its dense output u: e = y(t + h) - y(t) - int f(s,
  * u(s)) ds. It uses neither the method's error estimate nor its coefficients. In stiff components u itself has errors:
  * there e is divided by 1 - h J. This also applies to explicit steps near the stability limit. Steps over which a force
- * has another branch, or that were computed in lanes, are omitted.
+ * has another branch, and steps near a singular position, are omitted.
  */
-static void check_length(Integrator *run, Step *step, const Parameters *p)
+static void check_step_error(Integrator *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
@@ -93,12 +95,13 @@ static void check_length(Integrator *run, Step *step, const Parameters *p)
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
             return;
-    if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE || make_dense(run, p, step))
+    if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE
+        || make_dense(run, p, step))
         return; /* the first step projects a start that violates the constraints */
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);
-        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !branches_fit(run, &rhs))
+        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !is_branch_consistent(run, &rhs))
             return;
         interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)
@@ -117,6 +120,6 @@ static void check_length(Integrator *run, Step *step, const Parameters *p)
     }
     check_order(run, most, change);
     run->audit.longest = max_of(run->audit.longest, h);
-    if (worst <= 1.0 || !meets_jump(run, step, p))
-        record(&run->audit, CHECK_step, worst, 1.0, step->t + h, -1);
+    if (worst <= 1.0 || !is_at_drive_jump(run, step, p))
+        record_check(&run->audit, CHECK_step, worst, 1.0, step->t + h, -1);
 }

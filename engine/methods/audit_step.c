@@ -21,11 +21,11 @@
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /*
- * Return the defect of rates `rate` against `dy` at a state y of a step, in multiples of its limit, 0 if it is not the
+ * Return the defect of rates `rate` against `dy` at a state y of a step in multiples of its limit, 0 if it is not the
  * largest so far. A stiff component within its tolerance may have any rate: there h times the difference is divided by
  * 1 - h J.
  */
-static double defect_of(Integrator *run, const Step *step, const double *y, const double *rate, const double *dy,
+static double scaled_defect(Integrator *run, const Step *step, const double *y, const double *rate, const double *dy,
     const Parameters *p)
 {
     const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
@@ -76,8 +76,8 @@ static void check_rate(Integrator *run, const Step *step, double t, const double
             most = max_of(most, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
             allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
-        if (off <= AUDIT_RATE * most + allowed || !meets_jump(run, step, p))
-            record(&run->audit, CHECK_rate, off, AUDIT_RATE * most + allowed, t, -1);
+        if (off <= AUDIT_RATE * most + allowed || !is_at_drive_jump(run, step, p))
+            record_check(&run->audit, CHECK_rate, off, AUDIT_RATE * most + allowed, t, -1);
     }
 }
 
@@ -87,7 +87,8 @@ static void check_end(Integrator *run, Step *step, const Parameters *p)
     double dy[N_Y];
     RhsOutputs rhs;
     if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &rhs))
-        record(&run->audit, CHECK_defect, defect_of(run, step, step->y, step->dy, dy, p), 1.0, step->t + step->h, -1);
+        record_check(&run->audit, CHECK_defect, scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
+            step->t + step->h, -1);
 }
 
 /* Check film forces by the accelerations that they cause, except in steps that begin or end at a jump of a drive. */
@@ -100,9 +101,10 @@ static void check_forces(Integrator *run, const Step *step, double t, const RhsO
     double most = largest_film_force(rhs, &where);
     for (int i = 0; i < N_CLEARANCES; i++)
         most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
-    const double fraction = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
-    if (where >= 0 && has_tolerance(run) && run->counts.steps > 0 && (fraction <= limit || !meets_jump(run, step, p)))
-        record(&run->audit, CHECK_force, fraction, limit, t, where);
+    const double fraction = relative_film_error(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
+    if (where >= 0 && has_tolerance(run) && run->counts.steps > 0
+        && (fraction <= limit || !is_at_drive_jump(run, step, p)))
+        record_check(&run->audit, CHECK_force, fraction, limit, t, where);
 }
 
 /* Check a state at fraction theta of a step; drawn: at a random point, with an additional check. */
@@ -112,9 +114,9 @@ static void check_state_inside(Integrator *run, Step *step, double theta, int dr
     const double t = step->t + theta * step->h;
     double rate[2 * N_X];
     interpolate_rates(step, theta, 2 * N_X, rate);
-    const double defect = has_tolerance(run) ? defect_of(run, step, y, rate, dy, p) : 0.0;
-    if (has_tolerance(run) && (defect <= 1.0 || !meets_jump(run, step, p)))
-        record(&run->audit, CHECK_defect, defect, 1.0, t, -1);
+    const double defect = has_tolerance(run) ? scaled_defect(run, step, y, rate, dy, p) : 0.0;
+    if (has_tolerance(run) && (defect <= 1.0 || !is_at_drive_jump(run, step, p)))
+        record_check(&run->audit, CHECK_defect, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
         check_rate(run, step, t, y, rate, dy, p);
     check_forces(run, step, t, rhs, rate, dy, p);
@@ -142,8 +144,8 @@ static void check_inside(Integrator *run, Step *step, double theta, int drawn, c
     if (!drawn)
         return;
     to_absolute(t, y, &run->discrete, p, all);
-    check_rows(run, t, all, !RATE_JUMPS, p);
-    if (branches_fit(run, &rhs))
+    check_constraints(run, t, all, !RATE_JUMPS, p);
+    if (is_branch_consistent(run, &rhs))
         check_accelerations(run, t, y, dy, all, p);
 }
 
@@ -168,7 +170,7 @@ static int event_has_zero(Integrator *run, Step *step, double fraction, int i, c
 }
 
 /* Return whether user-defined event i exceeds its uncertainty at the beginning of a step, or at its end (`end`). */
-static int is_known(Integrator *run, const Step *step, int end, int i, const Parameters *p)
+static int is_event_resolved(Integrator *run, const Step *step, int end, int i, const Parameters *p)
 {
     const int k = N_EVENT_FUNCTIONS - N_USER_EVENTS + i;
     return end ? is_resolved(run, step->t + step->h, step->y, &step->rhs, k, p)
@@ -176,7 +178,7 @@ static int is_known(Integrator *run, const Step *step, int end, int i, const Par
 }
 
 /* Record the magnitudes of user-defined events in a step before it is committed, and find zeros that end no step. */
-static void find_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
+static void check_event_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
     audit->ended = event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
@@ -193,11 +195,11 @@ static void find_zeros(Integrator *run, Step *step, double fraction, int event, 
         /* start_just_after() set the sign already */
         const int begins_beyond = run->counts.steps == 0 && run->discrete.event_sign[i] * after > 0.0;
         /* also from a pole, near which it grows and falls at once */
-        const int far = fraction * step->h > located_within(run);
-        audit->event_before[i] = audit->ended == i && far && is_known(run, step, 0, i, p) ? before : 0.0;
+        const int far = fraction * step->h > event_location_tolerance(run);
+        audit->event_before[i] = audit->ended == i && far && is_event_resolved(run, step, 0, i, p) ? before : 0.0;
         audit->crossed[i] = fraction >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
-            && is_known(run, step, 0, i, p) && is_known(run, step, 1, i, p)
+            && is_event_resolved(run, step, 0, i, p) && is_event_resolved(run, step, 1, i, p)
             && event_has_zero(run, step, fraction, i, p);
     }
 }
@@ -227,12 +229,12 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
     const int all = audit->level == AUDIT_FULL, due = run->counts.steps >= audit->due;
     const int whole = fraction >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->control.last_step || (whole && h > AUDIT_LONGEST * audit->longest))
-        && !step->method->own_length
+        && !step->method->controls_length
         && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->counts.steps;
     const int by_turn = (int)(audit->turns % 2);
     const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
-    find_zeros(run, step, fraction, event, p);
+    check_event_zeros(run, step, fraction, event, p);
     const int ends = event >= 0 && fraction < 1.0;
     const int known = ends && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
     if (known)
@@ -243,14 +245,14 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
         if (ends && !known)
             check_inside(run, step, fraction, 0, p);
         for (int k = 0; k < places; k++)
-            check_inside(run, step, fraction * (k + draw(audit)) / places, drawn, p);
+            check_inside(run, step, fraction * (k + draw_random(audit)) / places, drawn, p);
         if (drawn && fraction >= 1.0)
             check_end(run, step, p);
         if (measured && whole && has_tolerance(run))
-            check_length(run, step, p);
+            check_step_error(run, step, p);
         if (drawn || (due && whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
-            audit->due = run->counts.steps + 1 + (long)(2.0 * draw(audit) * first * mean_interval(step->method));
+            audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random(audit) * first * mean_interval(step->method));
         }
         audit->longer += is_longer;
         run->discrete = discrete;

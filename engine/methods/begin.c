@@ -8,7 +8,8 @@ static int set_initial_branches(Integrator *run, const Parameters *p)
         int zeros = 0;
         for (int i = 0; i < N_USER_EVENTS; i++)
             zeros |= run->discrete.event_sign[i] == 0;
-        const int status = zeros ? events_ahead(run, run->t, fraction * run->control.h, run->y, run->dy, p, value) : 0;
+        const double ahead = fraction * run->control.h; /* s */
+        const int status = zeros ? events_ahead(run, run->t, ahead, run->y, run->dy, p, value) : 0;
         if (status || !zeros)
             return fraction > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)
@@ -35,8 +36,8 @@ static double fastest_rate(const Integrator *run, const double *dy)
     return rate;
 }
 
-#define MIN_RATE 1e-5   /* 1/s: slower motion counts as rest */
-#define TOO_FAST 1e6 /* per time of the run: higher rates may come from a second rate of a drive unbounded at start */
+#define MIN_START_RATE 1e-5   /* 1/s: slower motion counts as rest */
+#define MAX_RATES_PER_RUN 1e6 /* higher rates may come from a second rate of a drive unbounded at the start */
 
 /*
  * Set the smallest relevant speeds: 0.01 of the speed that crosses the smallest relevant length at the fastest rate of
@@ -47,16 +48,16 @@ static void set_speed_floors(Integrator *run, double left, const Parameters *p)
 {
     double rate = fastest_rate(run, run->dy), dy[N_Y];
     RhsOutputs rhs;
-    if (rate * left > TOO_FAST && !rates(run, run->t + left / TOO_FAST, run->y, p, dy, &rhs))
+    if (rate * left > MAX_RATES_PER_RUN && !rates(run, run->t + left / MAX_RATES_PER_RUN, run->y, p, dy, &rhs))
         rate = min_of(rate, fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
-        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > MIN_RATE ? 0.01 * rate : 1.0 / left);
+        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / left);
     }
 }
 
 /* Return whether a run begins in a contact of elastic surfaces. */
-static int begins_in_contact(const Integrator *run)
+static int is_starting_in_contact(const Integrator *run)
 {
     int found = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -93,7 +94,7 @@ static int begin_run(Integrator *run, const Parameters *p)
         if (drives_jump(run->t, all, all + N_Q, p))
             project_state(run, ahead_of(run->t), run->y, p);
     }
-    const int status = begin(run, p);
+    const int status = begin_state(run, p);
     if (DRIVE_IMPULSES)
         set_phi_dot_max(run, 0.0); /* rates are those after the jump */
     return status;
@@ -120,17 +121,17 @@ static int begin_adaptive(Integrator *run, double left, const Parameters *p)
     if (!status)
         status = pass_drive_jumps_here(run, p); /* to the branches after the jumps */
     if (!status)
-        status = begin_beyond(run, 0.0, p);
+        status = start_just_after(run, 0.0, p);
     if (!status && !(run->control.h > 0.0)) {
-        status = initial_step(run, left, p);
-        if (!status && begins_in_contact(run)) { /* the contact force may have just begun: as at an onset */
-            set_first_length(run, &run->control.after_contact[count_closed(run)][0], ROUGH);
+        status = estimate_initial_step(run, left, p);
+        if (!status && is_starting_in_contact(run)) { /* the contact force may have just begun: as at an onset */
+            set_first_length(run, &run->control.after_contact[count_closed(run)][0], ONSET_ORDER);
             status = first_step_after_event(run, left, p);
         }
     }
     if (!status)
         status = set_initial_branches(run, p);
-    if (run->choice.method->own_length)
+    if (run->choice.method->controls_length)
         set_length(run, left);
     return status;
 }
@@ -149,7 +150,7 @@ void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const d
     start_roots(run);
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
-    run->norm.work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
+    run->norm.work_scale = max_of(1e-10, WORK_TOL * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
     run->norm.least[0] = least[0];
     run->norm.least[1] = least[1];
     start_series(run, scale[2 * N_X - 1]);

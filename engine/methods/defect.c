@@ -35,11 +35,11 @@ static double largest_film_force(const RhsOutputs *rhs, int *where)
 
 /*
  * Return the relative error of film forces from the accelerations `dy` of a state and `rate` of the dense output there.
- * The difference is divided by the acceleration that a film force `most` (N) gives the lightest body, or by `part` of
- * the largest acceleration of its kind, if larger. Rounding of velocities over short steps is subtracted.
+ * The scale is the acceleration of the lightest body by a film force `most` (N), or `part` of the largest acceleration
+ * of its kind, if larger. Rounding of velocities over short steps is subtracted.
  */
-static double film_share(const Integrator *run, const Step *step, const double *rate, const double *dy, double most,
-    double part)
+static double relative_film_error(const Integrator *run, const Step *step, const double *rate, const double *dy,
+    double most, double part)
 {
     const double rounded = RATE_ROUNDED / step->h;
     double off[2] = {0.0, 0.0}, largest[2], fraction = 0.0;
@@ -74,7 +74,7 @@ static double film_audit_limit(const Integrator *run, const Step *step)
  * Return the relative error of film forces at fraction theta of a step, -1 if the state is undefined. most: a film
  * force in N as a smallest scale.
  */
-static double film_share_at(Integrator *run, const Step *step, double theta, double most, const Parameters *p)
+static double relative_film_error_at(Integrator *run, const Step *step, double theta, double most, const Parameters *p)
 {
     double y[N_Y], dy[N_Y], rate[N_Y];
     int where;
@@ -82,18 +82,19 @@ static double film_share_at(Integrator *run, const Step *step, double theta, dou
     if (state_at(run, step, theta, p, y, dy, &rhs))
         return -1.0;
     interpolate_rates(step, theta, 2 * N_X, rate);
-    return film_share(run, step, rate, dy, max_of(most, largest_film_force(&rhs, &where)), FILM_PART);
+    return relative_film_error(run, step, rate, dy, max_of(most, largest_film_force(&rhs, &where)), FILM_PART);
 }
 
 /*
  * Return the error of film forces inside a step in multiples of its limit, at the fraction where the dense output has
  * its largest error. A velocity within the tolerance, times the damping of a thin film, may give any force.
  */
-static double film_error(Integrator *run, Step *step, const Parameters *p)
+static double measure_film_error(Integrator *run, Step *step, const Parameters *p)
 {
     int where;
     const double ends = max_of(largest_film_force(&step->rhs, &where), largest_film_force(&run->rhs, &where));
-    const double fraction = make_dense(run, p, step) ? -1.0 : film_share_at(run, step, step->method->between, ends, p);
+    const double fraction = make_dense(run, p, step)
+        ? -1.0 : relative_film_error_at(run, step, step->method->between, ends, p);
     if (fraction < 0.0)
         return 0.0;
     run->films.h = step->h, run->films.steps = run->counts.steps;
@@ -107,16 +108,16 @@ static double film_error(Integrator *run, Step *step, const Parameters *p)
  * Return whether film forces of a stiff method are wrong at an event at `fraction` of a step. The state there is the
  * start of the next step.
  */
-static int misses_film_at(Integrator *run, const Step *step, double fraction, const Parameters *p)
+static int has_wrong_film_force_at(Integrator *run, const Step *step, double fraction, const Parameters *p)
 {
-    return has_films() && step->method->stiff && film_share_at(run, step, fraction, 0.0, p) > film_limit(run);
+    return has_films() && step->method->stiff && relative_film_error_at(run, step, fraction, 0.0, p) > film_limit(run);
 }
 
 /*
  * Compute the rates of velocities of a stiff method's dense output at an end of a step. weight: of its n stages;
  * of_end: of y - y0.
  */
-static void rates_at_end(
+static void compute_end_rates(
     const Integrator *run, const Step *step, const double *weight, int n, double of_end, double *rate)
 {
     const double *k = step->stages_lane ? step->stages_lane : step->k[0];
@@ -135,8 +136,8 @@ enum { FILM_STEPS = 16 /* steps between two measurements */ };
 
 /*
  * Return the error of film forces at the ends of a step in multiples of the limit, without a right-hand side. At the
- * beginning it is the error of the dense output, at the end that of the iteration of velocities. film_error() was
- * observed to be up to 37 times as large, for errors far below the limit.
+ * beginning it is the error of the dense output, at the end that of the iteration of velocities. measure_film_error()
+ * was observed to be up to 37 times as large, for errors far below the limit.
  */
 static double film_error_at_ends(const Integrator *run, const Step *step, double part)
 {
@@ -146,17 +147,17 @@ static double film_error_at_ends(const Integrator *run, const Step *step, double
     if (!method->stiff || !has_films())
         return 0.0;
     const double most = largest_film_force(&step->rhs, &where);
-    rates_at_end(run, step, method->begins, method->n_begins, method->begins_end, rate);
-    double fraction = film_share(run, step, rate, run->dy, most, part);
-    if (method->n_ends) {
-        rates_at_end(run, step, method->ends, method->n_ends, method->ends_end, rate);
-        fraction = max_of(fraction, film_share(run, step, rate, step->dy, most, part));
+    compute_end_rates(run, step, method->begins, method->n_begin_weights, method->begin_weight_of_end, rate);
+    double fraction = relative_film_error(run, step, rate, run->dy, most, part);
+    if (method->n_end_weights) {
+        compute_end_rates(run, step, method->ends, method->n_end_weights, method->end_weight_of_end, rate);
+        fraction = max_of(fraction, relative_film_error(run, step, rate, step->dy, most, part));
     }
     return fraction / film_limit(run);
 }
 
 /* Return whether the errors of film forces are, and were recently, so small that this step need not be measured. */
-static int is_film_known(const Integrator *run, const Step *step, double at_ends)
+static int is_film_error_small(const Integrator *run, const Step *step, double at_ends)
 {
     if (!step->method->stiff || !has_films())
         return 1;
@@ -168,7 +169,7 @@ static int is_film_known(const Integrator *run, const Step *step, double at_ends
  * Return whether a step passes over a film force that decays or rises at its beginning. Then the accelerations of the
  * dense output differ from those of the motion there.
  */
-static int misses_film(const Integrator *run, const Step *step, double at_ends)
+static int has_wrong_film_force(const Integrator *run, const Step *step, double at_ends)
 {
     return at_ends > 1.0 && film_error_at_ends(run, step, 1.0) > 1.0;
 }

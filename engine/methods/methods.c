@@ -22,11 +22,13 @@ struct Method {
     const double *error_nodes;      /* fractions of a step, ascending, of its error estimate */
     int n_error_nodes;
     double between;           /* of a stiff method: fraction with the largest error of its dense output */
-    double begins[8], begins_end; /* weights of stages and of y - y0 for h times the rates at the begin */
-    double ends[4], ends_end; /* the same at the end, for methods with iterated stages */
-    int n_begins, n_ends;
-    int own_length;           /* whether the method itself chooses the length of a step */
+    double begins[8], begin_weight_of_end; /* weights of stages and of y - y0 for h times the rates at the begin */
+    double ends[4], end_weight_of_end; /* the same at the end, for methods with iterated stages */
+    int n_begin_weights, n_end_weights;
+    int controls_length;           /* whether the method itself chooses the length of a step */
 };
+
+/* Number of elements of an array. */
 #define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))
 
 #include "dop853.c"

@@ -45,13 +45,13 @@ static int stages_lost(Integrator *run, int lost) { return (void)run, lost ? NOT
 static int radau_dense(Integrator *run, Step *step, const RadauTable *table, int stages)
 {
     const double h = step->h;
-    double (*const d)[N_Y] = step->dense, way[N_Y];
+    double (*const d)[N_Y] = step->dense, change[N_Y];
     for (int i = 0; i < N_Y; i++)
-        way[i] = step->y[i] - run->y[i];
+        change[i] = step->y[i] - run->y[i];
     memset(d, 0, sizeof step->dense);
     for (int k = 0; k < stages; k++)
         for (int s = 0; s < stages; s++) {
-            const double *of = s < stages - 1 ? step->k[s] : way, factor = table->dense[k][s];
+            const double *of = s < stages - 1 ? step->k[s] : change, factor = table->dense[k][s];
             for (int i = 0; i < N_Y; i++)
                 d[k][i] += factor * of[i];
         }
@@ -93,22 +93,27 @@ static void radau_interpolate(const Integrator *run, const Step *step, double s,
         y[i] = run->y[i] + s * (d[0][i] + r * (d[1][i] + s * (d[2][i] + r * (d[3][i] + s * d[4][i]))));
 }
 
-/* Fractions of a step, ascending, at which radau5 and radau9 evaluate the equations. */
+/* Fractions of a step, ascending, at which radau5 evaluates the equations. */
 static const double radau5_error_nodes[] = {0.0, 0.15505102572168219, 0.64494897427831781, 1.0};
+
+/* Fractions of a step, ascending, at which radau9 evaluates the equations. */
 static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.27684301363812383, 0.58359043236891682,
     0.86024013565621945, 1.0};
 
-/* The methods Radau IIA of order 5 with three stages, and of order 9 with five stages. */
+/* The method Radau IIA of order 5 with three stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,
     .n_error_nodes = COUNT_OF(radau5_error_nodes), .between = 0.85,
-    .begins = {10.048809399827416, -1.3821427331607489}, .n_begins = 2, .begins_end = 1.0 / 3.0,
-    .ends = {5.5319726474218083, -7.5319726474218083}, .n_ends = 2, .ends_end = 5.0};
+    .begins = {10.048809399827416, -1.3821427331607489}, .n_begin_weights = 2, .begin_weight_of_end = 1.0 / 3.0,
+    .ends = {5.5319726474218083, -7.5319726474218083}, .n_end_weights = 2, .end_weight_of_end = 5.0};
+
+/* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try, .dense = radau9_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .error_nodes = radau9_error_nodes,
     .n_error_nodes = COUNT_OF(radau9_error_nodes), .between = 0.74,
-    .begins = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begins = 4,
-    .begins_end = 0.2, .ends = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101},
-    .n_ends = 4, .ends_end = 13.0};
+    .begins = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begin_weights = 4,
+    .begin_weight_of_end = 0.2,
+    .ends = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101},
+    .n_end_weights = 4, .end_weight_of_end = 13.0};

@@ -23,7 +23,7 @@ static int make_linear(Integrator *run, double hg, const Parameters *p)
 }
 
 /* Discard the linearization when the state changes. */
-static void forget_linear(Integrator *run) { run->newton.ready = 0; }
+static void discard_linearization(Integrator *run) { run->newton.ready = 0; }
 
 #include "../both/rodas5p.h"
 
@@ -80,5 +80,5 @@ static const Method rodas5p = {.name = "rodas5p",
     .n_error_nodes = COUNT_OF(rodas5p_error_nodes),
     .between = 0.5,
     .begins = {RODAS5P_BEGINS},
-    .n_begins = RODAS5P_STAGES,
-    .begins_end = 1.0};
+    .n_begin_weights = RODAS5P_STAGES,
+    .begin_weight_of_end = 1.0};

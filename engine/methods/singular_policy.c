@@ -18,7 +18,7 @@ static void set_singular_policy(Integrator *run, int policy)
 /* Set the policy of a new step before its first attempt: detection, unless steps without detection are due. */
 static void begin_singular_policy(Integrator *run)
 {
-    set_singular_policy(run, run->near.unlooked ? SINGULAR_IGNORE : SINGULAR_DETECT);
+    set_singular_policy(run, run->near.n_undetected ? SINGULAR_IGNORE : SINGULAR_DETECT);
 }
 
 /*
@@ -35,12 +35,12 @@ static int next_singular_policy(Integrator *run, int status)
     if (policy != SINGULAR_IGNORE)
         set_singular_policy(run, policy == SINGULAR_DETECT ? SINGULAR_CONTINUE : SINGULAR_PROJECT_OR_IGNORE);
     if (policy != SINGULAR_IGNORE) {
-        run->near.in_vain = 0;
-    } else if (run->near.unlooked) {
-        run->near.unlooked--;
+        run->near.n_failed = 0;
+    } else if (run->near.n_undetected) {
+        run->near.n_undetected--;
     } else {
-        run->near.in_vain += run->near.in_vain < MAX_SKIPPED_LOG2;
-        run->near.unlooked = (1L << run->near.in_vain) - 1;
+        run->near.n_failed += run->near.n_failed < MAX_SKIPPED_LOG2;
+        run->near.n_undetected = (1L << run->near.n_failed) - 1;
     }
     return 0;
 }

@@ -2,7 +2,7 @@
  * Parts of one tried step of any method: values at its stages, event functions, error weights, and its end, which is
  * projected onto the constraints.
  */
-#define ROWS_ROUNDED 2e-9  /* relative distance from the constraints that may be rounding near a singular position */
+#define CONSTRAINT_ROUNDING 2e-9  /* relative constraint residual that may be rounding near a singular position */
 enum { MAX_STRAYED = 4 }; /* attempts of a step rejected for their distance from the constraints */
 
 /*
@@ -18,7 +18,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
         return discrete->branch[k] * rhs->g[k];
     k -= N_SWITCHES;
     if (k < N_FRICTIONS)
-        return friction_indicator(discrete, rhs, k);
+        return friction_event_function(discrete, rhs, k);
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 
@@ -48,7 +48,8 @@ typedef struct {
 /* Return the values number k, an event function or SEEN_..., of all stages of a step. */
 static StageValues stage_values(const Step *step, int k)
 {
-    return step->seen_lane ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
+    return step->seen_lane
+        ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
         : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_SEEN)};
 }
 
@@ -108,8 +109,8 @@ static void record_stage_state(Step *step, const double *y)
  * Compute the corrections dq, dv that close the constraints at a state, if `open`. *worst: the largest residual. Return
  * whether the corrections are finite.
  */
-static int can_close(Integrator *run, int open, double t, const double *y, const Parameters *p, double *dq, double *dv,
-    double *worst)
+static int can_close(Integrator *run, int open, double t, const double *y, const Parameters *p,
+    double *dq, double *dv, double *worst)
 {
     return open && !closing_of_state(t, y, &run->discrete, p, dq, dv, worst) && all_finite(dq, N_X)
         && all_finite(dv, N_X);
@@ -121,14 +122,14 @@ static int can_close(Integrator *run, int open, double t, const double *y, const
 
 /*
  * Start the next step with the length that fitted after the previous event of this kind, *known (s, 0: none yet), which
- * that step then updates. rough: order of the error of such a step, 0: that of the method.
+ * that step then updates. first_step_order: order of the error of such a step, 0: that of the method.
  */
-static void set_first_length(Integrator *run, double *known, double rough)
+static void set_first_length(Integrator *run, double *known, double first_step_order)
 {
     if (*known > 0.0)
         run->control.h = *known;
     run->control.first = known;
-    run->control.rough = rough;
+    run->control.first_step_order = first_step_order;
 }
 
 /* Return whether the next step is the first one after a switching point. */
@@ -141,13 +142,13 @@ static inline int begins_at_switch(const Integrator *run)
 static void set_length(Integrator *run, double h) { run->control.h = h; }
 
 /* Set the length of the present attempt, s. */
-static inline void set_attempt(Integrator *run, double h) { run->control.attempt.h = h; }
+static inline void set_attempt_length(Integrator *run, double h) { run->control.attempt.h = h; }
 
 /* Store the length of the last step up to its end, s. */
-static void set_last_step(Integrator *run, double h) { run->control.last_step = h; }
+static void set_last_length(Integrator *run, double h) { run->control.last_step = h; }
 
 /* Discard the stored length of the stiff method: it does not apply after an event. */
-static void forget_stiff_length(Integrator *run) { run->control.h_stiff = 0.0; }
+static void discard_stiff_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
 static int drifts(const Integrator *run); /* methods/methods.c */
 
@@ -162,7 +163,7 @@ static void project_if_needed(Integrator *run, double t, double *y, const Parame
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
     project_if_needed(run, t, y, p);
-    hold_contacts(run, t, y, p);
+    project_closed_contacts(run, t, y, p);
 }
 
 /* Apply the impulse of a drive whose rate jumps, and add its energy to the work of the drives. */
@@ -193,10 +194,10 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
     memcpy(before, step->y, sizeof before);
     project_if_needed(run, step->t + step->h, step->y, p);
     const double missed = distance_from_rows(run, before, step->y);
-    if (missed > max_of(FAR_FROM_ROWS, ROWS_ROUNDED / tolerance_of(run)) && run->counts.steps > 0
-        && run->control.attempt.strayed++ < MAX_STRAYED)
+    if (missed > max_of(FAR_FROM_ROWS, CONSTRAINT_ROUNDING / tolerance_of(run)) && run->counts.steps > 0
+        && run->control.attempt.n_strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
-    hold_contacts(run, step->t + step->h, step->y, p);
+    project_closed_contacts(run, step->t + step->h, step->y, p);
     const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }

@@ -1,10 +1,10 @@
 /*
  * Step-size control, and the choice between the explicit and the stiff method.
  *
- * After a step with the error e, in tolerances, and one with the error e' before it, the next length is h SAFETY
- * e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power), power = 1 / (order of the estimate + 1). This is the PI
- * controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer, G. Wanner, Solving
- * ODEs II (1996), section IV.2. Gustafsson recommends the exponents 0.7 and 0.4 for explicit methods.
+ * After a step with the error e, in tolerances, and one with the error e' before it, the next length is
+ *     h SAFETY e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power),   power = 1 / (order of the estimate + 1).
+ * This is the PI controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer,
+ * G. Wanner, Solving ODEs II (1996), section IV.2. Gustafsson recommends 0.7 and 0.4 for explicit methods.
  *
  * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
  * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
@@ -36,18 +36,18 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     MAX_AGAINST = 3 /* successive steps against the explicit method until the change */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
-#define FALLING 0.7   /* largest ratio of the film errors of a shorter and a longer step; larger ones are rounding */
-#define FINE 1e-9     /* of the times: in shorter steps no transients are searched */
+#define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
+#define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
 #define WORTH 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
-#define WORKS 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
-#define PAST 1.05    /* of the estimated time to a separation: length of a step that ends after it */
-#define FLIGHT 2.0    /* of the time in which a journal crosses its bearing: longest step */
+#define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
+#define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
+#define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
 #define SLACK 2.5     /* h rho below which the explicit method is cheaper */
-#define STEEPEST 30.0 /* largest order of error growth inferred from two steps */
-#define FADES 0.95    /* factor on that order after each step */
+#define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
+#define ORDER_DECAY 0.95    /* factor on that order after each step */
 
 /* Return the method of the same name in this library: the run may have begun in another library of the same code. */
-static const Method *own_method(const Method *method)
+static const Method *local_method(const Method *method)
 {
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
@@ -55,8 +55,8 @@ static const Method *own_method(const Method *method)
 /* Let the methods of a run refer to this library. */
 static void relink_choice(Integrator *run)
 {
-    run->choice.method = own_method(run->choice.method);
-    run->choice.implicit = own_method(run->choice.implicit);
+    run->choice.method = local_method(run->choice.method);
+    run->choice.implicit = local_method(run->choice.implicit);
 }
 
 /* Start with a method (gudgeon_method) and the stiff method to which the run may change, 0: none. */
@@ -100,23 +100,23 @@ static void change_method(Integrator *run)
  */
 static double largest_rate(Integrator *run, const Parameters *p)
 {
-    double way[N_Y], y[N_Y], dy[N_Y], growth[2] = {0.0, 0.0};
+    double direction[N_Y], y[N_Y], dy[N_Y], growth[2] = {0.0, 0.0};
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
-        way[k] = (k % 2 ? -1.0 : 1.0) / run->norm.weight[k];
+        direction[k] = (k % 2 ? -1.0 : 1.0) / run->norm.weight[k];
     for (int n = 0; n <= RATE_ITERATIONS; n++) {
         double size = 0.0;
         for (int k = 2 * N_X; k < FIRST_STATE; k++)
-            way[k] = 0.0; /* no rate depends on the works */
+            direction[k] = 0.0; /* no rate depends on the works */
         for (int k = 0; k < N_Y; k++)
-            size = max_of(size, fabs(way[k]) * run->norm.weight[k]);
+            size = max_of(size, fabs(direction[k]) * run->norm.weight[k]);
         growth[n % 2] = size; /* over two iterations: a vibration alternates between positions and velocities */
         for (int k = 0; k < N_Y; k++)
-            y[k] = run->y[k] + way[k] / size;
+            y[k] = run->y[k] + direction[k] / size;
         if (!(size > 0.0 && isfinite(size)) || rates(run, run->t, y, p, dy, &rhs))
             return 0.0;
         for (int k = 0; k < N_Y; k++)
-            way[k] = dy[k] - run->dy[k];
+            direction[k] = dy[k] - run->dy[k];
     }
     return sqrt(growth[0] * growth[1]);
 }
@@ -145,14 +145,15 @@ static void choose_method(Integrator *run, const Parameters *p)
 }
 
 /* Return the order of a step's error in its length: that of the method, or lower where a force has just begun. */
-static double order_of(const Integrator *run, const Step *step)
+static double error_order(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
-    return run->control.first && run->control.rough > 0.0 ? min_of(run->control.rough, order) : order;
+    return run->control.first && run->control.first_step_order > 0.0 ? min_of(run->control.first_step_order, order)
+                                                                     : order;
 }
 
 /* Return x^n with a relative error of 1e-4, which is enough for step lengths. */
-static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
+static double approximate_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
 
 /* Return the error norm of a step, bounded from below so that a length can be computed from it. */
 static double limited_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
@@ -161,7 +162,7 @@ static double limited_error(const Step *step) { return max_of(MIN_ERROR, step->e
 static double shrink(Integrator *run, const Step *step)
 {
     Attempt *now = &run->control.attempt;
-    double order = order_of(run, step);
+    double order = error_order(run, step);
     if (now->refused > now->h && isfinite(now->error) && now->error > step->error)
         order = min_of(1.0 / step->method->power,
             max_of(MIN_ORDER_SEEN, log(now->error / step->error) / log(now->refused / now->h)));
@@ -169,7 +170,7 @@ static double shrink(Integrator *run, const Step *step)
     now->error = step->error;
     run->control.too_long = now->h;
     run->control.too_long_until = run->t + now->h;
-    return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * rough_power(step->error, -1.0 / order)));
+    return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * approximate_power(step->error, -1.0 / order)));
 }
 
 /* Store the length that would have fitted for the first step after an event. */
@@ -177,12 +178,12 @@ static void record_first_step(Integrator *run, const Step *step)
 {
     if (!run->control.first)
         return;
-    const double safe = run->control.rough > 0.0 ? SAFETY_ONSET : SAFETY;
-    const double fits = safe * rough_power(limited_error(step), -1.0 / order_of(run, step));
+    const double safe = run->control.first_step_order > 0.0 ? SAFETY_ONSET : SAFETY;
+    const double fits = safe * approximate_power(limited_error(step), -1.0 / error_order(run, step));
     *run->control.first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
-    if (run->control.rough > 0.0 && run->control.onset_share > 0.0)
-        run->control.onset[!!step->method->stiff] = run->control.onset_share
-            * rough_power(*run->control.first, run->control.rough - 1.0);
+    if (run->control.first_step_order > 0.0 && run->control.onset_error_per_s > 0.0)
+        run->control.onset[!!step->method->stiff] = run->control.onset_error_per_s
+            * approximate_power(*run->control.first, run->control.first_step_order - 1.0);
     run->control.first = NULL;
 }
 
@@ -194,10 +195,12 @@ static double observed_growth(Integrator *run, const Step *step, int again)
 {
     const Attempt *now = &run->control.attempt;
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
-        run->control.steep = min_of(STEEPEST, log(now->error / limited_error(step)) / log(now->refused / step->h));
-    run->control.steep *= FADES;
-    const double steep = run->control.steep;
-    return steep * step->method->power > 1.0 ? SAFETY * rough_power(limited_error(step), -1.0 / steep) : INFINITY;
+        run->control.observed_order =
+            min_of(MAX_ORDER_SEEN, log(now->error / limited_error(step)) / log(now->refused / step->h));
+    run->control.observed_order *= ORDER_DECAY;
+    const double observed_order = run->control.observed_order;
+    return observed_order * step->method->power > 1.0
+        ? SAFETY * approximate_power(limited_error(step), -1.0 / observed_order) : INFINITY;
 }
 
 /*
@@ -206,8 +209,8 @@ static double observed_growth(Integrator *run, const Step *step, int again)
  */
 static void next_length(Integrator *run, const Step *step, int again, int whole)
 {
-    if (step->method->own_length) { /* up to the largest length of the next attempt */
-        run->control.h = again ? step->h : length_ahead(run);
+    if (step->method->controls_length) { /* up to the largest length of the next attempt */
+        run->control.h = again ? step->h : max_attempt_length(run);
         return;
     }
     const double error = limited_error(step), power = step->method->power;
@@ -234,7 +237,7 @@ static double limit_by_separation(const Integrator *run, double h)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
-        const double left = PAST * joint->delta / -joint->deltadot;
+        const double left = SEPARATION_MARGIN * joint->delta / -joint->deltadot;
         if (gives(i) && run->discrete.contact[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
             h = left;
     }
@@ -248,9 +251,9 @@ static double limit_by_flight(const Integrator *run, double h, const Parameters 
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
-        const double c = radial_clearance(p, i), way = max_of(c, 2.0 * c + joint->delta);
+        const double c = radial_clearance(p, i), distance = max_of(c, 2.0 * c + joint->delta);
         if (gives(i) && !run->discrete.contact[i].closed && joint->deltadot < 0.0)
-            h = min_of(h, FLIGHT * way / -joint->deltadot);
+            h = min_of(h, MAX_FLIGHTS * distance / -joint->deltadot);
     }
     return h;
 }
@@ -259,7 +262,7 @@ static double limit_by_flight(const Integrator *run, double h, const Parameters 
  * Return a step length h, limited after a switching point by the length that was just rejected for its error. A
  * switching point of forces changes the motion little; a small estimate of such a long step would be chance.
  */
-static double limit_by_refused(const Integrator *run, double h)
+static double limit_by_rejected(const Integrator *run, double h)
 {
     const int again = begins_at_switch(run) && run->t < run->control.too_long_until;
     return again ? min_of(h, run->control.too_long) : h;
@@ -299,15 +302,15 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
         h = limit_by_flight(
-            run, limit_by_separation(run, min_of(limit_by_refused(run, h), flight_step_limit(run, NULL, p))), p);
+            run, limit_by_separation(run, min_of(limit_by_rejected(run, h), flight_step_limit(run, NULL, p))), p);
         h = h > left * SAME_LENGTH ? left : h;
     }
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
-        .lane = run->choice.method->lane, .of_films = INFINITY};
+        .lane = run->choice.method->lane, .film_error_norm = INFINITY};
 }
 
 /* Prepare another attempt of length run->control.attempt.h, and return 0. */
-static int again(Integrator *run)
+static int retry_step(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
     return 0;
@@ -325,71 +328,72 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
     const int fixed = run->control.fixed > 0.0;
     *status = tried;
     if (N_SWITCHES > 0 && fixed && tried == NOT_FINITE && run->discrete.held) {
-        run->discrete.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
-        return again(run);
+        run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
+        return retry_step(run);
     }
     if (tried == STOPPED || fixed)
         return 1;
     const int fits = !tried && step->error <= run->control.accept;
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
-    if (fits && !is_film_known(run, step, at_ends)) {
-        const double error = film_error(run, step, p);
-        if (!(error > FALLING * now->of_films)) /* not rounding */
+    if (fits && !is_film_error_small(run, step, at_ends)) {
+        const double error = measure_film_error(run, step, p);
+        if (!(error > FILM_ERROR_RATIO * now->film_error_norm)) /* not rounding */
             step->error = max_of(step->error, error);
-        now->of_films = error > run->control.accept ? error : INFINITY;
+        now->film_error_norm = error > run->control.accept ? error : INFINITY;
     }
     const int good = !tried && step->error <= run->control.accept;
-    const double least = LEAST_LENGTH * now->far;
+    const double least = MIN_STEP_FRACTION * now->far;
     if (good && !method->stiff && run->choice.stability > method->unstable) {
         count_rejected(run);
-        if (run->choice.automatic && !now->given_up)
+        if (run->choice.automatic && !now->methods_failed)
             change_method(run);
         else
             now->h *= method->bounded / run->choice.stability;
-        return again(run);
+        return retry_step(run);
     }
     if (good && FLIGHT_STEP_SLACK * flight_step_limit(run, step, p) < now->h) {
         now->again = 1;
         count_rejected(run);
         now->h *= SHRINK_FLIGHT_STEP;
-        return again(run);
+        return retry_step(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
-    if (good && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < MAX_SHORTENED) {
+    if (good && (unresolved || has_wrong_film_force(run, step, at_ends)) && now->n_shortened++ < MAX_SHORTENED) {
         now->again = 1;
         count_rejected(run);
         now->h *= SHRINK_UNRESOLVED;
-        return again(run);
+        return retry_step(run);
     }
-    const double transient = good && now->h > FINE * now->far ? missed_transient(run, step, p) : 0.0;
-    if (transient > 0.0 && now->shortened++ < MAX_SHORTENED) {
+    const double transient = good && now->h > MIN_TRANSIENT_FRACTION * now->far ? missed_transient(run, step, p) : 0.0;
+    if (transient > 0.0 && now->n_shortened++ < MAX_SHORTENED) {
         now->again = 1;
         count_rejected(run);
         now->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
-        return again(run);
+        return retry_step(run);
     }
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
-        *status = note_short_step(run, now->h < SHORT_STEP * now->far) ? diagnose_stall(run, TOO_SMALL, p) : 0;
+        const int is_short = now->h < SHORT_STEP * now->far;
+        *status = note_short_step(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;
     count_rejected(run);
     now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink(run, step);
     if (now->h > least)
-        return again(run);
+        return retry_step(run);
     if (N_SWITCHES > 0 && tried == NOT_FINITE && run->discrete.held) {
-        run->discrete.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+        run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
         now->h = now->longest;
-        return again(run);
+        return retry_step(run);
     }
-    if (!run->choice.automatic || !method->stiff || now->given_up++) {
+    if (!run->choice.automatic || !method->stiff || now->methods_failed++) {
         *status = tried ? tried : diagnose_stall(run, TOO_SMALL, p);
         return 1;
     }
     change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
     now->h = now->longest;
-    return again(run);
+    return retry_step(run);
 }
 
 /*
@@ -411,7 +415,7 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
 static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
 /* Try steps until one is accepted; return 0 or the status. */
-static int accepted_step(Integrator *run, const Parameters *p, Step *step)
+static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;
     while (!is_step_accepted(run, try_step(run, p, step), p, step, &status))

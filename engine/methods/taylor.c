@@ -27,7 +27,7 @@ static void forget_end(Integrator *run) { count_evaluations(run, -1); }
 #include "../both/taylor.h"
 
 /* Compute the series at the state of the run, and the longest step of it, once for all steps tried there. */
-static int taylor_expand(Integrator *run, const Parameters *p)
+static int expand_series(Integrator *run, const Parameters *p)
 {
     if (run->series.ready == HERE)
         return 0;
@@ -43,18 +43,18 @@ static int taylor_expand(Integrator *run, const Parameters *p)
 /* Compute a step of at most h by the series, or by dop853 if the series is not finite; the step sets its own length. */
 static int taylor_try(Integrator *run, double h, const Parameters *p, Step *step)
 {
-    const int status = taylor_expand(run, p);
+    const int status = expand_series(run, p);
     if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
         step->method = &dop853; /* links in one line: its right-hand side passes singular positions */
         return dop853_try(run, h, p, step);
     }
     const int ended = taylor_step(run, h, p, step);
-    set_attempt(run, step->h);
+    set_attempt_length(run, step->h);
     return ended;
 }
 
 /* Copy the series of a step computed in a lane into the run, when its dense output is needed. */
-static void taylor_fetch(Integrator *run)
+static void fetch_series(Integrator *run)
 {
     const double *from = run->series.lane;
     if (run->series.ready != ELSEWHERE)
@@ -70,7 +70,7 @@ static int taylor_dense(Integrator *run, const Parameters *p, Step *step)
 {
     double power = step->h;
     (void)p;
-    taylor_fetch(run);
+    fetch_series(run);
     for (int k = 1; k <= TAYLOR_ORDERS; k++, power *= step->h)
         for (int i = 0; i < N_Y; i++)
             step->dense[k - 1][i] = k <= run->series.order ? run->series.terms[k][i] * power : 0.0;
@@ -94,23 +94,23 @@ static const Method taylor = {.name = "taylor",
     .degree = TAYLOR_ORDERS,
     .error_nodes = taylor_error_nodes,
     .n_error_nodes = COUNT_OF(taylor_error_nodes),
-    .own_length = 1};
+    .controls_length = 1};
 
 /* Set the order of the series from the relative tolerance of a step. */
 static void start_series(Integrator *run, double fraction) { run->series.order = taylor_order(fraction); }
 
 /* Discard the series when the state changes. */
-static void forget_series(Integrator *run) { run->series.ready = 0; }
+static void discard_series(Integrator *run) { run->series.ready = 0; }
 
 /* Return the largest length in s of the next tried step. */
-static double length_ahead(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
+static double max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.reach; }
 #else
 /* Do nothing: the library has no Taylor method. */
 static inline void start_series(Integrator *run, double fraction) { (void)run, (void)fraction; }
 
 /* Do nothing: the library has no Taylor method. */
-static inline void forget_series(Integrator *run) { (void)run; }
+static inline void discard_series(Integrator *run) { (void)run; }
 
 /* Return infinity: the library has no Taylor method. */
-static inline double length_ahead(const Integrator *run) { return (void)run, INFINITY; }
+static inline double max_attempt_length(const Integrator *run) { return (void)run, INFINITY; }
 #endif

@@ -23,7 +23,7 @@ enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 static int is_resolved(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k, const Parameters *p);
 
 /* Return a pseudo-random number in (0, 1) from a sequence that is the same in every run. */
-static double draw(Audit *audit)
+static double draw_random(Audit *audit)
 {
     audit->random = audit->random * 1664525u + 1013904223u;
     return ((audit->random >> 8) + 0.5) / 16777216.0;
@@ -36,7 +36,7 @@ static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0
 static double audit_tolerance(const Integrator *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
 
 /* Return the size of the mechanism, m. */
-static double size_of(const Integrator *run) { return run->audit.size; }
+static double mechanism_size(const Integrator *run) { return run->audit.size; }
 
 /*
  * Record a value of a check that exceeds the largest one so far relative to its limit. A multiple above AUDIT_FAILS
@@ -59,35 +59,35 @@ static void record_larger(Audit *audit, int check, double value, double limit, d
  * Record the value of a check with its limit at time t, if it is the largest so far. where: number of the joint,
  * constraint equation, body coordinate, switching function or event, -1: none.
  */
-static void record(Audit *audit, int check, double value, double limit, double t, int where)
+static void record_check(Audit *audit, int check, double value, double limit, double t, int where)
 {
     if (!(value <= audit->record[check].worst * limit))
         record_larger(audit, check, value, limit, t, where);
 }
 
 /* Check the largest constraint residual of all accepted steps so far. A residual of the start does not count. */
-static void check_closed(Integrator *run)
+static void check_residuals(Integrator *run)
 {
     if (drifts(run))
         return;
-    double limit = max_of(audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * size_of(run));
+    double limit = max_of(audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * mechanism_size(run));
     if (run->counts.steps <= 1)
         run->audit.phi_start = run->residuals.phi_max;
     const double off = run->residuals.phi_max > run->audit.phi_start ? run->residuals.phi_max : 0.0;
     for (int k = 0; k < N_X && !(off < limit); k++)
         limit = max_of(limit, is_angle[k] ? 0.0 : AUDIT_ROUNDING * fabs(run->y[k]));
-    record(&run->audit, CHECK_position, off, limit, run->t, -1);
+    record_check(&run->audit, CHECK_position, off, limit, run->t, -1);
 }
 
 /* Check the constraint equations, and with `rates_too` their velocities, at a state `all` of all bodies. */
-static void check_rows(Integrator *run, double t, const double *all, int rates_too, const Parameters *p)
+static void check_constraints(Integrator *run, double t, const double *all, int rates_too, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (drifts(run))
         return;
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
     double far[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
-    const double rtol = audit_tolerance(run), size = size_of(run);
+    const double rtol = audit_tolerance(run), size = mechanism_size(run);
     for (int k = 0; k < N_Q; k++) {
         far[k % 3 == 2] = max_of(far[k % 3 == 2], fabs(all[k]));
         speed[k % 3 == 2] = max_of(speed[k % 3 == 2], fabs(all[N_Q + k]));
@@ -97,7 +97,7 @@ static void check_rows(Integrator *run, double t, const double *all, int rates_t
         const int row = kept_row[i], length = row_is_length[row];
         const double play = length ? run->norm.least[0] : run->norm.least[1];
         const double limit = max_of(rtol * play, AUDIT_ROUNDING * (length ? size + far[0] : 1.0 + far[1]));
-        record(audit, CHECK_position, fabs(phi[row]), limit, t, row);
+        record_check(audit, CHECK_position, fabs(phi[row]), limit, t, row);
     }
     if (!rates_too)
         return;
@@ -109,7 +109,7 @@ static void check_rows(Integrator *run, double t, const double *all, int rates_t
         const double scale = max_of(row_is_length[row] ? fast : fast / max_of(size, 1e-300), fabs(nu[row]));
         const double most = row_is_length[row] ? far[0] + size * far[1] : far[1];
         const double rounding = 4.0 * DBL_EPSILON * most / ahead;
-        record(audit, CHECK_velocity, fabs(missed[row]), max_of(rtol, 1e-8) * scale + rounding, t, row);
+        record_check(audit, CHECK_velocity, fabs(missed[row]), max_of(rtol, 1e-8) * scale + rounding, t, row);
     }
 }
 
@@ -118,16 +118,16 @@ static void check_rows(Integrator *run, double t, const double *all, int rates_t
  * Compute the states of all bodies h (s) before and after time t, from velocities and accelerations `dy` at t. Return
  * the exact difference of both times in s.
  */
-static double states_near(const Integrator *run, double t, const double *y, const double *dy, double h,
+static double compute_states_near(const Integrator *run, double t, const double *y, const double *dy, double h,
     const Parameters *p, double (*near)[N_S])
 {
     const double before = t - h, after = t + h;
     for (int branch = 0; branch < 2; branch++) {
-        const double way = branch ? after - t : before - t;
+        const double offset = branch ? after - t : before - t;
         double state[N_Y];
         for (int k = 0; k < N_X; k++) {
-            state[k] = y[k] + way * (y[N_X + k] + 0.5 * way * dy[N_X + k]);
-            state[N_X + k] = y[N_X + k] + way * dy[N_X + k];
+            state[k] = y[k] + offset * (y[N_X + k] + 0.5 * offset * dy[N_X + k]);
+            state[N_X + k] = y[N_X + k] + offset * dy[N_X + k];
         }
         for (int k = 2 * N_X; k < N_Y; k++)
             state[k] = y[k];
@@ -141,7 +141,7 @@ static double states_near(const Integrator *run, double t, const double *y, cons
  * singular position; changes of positions within rounding that alter `a` by 0.1 `fraction`; driven loops near a dead
  * centre, where changes of time within rounding do the same.
  */
-static int is_sensitive(Integrator *run, double t, const double *y, const double *a, const double *scale,
+static int is_too_sensitive(Integrator *run, double t, const double *y, const double *a, const double *scale,
     double fraction, const Parameters *p)
 {
     double state[N_Y], all[N_S], other[N_Q], rate[N_Y], force;
@@ -149,9 +149,10 @@ static int is_sensitive(Integrator *run, double t, const double *y, const double
     RhsOutputs rhs;
     if (motion_here(t, y, &now, p, rate, &rhs))
         return 1; /* near a singular position rates are continued from both sides */
-    const double size = size_of(run);
+    const double size = mechanism_size(run);
     for (int k = 0; k < N_Y; k++)
-        state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
+        state[k] = k < N_X
+            ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random(&run->audit) - 1.0) : y[k];
     const double near = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
     to_absolute(near, state, &run->discrete, p, all);
     if (absolute_accelerations(near, all, &run->discrete, p, other, &force))
@@ -172,7 +173,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
     const Parameters *p)
 {
 #if TREE
-    const double size = size_of(run);
+    const double size = mechanism_size(run);
     double a[N_Q], m[N_Q], scale[N_Q], near[2][N_S], force, rate = 0.0, most[2] = {0.0, 0.0};
     if (run->discrete.singular_policy != SINGULAR_CONTINUE
         || absolute_accelerations(t, all, &run->discrete, p, a, &force))
@@ -195,7 +196,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
         const double h = fraction / rate;
         double worst = 0.0, bend = 0.0;
         int where = 0;
-        const double between = states_near(run, t, y, dy, h, p, near);
+        const double between = compute_states_near(run, t, y, dy, h, p, near);
         for (int k = 0; k < N_Q; k++) {
             const double before = near[0][N_Q + k], after = near[1][N_Q + k];
             const double off = fabs(a[k] - (after - before) / between) / scale[k];
@@ -206,9 +207,9 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
         if (bend < 1e-4) {
             /* at a jump of a drive the step holds the old branch, the bodies have the new one */
             if (worst > AUDIT_ACCELERATION
-                && (drives_jump(t, all, all + N_Q, p) || is_sensitive(run, t, y, a, scale, worst, p)))
+                && (drives_jump(t, all, all + N_Q, p) || is_too_sensitive(run, t, y, a, scale, worst, p)))
                 return;
-            record(&run->audit, CHECK_acceleration, worst, AUDIT_ACCELERATION, t, where);
+            record_check(&run->audit, CHECK_acceleration, worst, AUDIT_ACCELERATION, t, where);
             return;
         }
     }
@@ -225,19 +226,19 @@ static void check_joints(Integrator *run, double t, const RhsOutputs *rhs, const
         if (run->discrete.contact[i].closed)
             continue;
         if (joint->delta <= AUDIT_GRAZE) {
-            record(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
+            record_check(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
             continue;
         }
         const double located = 4.0 * (run->roots.time_resolution + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
-        const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
+        const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * mechanism_size(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
         const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->norm.least[0], rounding) + located;
-        record(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
+        record_check(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }
 }
 
 /* Return the time in s within which an event is located after its zero. */
-static double located_within(const Integrator *run)
+static double event_location_tolerance(const Integrator *run)
 {
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
 }
@@ -252,7 +253,7 @@ static int state_at(
  */
 static int has_just_jumped(Integrator *run, Step *step, double t, int k, const Parameters *p)
 {
-    const double fraction = (t - located_within(run) - step->t) / step->h;
+    const double fraction = (t - event_location_tolerance(run) - step->t) / step->h;
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
     return fraction <= 0.0 || make_dense(run, p, step) || state_at(run, step, fraction, p, y, dy, &rhs)
@@ -264,8 +265,8 @@ static void check_branches(Integrator *run, Step *step, double t, const double *
     const Parameters *p)
 {
     if (N_SWITCHES > 0)
-        record(&run->audit, CHECK_branch, 0.0, 1.0, t, -1);
-    if (t <= run->t + located_within(run))
+        record_check(&run->audit, CHECK_branch, 0.0, 1.0, t, -1);
+    if (t <= run->t + event_location_tolerance(run))
         return; /* functions that change at one time, as those of one mod, do so one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
@@ -278,15 +279,15 @@ static void check_branches(Integrator *run, Step *step, double t, const double *
         for (int n = 0; n < step->n_seen; n++) /* at zeros that end steps the magnitude appears only inside */
             run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(stage_value(seen, n)));
         if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_just_jumped(run, step, t, k, p))
-            record(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
+            record_check(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 
 /* Check that open joints carry no force. */
-static void check_free(Integrator *run)
+static void check_open_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->discrete.contact[i].closed && gives(i) && !has_film(i))
-            record(&run->audit, CHECK_free, total_force(&run->rhs.clearance[i]),
+            record_check(&run->audit, CHECK_free, total_force(&run->rhs.clearance[i]),
                 max_of(1e-6 * run->contacts.F_peak[i], 1e-300), run->t, i);
 }

@@ -13,12 +13,12 @@ static void check_event(Integrator *run, int i, int listed)
     int found = 0;
     for (int k = listed; k < run->events.n; k++)
         found |= run->events.number[k] == i;
-    record(audit, CHECK_event, 0.0, 1.0, run->t, i);
+    record_check(audit, CHECK_event, 0.0, 1.0, run->t, i);
     if ((ended || audit->crossed[i]) && !found)
-        record(audit, CHECK_event, INFINITY, 1.0, run->t, i);
+        record_check(audit, CHECK_event, INFINITY, 1.0, run->t, i);
     audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
     if (audit->noise[i] >= AUDIT_WRONG)
-        record(audit, CHECK_event, INFINITY, 1.0, run->t, i);
+        record_check(audit, CHECK_event, INFINITY, 1.0, run->t, i);
     audit->away[i] = found ? 0 : audit->away[i];
     audit->crossed[i] = 0;
 }
@@ -47,7 +47,7 @@ static void check_branches_at_end(Integrator *run, const Parameters *p)
         }
         audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
         if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->rhs, N_CLEARANCES + k, p))
-            record(audit, CHECK_branch, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
+            record_check(audit, CHECK_branch, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
     }
 }
 
@@ -57,16 +57,16 @@ static int audit_state(Integrator *run, int listed, const Parameters *p)
     Audit *audit = &run->audit;
     if (!audit->level)
         return 0;
-    check_closed(run);
+    check_residuals(run);
     check_joints(run, run->t, &run->rhs, p);
 #if N_CHAIN
     double all[N_S];
     to_absolute(run->t, run->y, &run->discrete, p, all);
-    check_rows(run, run->t, all, 0, p);
+    check_constraints(run, run->t, all, 0, p);
 #endif
-    check_free(run);
+    check_open_forces(run);
     if (N_SWITCHES > 0 && run->discrete.held) {
-        record(audit, CHECK_branch, 0.0, 1.0, run->t, -1);
+        record_check(audit, CHECK_branch, 0.0, 1.0, run->t, -1);
         check_branches_at_end(run, p);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)

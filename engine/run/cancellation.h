@@ -23,17 +23,20 @@ typedef struct {
 } ProgressMonitor;
 
 double seconds_now(void);
-void start_cancellation(Cancellation *x, int (*ask)(void *), void *caller, double every);
-int has_stalled(ProgressMonitor *x, double t, double t_end);
-long steps_before_check(const ProgressMonitor *x);
+void start_cancellation(Cancellation *token, int (*ask)(void *), void *caller, double every);
+int has_stalled(ProgressMonitor *monitor, double t, double t_end);
+long steps_before_check(const ProgressMonitor *monitor);
 
 /* Defer a request to stop until the present operation is complete. */
-static inline void defer_stop(Cancellation *x) { x->hold = 1; }
+static inline void defer_stop(Cancellation *token) { token->hold = 1; }
 
 /* Obey requests to stop at once from now on. */
-static inline void allow_stop(Cancellation *x) { x->hold = 0; }
+static inline void allow_stop(Cancellation *token) { token->hold = 0; }
 
 /* Count a right-hand side, poll the caller if due, and return whether the computation must stop. */
-static inline int given_up(Cancellation *x) { return ++x->count > x->poll_after && poll_cancellation(x); }
+static inline int given_up(Cancellation *token)
+{
+    return ++token->count > token->poll_after && poll_cancellation(token);
+}
 
 #endif

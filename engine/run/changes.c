@@ -2,7 +2,7 @@
  * Changes at an event: contacts begin or end, switching functions change branch, friction changes mode. A drive whose
  * rate jumps moves the linkage by an impulse.
  */
-#define ROUGH 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
+#define ONSET_ORDER 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 
 /*
  * Update the branches of all active switching functions except `crossed` (-1: none), which was just switched, and
@@ -21,7 +21,7 @@ static int update_branches(Integrator *run, int crossed, const Parameters *p)
  */
 static int update_branches_after_event(Integrator *run, int crossed, const Parameters *p)
 {
-    const double h = located_within(run);
+    const double h = event_location_tolerance(run);
     double branch[N_SWITCHES], y[N_Y], dy[N_Y];
     RhsOutputs beyond;
     memcpy(branch, run->discrete.branch, sizeof branch);
@@ -34,11 +34,11 @@ static int update_branches_after_event(Integrator *run, int crossed, const Param
 }
 
 /* Return whether event function i keeps its sign at a zero, because branches have changed there since `before`. */
-static int keeps_sign(Integrator *run, int i, const double *before, const Parameters *p)
+static int has_unchanged_sign(Integrator *run, int i, const double *before, const Parameters *p)
 {
     double value[N_USER_EVENTS];
     return memcmp(before, run->discrete.branch, sizeof run->discrete.branch)
-        && !events_ahead(run, run->t, located_within(run), run->y, run->dy, p, value)
+        && !events_ahead(run, run->t, event_location_tolerance(run), run->y, run->dy, p, value)
         && run->discrete.event_sign[i] * value[i] > 0.0;
 }
 #else
@@ -49,7 +49,7 @@ static int update_branches_after_event(Integrator *run, int crossed, const Param
 }
 
 /* Return 0: the scene has no user-defined events with switching functions. */
-static int keeps_sign(Integrator *run, int i, const double *before, const Parameters *p)
+static int has_unchanged_sign(Integrator *run, int i, const double *before, const Parameters *p)
 {
     return (void)run, (void)i, (void)before, (void)p, 0;
 }
@@ -75,8 +75,8 @@ static void cross_contact(Integrator *run, int i, double floor)
         open_joint(run, i, run->t);
     else
         close_joint(run, i, run->t, run->rhs.clearance[i].deltadot, floor);
-    set_first_length(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
-    forget_stiff_length(run);
+    set_first_length(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ONSET_ORDER);
+    discard_stiff_length(run);
 }
 
 /*
@@ -90,9 +90,9 @@ static void cross_event(Integrator *run, int k, const Parameters *p)
     if (k < N_CLEARANCES)
         cross_contact(run, k, slowest_impact(p, k));
     else if (k < N_CLEARANCES + N_SWITCHES) {
-        const int corner = k - N_CLEARANCES;
-        run->discrete.branch[corner] *= -1.0;
-        set_first_length(run, &run->control.after_switch[corner][run->discrete.branch[corner] > 0.0], 0.0);
+        const int switch_index = k - N_CLEARANCES;
+        run->discrete.branch[switch_index] *= -1.0;
+        set_first_length(run, &run->control.after_switch[switch_index][run->discrete.branch[switch_index] > 0.0], 0.0);
     }
 }
 
@@ -133,23 +133,23 @@ static int update_branches_just_after(Integrator *run, double ahead, int crossed
 
 /*
  * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0.
- * The test: at fixed state, accelerations change far more from here to `apart` (s) than from there to twice as far.
+ * The test: at fixed state, accelerations change far more from here to `distance` (s) than from there to twice as far.
  */
-static int is_unbounded(Integrator *run, double apart, const Parameters *p)
+static int is_unbounded(Integrator *run, double distance, const Parameters *p)
 {
-    const double way[3] = {1e-5 * apart, apart, 2.0 * apart};
+    const double offset[3] = {1e-5 * distance, distance, 2.0 * distance};
     DiscreteState free = run->discrete;
-    double dy[3][N_Y], most = 0.0;
+    double dy[3][N_Y], largest = 0.0;
     RhsOutputs rhs;
     int some = 0;
     free.held = 0;
     for (int i = 0; i < 3; i++)
-        if (motion(run->t + way[i], run->y, &free, p, dy[i], &rhs))
+        if (motion(run->t + offset[i], run->y, &free, p, dy[i], &rhs))
             return 0;
     for (int k = N_X; k < 2 * N_X; k++)
-        most = max_of(most, fabs(dy[1][k]));
+        largest = max_of(largest, fabs(dy[1][k]));
     for (int k = N_X; k < 2 * N_X; k++)
-        some |= !(fabs(dy[0][k] - dy[1][k]) <= 20.0 * fabs(dy[1][k] - dy[2][k]) + 1e-9 * most);
+        some |= !(fabs(dy[0][k] - dy[1][k]) <= 20.0 * fabs(dy[1][k] - dy[2][k]) + 1e-9 * largest);
     return some;
 }
 
@@ -157,24 +157,24 @@ static int is_unbounded(Integrator *run, double apart, const Parameters *p)
  * Pass the switching point of a drive with all others at the same time: first update branches, then apply the impulse
  * that changes velocities. Return 0, UNBOUNDED or another status.
  */
-static int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
+static int pass_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
     const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->roots.time_resolution);
     /* methods with step-size control approach in short steps; the time is known to a few time resolutions */
-    const double apart = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.time_resolution);
-    if (run->control.fixed > 0.0 && (is_unbounded(run, -apart, p) || is_unbounded(run, apart, p)))
+    const double distance = max_of(1e-6 * run->control.fixed, 4e5 * run->roots.time_resolution);
+    if (run->control.fixed > 0.0 && (is_unbounded(run, -distance, p) || is_unbounded(run, distance, p)))
         return UNBOUNDED;
-    int status = update_branches_just_after(run, ahead, corner, p);
+    int status = update_branches_just_after(run, ahead, switch_index, p);
     if (status)
         return status;
     const double before = kinetic_energy(run, p);
     apply_drive_impulse(run, p);
     if (kinetic_energy(run, p) == before)
-        return update_branches(run, corner, p);
-    status = update_branches_just_after(run, ahead, corner, p); /* branches that depend on the changed speeds */
+        return update_branches(run, switch_index, p);
+    status = update_branches_just_after(run, ahead, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
         status = rates(run, t, run->y, p, run->dy, &run->rhs);
-    return status ? status : note_leaps(run, NULL, p);
+    return status ? status : record_crossed_events(run, NULL, p);
 }
 
 /*
@@ -198,13 +198,13 @@ static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
         status = update_contacts(run, -1, p);
-    return status ? status : note_leaps(run, NULL, p);
+    return status ? status : record_crossed_events(run, NULL, p);
 }
 #else
 /* Update branches: no drive of the scene has a rate that jumps. */
-static inline int pass_drive_jump(Integrator *run, int corner, const Parameters *p)
+static inline int pass_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
-    return update_branches(run, corner, p);
+    return update_branches(run, switch_index, p);
 }
 
 /* Return 0: no drive of the scene has a rate that jumps. */
@@ -212,15 +212,15 @@ static inline int pass_drive_jumps_here(Integrator *run, const Parameters *p) { 
 #endif
 
 /*
- * Change the branch of switching function `corner` at its zero, apply the impulse of a drive, and suppress a repeated
- * zero.
+ * Change the branch of switching function `switch_index` at its zero, apply the impulse of a drive, and suppress a
+ * repeated zero.
  */
-static int change_branch(Integrator *run, int corner, const Parameters *p)
+static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 {
     double before[N_Y];
     memcpy(before, run->dy, sizeof before);
-    const int status = pass_drive_jump(run, corner, p);
-    suppress_repeated_switch(run, corner, before);
+    const int status = pass_drive_jump(run, switch_index, p);
+    suppress_repeated_switch(run, switch_index, before);
     return status;
 }
 
@@ -229,7 +229,7 @@ static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (run->discrete.contact[i].closed && run->contacts.open[i].t_on == run->t && gives(i))
-            peak(run, i, run->t, total_force(&run->rhs.clearance[i]));
+            record_force(run, i, run->t, total_force(&run->rhs.clearance[i]));
 }
 
 /*
@@ -240,7 +240,7 @@ static void record_onset_forces(Integrator *run)
 static int apply_event(Integrator *run, int event, const Parameters *p)
 {
     double before[AT_LEAST_ONE(N_USER_EVENTS)], branch[AT_LEAST_ONE(N_SWITCHES)];
-    const Held held = held_before(run);
+    const StateBeforeEvent held = copy_before_event(run);
     memcpy(branch, run->discrete.branch, sizeof branch);
     for (int i = 0; i < N_USER_EVENTS; i++)
         before[i] = run->rhs.event[i];
@@ -248,21 +248,23 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         if (k == event
             || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < penetration_rounding(p, k)))
             cross_event(run, k, p);
-    const int corner = event - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
-    int status = corner >= 0 && friction < 0 ? change_branch(run, corner, p) : update_branches(run, -1, p);
-    if (!status && corner >= 0)
-        status = update_branches_after_event(run, friction < 0 ? corner : -1, p);
+    const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
+    const int user_event = friction - N_FRICTIONS;
+    int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p) : update_branches(run, -1, p);
+    if (!status && switch_index >= 0)
+        status = update_branches_after_event(run, friction < 0 ? switch_index : -1, p);
     if (!status)
         record_onset_forces(run);
     if (!status && friction >= 0 && user_event < 0)
-        status = switch_friction(run, p);
+        status = change_friction_modes(run, p);
     if (!status && user_event < 0)
         status = update_contacts(run, event, p);
-    if (!status && user_event >= 0 && !keeps_sign(run, user_event, branch, p) && cross_zero(run, user_event)
-        && !run->events.pole && note_event(run, user_event, run->t, run->y, p))
+    if (!status && user_event >= 0 && !has_unchanged_sign(run, user_event, branch, p)
+        && reverse_event_sign(run, user_event) && !run->events.pole
+        && record_user_event(run, user_event, run->t, run->y, p))
         status = ENDED;
-    const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;
-    const int held_now = !status || status == ENDED ? note_arrivals(run, &held, 1e-4 * run->control.h, p) : 0;
+    const int ended = !status || status == ENDED ? record_crossed_events(run, before, p) : 0;
+    const int held_now = !status || status == ENDED ? record_arrivals_at_zero(run, &held, 1e-4 * run->control.h, p) : 0;
     return ended ? ended : held_now ? held_now : status;
 }
 

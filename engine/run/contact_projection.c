@@ -8,7 +8,7 @@ static int project_contacts(
 {
     unsigned char closed[N_RIGID];
     DiscreteState now = run->discrete;
-    without_friction(&now);
+    disable_friction(&now);
     for (int k = 0; k < contacts->n; k++) {
         ContactState *contact = &now.contact[contacts->joint[k]];
         closed[k] = (unsigned char)contact->closed;
@@ -17,9 +17,9 @@ static int project_contacts(
     for (int pass = 0; pass < 3; pass++) {
         double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
         RhsOutputs rhs;
-        int status = compute_delassus(motion_of_laws, N_Y, t, y, &now, p, contacts);
+        int status = compute_delassus(motion_with_inner_states, N_Y, t, y, &now, p, contacts);
         if (!status)
-            status = motion_of_laws(t, y, &now, p, dy, &rhs);
+            status = motion_with_inner_states(t, y, &now, p, dy, &rhs);
         count_evaluations(run, contacts->n + 2);
         if (status)
             return status;
@@ -43,7 +43,7 @@ static int project_contacts(
 }
 
 /* Project a state y onto delta = 0 and deltadot = 0 of all closed contacts. */
-static void hold_contacts(Integrator *run, double t, double *y, const Parameters *p)
+static void project_closed_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
     const double none[N_RIGID] = {0.0};
     Delassus contacts;

@@ -95,7 +95,7 @@ static inline void raise_eccentricity(Integrator *run, int i, double e)
 }
 
 /* Store whether the force of joint i rises at the end of the step. */
-static inline void set_rising(Integrator *run, int i, int rises) { run->contacts.rising[i] = rises; }
+static inline void set_rising(Integrator *run, int i, int rises) { run->contacts.is_rising[i] = rises; }
 
 /* Begin the contact of joint i at its onset and store the approach speed deltadot (m/s), raised to `floor`. */
 static void close_joint(Integrator *run, int i, double t, double deltadot, double floor)
@@ -103,7 +103,7 @@ static void close_joint(Integrator *run, int i, double t, double deltadot, doubl
     run->discrete.contact[i].closed = 1;
     run->discrete.contact[i].deltadot_minus = max_of(deltadot, floor);
     run->contacts.compressing[i] = 1;
-    run->contacts.rising[i] = 1;
+    run->contacts.is_rising[i] = 1;
     reset_inner_states(run, i);
     run->contacts.onsets++;
     begin_contact(run, i, t, run->discrete.contact[i].deltadot_minus);
@@ -144,7 +144,7 @@ static inline int set_contact_closed(Integrator *run, int i, int closes)
 
 /*
  * Close and open contacts at the start of a run from gaps and gap rates, and return whether any changed. The approach
- * speed of a closed contact is at least |deltadot|; begin_in_contact() estimates it. A penetration within rounding
+ * speed of a closed contact is at least |deltadot| (estimate_approach_speed). A penetration within rounding
  * counts as free while the journal leaves the wall.
  */
 static int begin_contacts_of_start(Integrator *run, const Parameters *p)
@@ -154,7 +154,7 @@ static int begin_contacts_of_start(Integrator *run, const Parameters *p)
         const Clearance *now = &run->rhs.clearance[i];
         const int closed = run->discrete.contact[i].closed;
         const int touches = now->delta >= 0.0 && (now->delta > -penetration_rounding(p, i) || now->deltadot > 0.0);
-        if (!gives(i)) /* these begin and end where they are located (impacts.c) */
+        if (!gives(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!closed && touches)
             close_joint(run, i, run->t, fabs(now->deltadot), slowest_impact(p, i));

@@ -17,7 +17,9 @@ static void extend_force_envelope(Integrator *run, int i, double t, double F)
 static void extend_path_envelope(Integrator *run, int i, double t, const Clearance *joint)
 {
     double *columns = run->envelope.rows[run->envelope.row].joint[i];
-    if (!(joint->e * joint->e > columns[TRACE_ex_out] * columns[TRACE_ex_out] + columns[TRACE_ey_out] * columns[TRACE_ey_out]))
+    if (!(joint->e * joint->e
+            > columns[TRACE_ex_out] * columns[TRACE_ex_out]
+                + columns[TRACE_ey_out] * columns[TRACE_ey_out]))
         return;
     columns[TRACE_ex_out] = joint->ex;
     columns[TRACE_ey_out] = joint->ey;
@@ -52,7 +54,8 @@ static void merge_envelope_rows(EnvelopeRow *to, const EnvelopeRow *a, const Env
             columns[TRACE_F_high] = first[TRACE_F_high];
             columns[TRACE_t_F_high] = first[TRACE_t_F_high];
         }
-        if (hypot(first[TRACE_ex_out], first[TRACE_ey_out]) >= hypot(columns[TRACE_ex_out], columns[TRACE_ey_out])) {
+        if (hypot(first[TRACE_ex_out], first[TRACE_ey_out])
+            >= hypot(columns[TRACE_ex_out], columns[TRACE_ey_out])) {
             columns[TRACE_ex_out] = first[TRACE_ex_out];
             columns[TRACE_ey_out] = first[TRACE_ey_out];
             columns[TRACE_t_out] = first[TRACE_t_out];

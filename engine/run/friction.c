@@ -1,6 +1,6 @@
 /*
  * Friction that may stick: its modes, and their changes at events. A step ends where the slip reaches zero or the force
- * of stick reaches its limit: at the zero of friction_indicator() on the step.
+ * of stick reaches its limit: at the zero of friction_event_function() on the step.
  */
 #if N_FRICTIONS
 #define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
@@ -10,7 +10,7 @@ enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
  * Return the event function of friction element i, positive while its mode lasts: static limit minus |force| in stick
  * (N), slip in its direction otherwise (m/s).
  */
-static double friction_indicator(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     const Friction *friction = &rhs->friction[i];
     if (discrete->mode[i] == MODE_HELD)
@@ -24,7 +24,7 @@ static double friction_indicator(const DiscreteState *discrete, const RhsOutputs
  * Evaluate the right-hand side with the present friction modes. A sticking element whose pivot vanishes is already held
  * by a drive or another sticking element: its force is indeterminate, and it becomes MODE_HELD without force.
  */
-static int rates_of_modes(Integrator *run, const Parameters *p)
+static int evaluate_rates_of_modes(Integrator *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
@@ -35,7 +35,7 @@ static int rates_of_modes(Integrator *run, const Parameters *p)
 }
 
 /*
- * Set the slip of elements that stick or start to slip to exactly zero where modes change, so that rounding does not
+ * Set the slip of elements that stick or start to slip to exactly zero where modes change. Otherwise rounding would
  * decide the next mode.
  */
 static int begin_at_rest(Integrator *run, const Parameters *p)
@@ -44,7 +44,7 @@ static int begin_at_rest(Integrator *run, const Parameters *p)
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
-    const int status = rates_of_modes(run, p);
+    const int status = evaluate_rates_of_modes(run, p);
     if (!status)
         (void)remove_slip_residuals(run, run->t, run->y, &run->rhs, p);
     run->discrete = known;
@@ -93,7 +93,7 @@ static int update_modes(Integrator *run, const Parameters *p)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
     for (int i = 0; i < MAX_TRIES; i++) {
-        const int status = rates_of_modes(run, p);
+        const int status = evaluate_rates_of_modes(run, p);
         if (status || !correct_worst_mode(run))
             return status;
     }
@@ -101,14 +101,14 @@ static int update_modes(Integrator *run, const Parameters *p)
 }
 
 /* Change the mode of each friction element whose event function has reached zero, then update all modes. */
-static int switch_friction(Integrator *run, const Parameters *p)
+static int change_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->rhs.friction[i];
         double *mode = &run->discrete.mode[i];
-        if (friction_indicator(&run->discrete, &run->rhs, i) > 0.0)
+        if (friction_event_function(&run->discrete, &run->rhs, i) > 0.0)
             continue;
-        count_switch(run);
+        count_mode_change(run);
         if (*mode == 0.0) /* the limit is reached: it slips against the force */
             *mode = friction->force > 0.0 ? -1.0 : 1.0;
         else
@@ -137,7 +137,7 @@ static int begin_friction(Integrator *run, const Parameters *p)
 static int update_friction_modes(Integrator *run, const Parameters *p) { return update_modes(run, p); }
 
 /* Set the friction modes after an impact: an element that the impact moves slips. */
-static int modes_after_impact(Integrator *run, const Parameters *p)
+static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     const int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && !status; i++) {
@@ -151,26 +151,27 @@ static int modes_after_impact(Integrator *run, const Parameters *p)
 
 #else
 /* Return a positive value: the scene has no friction that may stick. */
-static inline double friction_indicator(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
+static inline double friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int i)
 {
     (void)discrete, (void)rhs, (void)i;
     return 1.0;
 }
 
 /* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. */
-static inline int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
+static inline int rates_at_rest(
+    Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return rates(run, t, y, p, dy, rhs);
 }
 
 /* Leave the state unchanged: the scene has no friction that may stick. */
-static inline void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
+static inline void project_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     (void)run, (void)t, (void)y, (void)p;
 }
 
 /* Return 0: the scene has no friction that may stick. */
-static inline int switch_friction(Integrator *run, const Parameters *p)
+static inline int change_friction_modes(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;
@@ -192,7 +193,7 @@ static inline int update_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /* Return 0: the scene has no friction modes that an impact changes. */
-static inline int modes_after_impact(Integrator *run, const Parameters *p)
+static inline int update_modes_after_impact(Integrator *run, const Parameters *p)
 {
     (void)run, (void)p;
     return 0;

@@ -7,8 +7,8 @@
  * contacts at once.
  */
 #if N_RUBBED
-#define UNLIKE 10.0 /* ratio to the forces without friction that only an inconsistency reaches */
-enum { MOST_SWEEPS = 1000 };
+#define INCONSISTENT_RATIO 10.0 /* ratio to the forces without friction that only an inconsistency reaches */
+enum { MAX_SWEEPS = 1000 };
 
 /* Tangential impulses of the contacts of an impact, and the response of gap rates, slips and velocities to them. */
 typedef struct {
@@ -18,14 +18,14 @@ typedef struct {
     double plastic[N_RIGID];       /* slip after an impact without rebound and friction, m/s */
     double after[N_RIGID];         /* slip after the impact with rebound, without friction, m/s */
     double mu[N_RIGID];            /* F_t/F_n of the friction law there */
-    double meet[N_RIGID][N_RIGID]; /* change of deltadot of the row per unit P of the column, 1/kg */
+    double gap_rate[N_RIGID][N_RIGID]; /* change of deltadot of the row per unit P of the column, 1/kg */
     double slip[N_RIGID][N_RIGID]; /* change of the slip of the row per unit P of the column, 1/kg */
-    double press[N_RIGID][N_RIGID]; /* normal impulse per unit P that keeps separation speeds unchanged */
-    double way[N_RIGID][N_X];      /* change of velocities per unit P */
-} Rub;
+    double normal[N_RIGID][N_RIGID]; /* normal impulse per unit P that keeps separation speeds unchanged */
+    double velocity[N_RIGID][N_X];      /* change of velocities per unit P */
+} FrictionImpulses;
 
 /* Switch off friction in all contacts of a discrete state, with no given tangential force. */
-static void without_friction(DiscreteState *discrete)
+static void disable_friction(DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         discrete->contact[i].smooth = 1;
@@ -47,8 +47,8 @@ static int diagnose_stall(const Integrator *run, int otherwise, const Parameters
         Delassus contacts;
         contacts.n = list_closed(&now, contacts.joint);
         if (smooth)
-            without_friction(&now);
-        if (compute_delassus(motion_of_laws, N_Y, run->t, run->y, &now, p, &contacts))
+            disable_friction(&now);
+        if (compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &now, p, &contacts))
             return otherwise;
         solve_part(&contacts, NULL, contacts.r, force[smooth]);
         for (int k = 0; k < contacts.n; k++) {
@@ -56,7 +56,7 @@ static int diagnose_stall(const Integrator *run, int otherwise, const Parameters
             none |= smooth && force[0][k] == 0.0 && force[1][k] != 0.0; /* the others took all of D */
         }
     }
-    return none || most[0] > UNLIKE * most[1] ? FRICTION_INCONSISTENT : otherwise;
+    return none || most[0] > INCONSISTENT_RATIO * most[1] ? FRICTION_INCONSISTENT : otherwise;
 }
 
 /*
@@ -70,7 +70,7 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
         RhsOutputs rhs;
         changed = 0;
         count_evaluations(run, 1);
-        if (motion_of_laws(run->t, run->y, &run->discrete, p, dy, &rhs))
+        if (motion_with_inner_states(run->t, run->y, &run->discrete, p, dy, &rhs))
             return; /* the next evaluation reports the status */
         for (int k = 0; k < N_SWITCHES; k++)
             if (run->discrete.branch[k] * rhs.g[k] < 0.0) {
@@ -84,7 +84,7 @@ static void update_slip_branches(Integrator *run, const Parameters *p)
  * Compute the slips (m/s) after normal impulses, and mu = F_t/F_n of the friction laws there, 0 without an impulse.
  * unit: a normal force in N at which the laws are evaluated.
  */
-static int slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
+static int compute_slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit,
     const Parameters *p, double *slip, double *mu)
 {
     double y[N_Y], dy[N_Y];
@@ -100,7 +100,7 @@ static int slips_after_impact(Integrator *run, const Delassus *impact, const dou
             y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
     }
     count_evaluations(run, 1);
-    const int status = motion_of_laws(run->t, y, &now, p, dy, &rhs);
+    const int status = motion_with_inner_states(run->t, y, &now, p, dy, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const Clearance *joint = &rhs.clearance[impact->joint[k]];
         slip[k] = joint->v_t;
@@ -110,42 +110,43 @@ static int slips_after_impact(Integrator *run, const Delassus *impact, const dou
 }
 
 /*
- * Compute the response of gap rates, slips and velocities to a unit tangential impulse in contact j (columns of `rub`).
+ * Compute the response of gap rates, slips and velocities to a unit tangential impulse in contact j (columns of
+ * `friction`).
  */
-static int tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
-    const RhsOutputs *before, double unit, const Parameters *p, Rub *rub)
+static int compute_tangential_response(Integrator *run, const Delassus *impact, int j, const double *base,
+    const RhsOutputs *before, double unit, const Parameters *p, FrictionImpulses *friction)
 {
     double pushed[N_Y], y[N_Y];
     DiscreteState now = run->discrete;
     RhsOutputs rhs;
     now.contact[impact->joint[j]].along = unit;
     count_evaluations(run, 2);
-    int status = motion_of_laws(run->t, run->y, &now, p, pushed, &rhs);
+    int status = motion_with_inner_states(run->t, run->y, &now, p, pushed, &rhs);
     now.contact[impact->joint[j]].along = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int i = 0; i < N_X; i++) {
-        rub->way[j][i] = (pushed[N_X + i] - base[N_X + i]) / unit;
-        y[N_X + i] += rub->way[j][i] * unit;
+        friction->velocity[j][i] = (pushed[N_X + i] - base[N_X + i]) / unit;
+        y[N_X + i] += friction->velocity[j][i] * unit;
     }
-    status = status ? status : motion_of_laws(run->t, y, &now, p, pushed, &rhs);
+    status = status ? status : motion_with_inner_states(run->t, y, &now, p, pushed, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const int i = impact->joint[k];
-        rub->meet[k][j] = (rhs.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
-        rub->slip[k][j] = (rhs.clearance[i].v_t - before->clearance[i].v_t) / unit;
+        friction->gap_rate[k][j] = (rhs.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
+        friction->slip[k][j] = (rhs.clearance[i].v_t - before->clearance[i].v_t) / unit;
     }
     return status;
 }
 
 /*
  * Return the largest |P| of one direction that satisfies |P| <= mu times the normal impulse. rest: normal impulse at P
- * = 0; own: its change per unit of |P|.
+ * = 0; per_unit: its change per unit of |P|.
  */
-static double impulse_limit(double mu, double rest, double own)
+static double impulse_limit(double mu, double rest, double per_unit)
 {
     if (rest <= 0.0)
         return 0.0;
-    return mu * own < 1.0 ? mu * rest / (1.0 - mu * own) : INFINITY;
+    return mu * per_unit < 1.0 ? mu * rest / (1.0 - mu * per_unit) : INFINITY;
 }
 
 /*
@@ -153,63 +154,64 @@ static double impulse_limit(double mu, double rest, double own)
  * reaches its friction limit. Afterwards one common factor scales all P, if a limit or the energy still requires that:
  * friction never adds energy.
  */
-static void solve_friction_impulses(const Delassus *impact, const double *impulse, Rub *rub)
+static void solve_friction_impulses(const Delassus *impact, const double *impulse, FrictionImpulses *friction)
 {
     const int n = impact->n;
-    double S[N_RIGID][N_RIGID], size = 0.0, change = INFINITY, fraction = 1.0, gone = 0.0, bent = 0.0;
+    double S[N_RIGID][N_RIGID], size = 0.0, change = INFINITY, fraction = 1.0, dissipated = 0.0, quadratic = 0.0;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            S[i][j] = rub->slip[i][j];
+            S[i][j] = friction->slip[i][j];
             for (int k = 0; k < n; k++)
-                S[i][j] -= rub->meet[k][i] * rub->press[k][j];
+                S[i][j] -= friction->gap_rate[k][i] * friction->normal[k][j];
         }
-    for (int sweep = 0; sweep < MOST_SWEEPS && change > 1e-15 * size; sweep++) {
+    for (int sweep = 0; sweep < MAX_SWEEPS && change > 1e-15 * size; sweep++) {
         change = 0.0;
         for (int i = 0; i < n; i++) {
-            double slip = rub->after[i], rest = impulse[i];
-            if (rub->mu[i] <= 0.0 || S[i][i] <= DEPENDENT * rub->slip[i][i])
+            double slip = friction->after[i], rest = impulse[i];
+            if (friction->mu[i] <= 0.0 || S[i][i] <= DEPENDENT * friction->slip[i][i])
                 continue;
             for (int j = 0; j < n; j++) {
-                slip += j != i ? S[i][j] * rub->P[j] : 0.0;
-                rest += j != i ? rub->press[i][j] * rub->P[j] : 0.0;
+                slip += j != i ? S[i][j] * friction->P[j] : 0.0;
+                rest += j != i ? friction->normal[i][j] * friction->P[j] : 0.0;
             }
-            const double way = slip > 0.0 ? -1.0 : 1.0;
-            const double most = impulse_limit(rub->mu[i], rest, way * rub->press[i][i]);
-            const double next = way * min_of(fabs(slip) / S[i][i], most);
-            change = max_of(change, fabs(next - rub->P[i]));
+            const double direction = slip > 0.0 ? -1.0 : 1.0;
+            const double largest = impulse_limit(friction->mu[i], rest, direction * friction->normal[i][i]);
+            const double next = direction * min_of(fabs(slip) / S[i][i], largest);
+            change = max_of(change, fabs(next - friction->P[i]));
             size = max_of(size, fabs(next));
-            rub->P[i] = next;
+            friction->P[i] = next;
         }
     }
     for (int i = 0; i < n; i++) {
         double more = 0.0;
         for (int j = 0; j < n; j++) {
-            more += rub->press[i][j] * rub->P[j];
-            bent += rub->P[i] * S[i][j] * rub->P[j];
+            more += friction->normal[i][j] * friction->P[j];
+            quadratic += friction->P[i] * S[i][j] * friction->P[j];
         }
-        gone -= rub->P[i] * rub->plastic[i];
-        const double over = fabs(rub->P[i]) - rub->mu[i] * more;
-        if (rub->P[i] != 0.0 && over > rub->mu[i] * impulse[i])
-            fraction = min_of(fraction, rub->mu[i] * impulse[i] / over);
+        dissipated -= friction->P[i] * friction->plastic[i];
+        const double over = fabs(friction->P[i]) - friction->mu[i] * more;
+        if (friction->P[i] != 0.0 && over > friction->mu[i] * impulse[i])
+            fraction = min_of(fraction, friction->mu[i] * impulse[i] / over);
         if (impulse[i] + fraction * more < 0.0)
             fraction = min_of(fraction, impulse[i] / -more);
     }
-    fraction = bent > 0.0 ? max_of(min_of(fraction, 2.0 * gone / bent), 0.0) : fraction;
+    fraction = quadratic > 0.0 ? max_of(min_of(fraction, 2.0 * dissipated / quadratic), 0.0) : fraction;
     for (int i = 0; i < n; i++)
-        rub->P[i] *= fraction;
+        friction->P[i] *= fraction;
 }
 
 /*
  * Compute the tangential impulses of an impact and update the normal impulses. meeting: approach speeds, m/s. Return 0
  * or the status of the motion.
  */
-static int friction_impulses(
-    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p, Rub *rub)
+static int compute_friction_impulses(
+    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p,
+    FrictionImpulses *friction)
 {
     double base[N_Y], mass[N_Q], stop[N_RIGID], none[N_RIGID], unit = 0.0;
     unsigned char pushes[N_RIGID];
     RhsOutputs before;
-    *rub = (Rub){.n = impact->n};
+    *friction = (FrictionImpulses){.n = impact->n};
     for (int k = 0; k < impact->n; k++)
         pushes[k] = impulse[k] > 0.0;
     mass_matrix(p, mass);
@@ -218,51 +220,52 @@ static int friction_impulses(
     for (int k = 0; k < impact->n; k++)
         run->discrete.contact[impact->joint[k]].force = 0.0;
     count_evaluations(run, 1);
-    int status = motion_of_laws(run->t, run->y, &run->discrete, p, base, &before);
+    int status = motion_with_inner_states(run->t, run->y, &run->discrete, p, base, &before);
     solve_part(impact, pushes, meeting, stop);
-    status = status ? status : slips_after_impact(run, impact, stop, unit, p, rub->plastic, none);
-    status = status ? status : slips_after_impact(run, impact, impulse, unit, p, rub->after, rub->mu);
+    status = status ? status : compute_slips_after_impact(run, impact, stop, unit, p, friction->plastic, none);
+    status = status ? status : compute_slips_after_impact(run, impact, impulse, unit, p, friction->after, friction->mu);
     for (int j = 0; j < impact->n && !status; j++) {
         double column[N_RIGID], more[N_RIGID];
-        rub->before[j] = before.clearance[impact->joint[j]].v_t;
-        if (rub->mu[j] <= 0.0)
+        friction->before[j] = before.clearance[impact->joint[j]].v_t;
+        if (friction->mu[j] <= 0.0)
             continue;
-        status = tangential_response(run, impact, j, base, &before, unit, p, rub);
+        status = compute_tangential_response(run, impact, j, base, &before, unit, p, friction);
         for (int k = 0; k < impact->n; k++)
-            column[k] = rub->meet[k][j];
+            column[k] = friction->gap_rate[k][j];
         solve_part(impact, pushes, column, more);
         for (int k = 0; k < impact->n; k++)
-            rub->press[k][j] = more[k];
+            friction->normal[k][j] = more[k];
     }
     if (status)
         return status;
-    solve_friction_impulses(impact, impulse, rub);
+    solve_friction_impulses(impact, impulse, friction);
     for (int k = 0; k < impact->n; k++)
         for (int j = 0; j < impact->n; j++)
-            impulse[k] = max_of(impulse[k] + rub->press[k][j] * rub->P[j], 0.0);
+            impulse[k] = max_of(impulse[k] + friction->normal[k][j] * friction->P[j], 0.0);
     return 0;
 }
 
 /* Add the velocity changes of the tangential impulses to y, and return the energy in J that friction dissipates. */
-static double apply_friction_impulses(const Rub *rub, const double *impulse, double *y)
+static double apply_friction_impulses(const FrictionImpulses *friction, const double *impulse, double *y)
 {
     double lost = 0.0;
-    for (int j = 0; j < rub->n; j++) {
-        lost -= rub->P[j] * rub->before[j];
-        for (int k = 0; k < rub->n; k++)
-            lost += rub->P[j] * (impulse[k] * rub->meet[k][j] - 0.5 * rub->slip[k][j] * rub->P[k]);
+    for (int j = 0; j < friction->n; j++) {
+        lost -= friction->P[j] * friction->before[j];
+        for (int k = 0; k < friction->n; k++)
+            lost += friction->P[j]
+                * (impulse[k] * friction->gap_rate[k][j] - 0.5 * friction->slip[k][j] * friction->P[k]);
         for (int i = 0; i < N_X; i++)
-            y[N_X + i] += rub->way[j][i] * rub->P[j];
+            y[N_X + i] += friction->velocity[j][i] * friction->P[j];
     }
     return lost;
 }
 
 #else
 /* Placeholder of the tangential impulses in a scene without friction between rigid surfaces. */
-typedef char Rub;
+typedef char FrictionImpulses;
 
 /* Leave the discrete state unchanged: the scene has no friction between rigid surfaces. */
-static inline void without_friction(DiscreteState *discrete) { (void)discrete; }
+static inline void disable_friction(DiscreteState *discrete) { (void)discrete; }
 
 /* Return the status `otherwise`: without friction, contacts cannot be inconsistent. */
 static inline int diagnose_stall(const Integrator *run, int otherwise, const Parameters *p)
@@ -274,16 +277,17 @@ static inline int diagnose_stall(const Integrator *run, int otherwise, const Par
 static inline void update_slip_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
 
 /* Return 0: the scene has no friction between rigid surfaces. */
-static inline int friction_impulses(
-    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p, Rub *rub)
+static inline int compute_friction_impulses(
+    Integrator *run, const Delassus *impact, const double *meeting, double *impulse, const Parameters *p,
+    FrictionImpulses *friction)
 {
-    (void)run, (void)impact, (void)meeting, (void)impulse, (void)p, (void)rub;
+    (void)run, (void)impact, (void)meeting, (void)impulse, (void)p, (void)friction;
     return 0;
 }
 
 /* Return 0: the scene has no friction between rigid surfaces. */
-static inline double apply_friction_impulses(const Rub *rub, const double *impulse, double *y)
+static inline double apply_friction_impulses(const FrictionImpulses *friction, const double *impulse, double *y)
 {
-    return (void)rub, (void)impulse, (void)y, 0.0;
+    return (void)friction, (void)impulse, (void)y, 0.0;
 }
 #endif

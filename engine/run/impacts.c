@@ -1,14 +1,14 @@
 /*
  * Impacts and closed contacts of rigid surfaces with Newton's restitution. Velocities jump where a gap closes; a closed
- * contact lasts until its force is zero. All contacts of one time are solved together as one linear complementarity
- * problem (scene/contact_forces.h), for impulses (r = u + e u, u the approach rate) and for forces (r = delta''). J. J.
- * Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral
- * Contacts (1996).
+ * contact lasts until its force is zero. One linear complementarity problem (scene/contact_forces.h) determines all
+ * contacts of one time: impulses (r = u + e u, u the approach rate) and forces (r = delta'').
+ * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
+ * Unilateral Contacts (1996).
  */
 #if N_RIGID
 #define TOUCHING 1e-10 /* times the clearance: surfaces with a smaller gap touch */
-#define STEADY 1e-8    /* relative difference up to which ratios of successive passes are one geometric ratio */
-enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_APART = 12 };
+#define RATIO_TOL 1e-8    /* relative difference up to which ratios of successive passes are one geometric ratio */
+enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
 
 /*
  * Return the event function of the contact of joint i: gap of an open contact in m, force of a closed rigid contact in
@@ -49,10 +49,10 @@ static double flight_step_limit(const Integrator *run, const Step *step, const P
 }
 
 /* Compute the Delassus operator of the listed contacts at the present state of the run. */
-static int delassus_here(Integrator *run, const Parameters *p, Delassus *contacts)
+static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
-    return compute_delassus(motion_of_laws, N_Y, run->t, run->y, &run->discrete, p, contacts);
+    return compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
 /*
@@ -60,7 +60,7 @@ static int delassus_here(Integrator *run, const Parameters *p, Delassus *contact
  * joints. meeting: approach speeds, m/s.
  */
 static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *meeting,
-    const Rub *rub, const Parameters *p)
+    const FrictionImpulses *friction, const Parameters *p)
 {
     const double energy = kinetic_energy(run, p);
     double lost = 0.0;
@@ -72,7 +72,7 @@ static void apply_impulses(Integrator *run, const Delassus *impact, const double
         for (int i = 0; i < N_X; i++)
             run->y[N_X + i] += impact->way[k][N_X + i] * impulse[k];
     }
-    lost += apply_friction_impulses(rub, impulse, run->y);
+    lost += apply_friction_impulses(friction, impulse, run->y);
     run->y[2 * N_X + 2] -= lost;
     run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* work of drives, which keep their motion */
 }
@@ -86,44 +86,44 @@ static void apply_impulses(Integrator *run, const Delassus *impact, const double
 static int resolve_impact(Integrator *run, const Parameters *p, int pass, int limit, double *approach)
 {
     Delassus impact = {0};
-    Rub rub;
+    FrictionImpulses friction;
     double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
     const DiscreteState known = run->discrete;
-    const double least = least_rate(run, p), gap = least_gap(run, p);
+    const double least = gap_rate_rounding(run, p), gap = gap_rounding(run, p);
     int struck = 0;
     *approach = 0.0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double u = run->rhs.clearance[i].deltadot;
-        const int meets_now = is_touching_at(run, i, p) && u > resting(least, p, i);
-        if (!meets_now && !(is_touching_at(run, i, p) && (limit || u >= -resting(least, p, i))))
+        const int meets_now = is_touching_at(run, i, p) && u > resting_speed_limit(least, p, i);
+        if (!meets_now && !(is_touching_at(run, i, p) && (limit || u >= -resting_speed_limit(least, p, i))))
             continue;
         const double back = limit ? 0.0 : restitution_of(p, i) * u;
         meeting[impact.n] = u;
-        r[impact.n] = meets_now && back > least_bounce(run, p, i, gap) ? u + back : u;
+        r[impact.n] = meets_now && back > closing_speed_limit(run, p, i, gap) ? u + back : u;
         impact.joint[impact.n++] = i;
         run->discrete.contact[i].closed = 1;
         struck |= meets_now;
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
-    without_friction(&run->discrete);
-    int status = struck ? delassus_here(run, p, &impact) : 0;
+    disable_friction(&run->discrete);
+    int status = struck ? compute_present_delassus(run, p, &impact) : 0;
     status = !status && struck ? complementary(&impact, r, impulse) : status;
-    status = !status && struck ? friction_impulses(run, &impact, meeting, impulse, p, &rub) : status;
+    status = !status && struck ? compute_friction_impulses(run, &impact, meeting, impulse, p, &friction) : status;
     run->discrete = known;
     if (status || !struck)
         return status;
-    apply_impulses(run, &impact, impulse, meeting, &rub, p);
+    apply_impulses(run, &impact, impulse, meeting, &friction, p);
     update_slip_branches(run, p);
     for (int k = 0; k < impact.n && !status; k++) {
         const int i = impact.joint[k];
-        const double u = meeting[k] > resting(least, p, i) ? meeting[k] : 0.0; /* 0: a resting contact */
+        const double u = meeting[k] > resting_speed_limit(least, p, i) ? meeting[k] : 0.0; /* 0: a resting contact */
         const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
             status = list_impact(run, &bounce, pass >= LISTED_PASSES, !known.contact[i].closed);
         *approach += impulse[k] * u;
     }
-    return status ? status : modes_after_impact(run, p);
+    return status ? status : update_modes_after_impact(run, p);
 }
 
 /*
@@ -135,7 +135,7 @@ static int update_closed_contacts(Integrator *run, int opens, const Parameters *
     unsigned char rests[N_CLEARANCES], pushes[N_CLEARANCES] = {0};
     double force[N_RIGID];
     const DiscreteState known = run->discrete;
-    const double least = least_rate(run, p);
+    const double least = gap_rate_rounding(run, p);
     Delassus contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double slow = max_of(threshold_of(p, i), least);
@@ -146,7 +146,7 @@ static int update_closed_contacts(Integrator *run, int opens, const Parameters *
             contacts.joint[contacts.n++] = i;
     }
     update_slip_branches(run, p);
-    int status = contacts.n ? delassus_here(run, p, &contacts) : 0;
+    int status = contacts.n ? compute_present_delassus(run, p, &contacts) : 0;
     if (!status)
         status = is_frictionally_inconsistent(&contacts, 1, p) ? FRICTION_INCONSISTENT
                                                                : complementary(&contacts, contacts.r, force);
@@ -167,15 +167,15 @@ static int update_closed_contacts(Integrator *run, int opens, const Parameters *
 static int separate_contacts(Integrator *run, const Parameters *p)
 {
     const double energy = kinetic_energy(run, p);
-    double apart = least_gap(run, p);
+    double distance = gap_rounding(run, p);
     int status = 0, meets_again = 1;
-    for (int pass = 0; pass < MAX_APART && meets_again && !status; pass++, apart *= 4.0) {
+    for (int pass = 0; pass < MAX_SEPARATIONS && meets_again && !status; pass++, distance *= 4.0) {
         double gap[N_RIGID];
         Delassus touching = {0};
         for (int i = 0; i < N_CLEARANCES; i++) {
-            if (gives(i) || (!run->discrete.contact[i].closed && run->rhs.clearance[i].delta < -apart))
+            if (gives(i) || (!run->discrete.contact[i].closed && run->rhs.clearance[i].delta < -distance))
                 continue;
-            gap[touching.n] = run->discrete.contact[i].closed ? 0.0 : apart;
+            gap[touching.n] = run->discrete.contact[i].closed ? 0.0 : distance;
             touching.joint[touching.n++] = i;
         }
         status = touching.n ? project_contacts(run, run->t, run->y, p, &touching, gap) : 0;
@@ -208,7 +208,7 @@ static int resolve_impacts(Integrator *run, const Parameters *p)
             return status;
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
         const double first = sizes[2] / sizes[0], second = sizes[4] / sizes[2]; /* of two passes: contacts alternate */
-        limit |= pass >= MAX_PASSES || (pass >= 4 && second < 1.0 && fabs(second - first) < STEADY * second);
+        limit |= pass >= MAX_PASSES || (pass >= 4 && second < 1.0 && fabs(second - first) < RATIO_TOL * second);
     }
     return status ? status : CHATTERING;
 }
@@ -261,7 +261,7 @@ static inline double contact_event_function(const DiscreteState *discrete, const
 }
 
 /* Leave the state unchanged: the scene has no rigid contacts. */
-static inline void hold_contacts(Integrator *run, double t, double *y, const Parameters *p)
+static inline void project_closed_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {
     (void)run, (void)t, (void)y, (void)p;
 }

@@ -2,10 +2,10 @@
  * History for iterated stages: the beginnings of a run's step and of the step before. Initial guesses of the stages are
  * extrapolated from these.
  */
-#ifndef GUDGEON_PAST_H
-#define GUDGEON_PAST_H
+#ifndef GUDGEON_ITERATION_HISTORY_H
+#define GUDGEON_ITERATION_HISTORY_H
 
-#define FORCE_FOUND 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
+#define FILM_FORCE_TOL 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
 
 /*
  * Update the history once before each step is tried, and whether the motion continues smoothly (run->newton.continues).
@@ -26,7 +26,7 @@ static inline void update_iteration_history(Integrator *run)
         run->newton.seen_steps = run->counts.steps;
     }
     run->newton.last_h = run->t - run->newton.before_t;
-    run->newton.force_found = min_of(1e-2, FORCE_FOUND / run->norm.inverse_scale[2 * N_X - 1]);
+    run->newton.force_found = min_of(1e-2, FILM_FORCE_TOL / run->norm.inverse_scale[2 * N_X - 1]);
     run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.again;
 }
 

@@ -10,7 +10,7 @@ static inline double total_force(const Clearance *joint)
 }
 
 /* Return the length in m whose rate is deltadot: the eccentricity, or the penetration for a bearing with a contour. */
-static inline double outward(const Clearance *joint)
+static inline double outward_coordinate(const Clearance *joint)
 {
 #ifdef CONTOURS
     return joint->delta;

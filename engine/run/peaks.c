@@ -1,16 +1,16 @@
 /* Peaks of forces and eccentricities in joints with play between the ends of a step, from its dense output. */
-enum { MAX_TOPS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
-#define BENT 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
-#define CLEAR 0.1 /* of the force: smallest change since the last stage that shows a trend */
-#define ARCHED 1.001 /* ratio of a stage's force to those at both ends that shows a maximum between */
-#define ARCHED_STIFF 1.1 /* the same for stiff methods, whose stages have larger errors */
-#define SAME_FORCE 1e-6 /* relative accuracy of the largest force of a rigid contact */
+enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
+#define MAX_BEND 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
+#define MIN_FORCE_CHANGE 0.1 /* of the force: smallest change since the last stage that shows a trend */
+#define MAXIMUM_RATIO 1.001 /* ratio of a stage's force to those at both ends that shows a maximum between */
+#define MAXIMUM_RATIO_STIFF 1.1 /* the same for stiff methods, whose stages have larger errors */
+#define RIGID_FORCE_TOL 1e-6 /* relative accuracy of the largest force of a rigid contact */
 #define PEAK_TOL 0.1 /* times rtol: relative accuracy of a largest force, within these limits: */
 #define MIN_PEAK_TOL 1e-10
 #define MAX_PEAK_TOL 1e-5
 
-/* Record the force F (N) of joint i at time t (s) in the envelope and in the peaks of the run and of its contact. */
-static void peak(Integrator *run, int i, double t, double F)
+/* Record the force F (N) of joint i at time t (s) in the envelope and the peaks of run and contact. */
+static void record_force(Integrator *run, int i, double t, double F)
 {
     if (run->envelope.rows)
         extend_force_envelope(run, i, t, F);
@@ -21,7 +21,7 @@ static void peak(Integrator *run, int i, double t, double F)
 /*
  * Return the force in N of joint i at fraction s of a step, and record it with the eccentricity; 0 if it is undefined.
  */
-static double force_at(Integrator *run, const Step *step, double s, int i, const Parameters *p)
+static double evaluate_joint_force(Integrator *run, const Step *step, double s, int i, const Parameters *p)
 {
     RhsOutputs rhs;
     int wrong = 0;
@@ -41,7 +41,7 @@ static double force_at(Integrator *run, const Step *step, double s, int i, const
     if (status)
         return 0.0;
     const double F = total_force(&rhs.clearance[i]);
-    peak(run, i, step->t + s * step->h, F);
+    record_force(run, i, step->t + s * step->h, F);
     raise_eccentricity(run, i, rhs.clearance[i].e);
     return F;
 }
@@ -49,7 +49,7 @@ static double force_at(Integrator *run, const Step *step, double s, int i, const
 /*
  * Return the fraction of the explicit stage before `fraction` with the largest force of joint i, or half of `fraction`.
  */
-static double highest_stage(const Step *step, double fraction, int i, double force)
+static double node_of_largest_force(const Step *step, double fraction, int i, double force)
 {
     const StageValues forces = stage_values(step, SEEN_FORCES + i);
     double most = force * force, node = 0.5 * fraction;
@@ -63,14 +63,15 @@ static double highest_stage(const Step *step, double fraction, int i, double for
  * Find the maximum of joint i's force inside a step up to `fraction` by parabolas through three points. before, after:
  * the forces at both ends, N. The search ends where the parabola predicts a gain below PEAK_TOL tolerances.
  */
-static void inner_peak(Integrator *run, const Step *step, double fraction, int i, double before, double after,
+static void find_inner_peak(Integrator *run, const Step *step, double fraction, int i, double before, double after,
     const Parameters *p)
 {
-    const double first = highest_stage(step, fraction, i, max_of(before, after));
+    const double first = node_of_largest_force(step, fraction, i, max_of(before, after));
     const double fine = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * tolerance_of(run)));
-    double x[3] = {0.0, first, fraction}, f[3] = {before, force_at(run, step, first, i, p), after}, error = INFINITY;
-    peak(run, i, step->t, before);
-    for (int n = 0; n < MAX_TOPS; n++) {
+    double f[3] = {before, evaluate_joint_force(run, step, first, i, p), after};
+    double x[3] = {0.0, first, fraction}, error = INFINITY;
+    record_force(run, i, step->t, before);
+    for (int n = 0; n < MAX_PARABOLAS; n++) {
         const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
         const double bend = right * low + left * high, rise = right * low * low - left * high * high;
         double top = left > right ? x[0] : x[2];
@@ -81,7 +82,7 @@ static void inner_peak(Integrator *run, const Step *step, double fraction, int i
         const double most = max_of(f[1], max_of(f[0], f[2]));
         if (bend < 0.0 && expected - most + 0.1 * error < fine * most)
             break;
-        const double found = force_at(run, step, top, i, p);
+        const double found = evaluate_joint_force(run, step, top, i, p);
         const int above = top > x[1], higher = found > f[1], end = above == higher ? 0 : 2;
         error = fabs(found - expected);
         x[end] = higher ? x[1] : top;
@@ -114,19 +115,21 @@ static int is_force_monotone(Step *step, double fraction, int i, double before, 
  * Find the largest force of rigid contact i inside a step up to `fraction`. The force may rise and fall while the
  * motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest force.
  */
-static void rigid_peak(
+static void find_rigid_peak(
     Integrator *run, Step *step, double fraction, int i, double before, double after, const Parameters *p)
 {
+    const double middle = 0.5 * fraction;
     Sampled part[MAX_BISECTIONS + 1];
     Place from = {0.0, before, NAN};
-    peak(run, i, step->t, before);
+    record_force(run, i, step->t, before);
     if (is_force_monotone(step, fraction, i, before, after, p) || make_dense(run, p, step))
         return;
     part[0] =
-        (Sampled){{0.5 * fraction, force_at(run, step, 0.5 * fraction, i, p), NAN}, {fraction, after, NAN}, INFINITY};
+        (Sampled){{middle, evaluate_joint_force(run, step, middle, i, p), NAN}, {fraction, after, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const Sampled now = part[n - 1];
-        const double w = now.end.s - from.s, known = max_of(run->contacts.open[i].F_peak, after) * (1.0 + SAME_FORCE);
+        const double known = max_of(run->contacts.open[i].F_peak, after) * (1.0 + RIGID_FORCE_TOL);
+        const double w = now.end.s - from.s;
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
@@ -137,8 +140,8 @@ static void rigid_peak(
             continue;
         }
         const double s[2] = {from.s + 0.25 * w, now.end.s - 0.25 * w};
-        const Place left = {s[0], force_at(run, step, s[0], i, p), NAN};
-        const Place right = {s[1], force_at(run, step, s[1], i, p), NAN};
+        const Place left = {s[0], evaluate_joint_force(run, step, s[0], i, p), NAN};
+        const Place right = {s[1], evaluate_joint_force(run, step, s[1], i, p), NAN};
         const double error = error_of_halves(from, now, left, right);
         part[n - 1] = (Sampled){right, now.end, error};
         part[n++] = (Sampled){left, now.middle, error};
@@ -162,25 +165,27 @@ static double cubic_top(double d0, double r0, double d1, double r1, double *heig
 /*
  * Find the largest eccentricity of joint i inside a step up to `fraction`, if the journal turns back inside the step.
  */
-static void outermost(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
+static void find_largest_eccentricity(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
     Clearance low = run->rhs.clearance[i], high = step->rhs.clearance[i];
     double from = 0.0, to = fraction;
     for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
         const double h = (to - from) * step->h;
         double top;
-        const double round = low.e - outward(&low); /* e minus the value whose rate is deltadot: 0 without a contour */
+        const double round = low.e - outward_coordinate(&low); /* 0 without a contour */
         const double s = from
-            + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
+            + (to - from)
+                * cubic_top(outward_coordinate(&low), h * low.deltadot,
+                    outward_coordinate(&high), h * high.deltadot, &top);
         RhsOutputs rhs;
-        if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i]) || make_dense(run, p, step)
-            || play_in(run, step, s, p, &rhs))
+        if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i])
+            || make_dense(run, p, step) || play_in(run, step, s, p, &rhs))
             return;
         const Clearance *now = &rhs.clearance[i];
         if (run->envelope.rows)
             extend_path_envelope(run, i, step->t + s * step->h, now);
         raise_eccentricity(run, i, now->e);
-        if (fabs(outward(now) - top) < 1e-9 * fabs(top + round))
+        if (fabs(outward_coordinate(now) - top) < 1e-9 * fabs(top + round))
             return;
         if (now->deltadot > 0.0)
             from = s, low = *now;
@@ -193,7 +198,7 @@ static void outermost(Integrator *run, Step *step, double fraction, int i, const
  * Return whether joint i's force rises (1) or falls (-1) at a fraction of an explicit step, from the last two stages
  * before it. 0: the parabola through them leaves the sign uncertain, or the method is stiff.
  */
-static int trend(const Step *step, double fraction, int i, double after)
+static int force_trend(const Step *step, double fraction, int i, double after)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
     const StageValues forces = stage_values(step, SEEN_FORCES + i);
@@ -209,7 +214,7 @@ static int trend(const Step *step, double fraction, int i, double after)
     f[0] = sqrt(f[0]), f[1] = sqrt(f[1]);
     const double slope = (after - f[0]) / (fraction - s[0]);
     const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
-    const int clear = fabs(bend) < BENT * fabs(slope) && fabs(slope) * (fraction - s[0]) > CLEAR * after;
+    const int clear = fabs(bend) < MAX_BEND * fabs(slope) && fabs(slope) * (fraction - s[0]) > MIN_FORCE_CHANGE * after;
     return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
 
@@ -217,7 +222,7 @@ static int trend(const Step *step, double fraction, int i, double after)
  * Determine the trend of forces whose `trends` entry is 0 by a very short step along the motion. Return 0 or the
  * status.
  */
-static int trends_beyond(Integrator *run, const Step *step, double fraction, const double *after, int *trends,
+static int extrapolate_trends(Integrator *run, const Step *step, double fraction, const double *after, int *trends,
     const Parameters *p)
 {
     double x[N_Y];
@@ -236,7 +241,7 @@ static int trends_beyond(Integrator *run, const Step *step, double fraction, con
  * Return whether the force of joint i may exceed both end values inside a step up to `fraction`. The estimate is the
  * parabola through both ends and the first stage beyond.
  */
-static int may_arch(const Step *step, double fraction, int i, double before, double after)
+static int may_have_inner_maximum(const Step *step, double fraction, int i, double before, double after)
 {
     const StageValues forces = stage_values(step, SEEN_FORCES + i);
     double node = INFINITY, force = NAN;
@@ -245,14 +250,14 @@ static int may_arch(const Step *step, double fraction, int i, double before, dou
             node = step->node[k], force = sqrt(stage_value(forces, k));
     const double bend = 2.0 * ((force - before) / node - (after - before) / fraction) / (node - fraction);
     const double curve = UNSURE * fabs(bend) * fraction * fraction;
-    return !(fabs(after - before) > 0.5 * curve || 0.125 * curve < (ARCHED - 1.0) * max_of(before, after));
+    return !(fabs(after - before) > 0.5 * curve || 0.125 * curve < (MAXIMUM_RATIO - 1.0) * max_of(before, after));
 }
 
 /*
  * Return the largest known force in N of joint i inside a step up to `fraction`: at its stages, or in the middle if a
  * contact continues and few stages are inside.
  */
-static double largest_inside(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
+static double largest_force_inside(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
     const double before = total_force(&run->rhs.clearance[i]), after = total_force(&step->rhs.clearance[i]);
     double most = 0.0;
@@ -264,27 +269,27 @@ static double largest_inside(Integrator *run, Step *step, double fraction, int i
             found++;
         }
     if (found < MIN_INNER_STAGES && run->discrete.contact[i].closed && gives(i)
-        && may_arch(step, fraction, i, before, after) && make_dense(run, p, step) == 0)
-        return max_of(sqrt(most), force_at(run, step, 0.5 * fraction, i, p));
+        && may_have_inner_maximum(step, fraction, i, before, after) && make_dense(run, p, step) == 0)
+        return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, i, p));
     return sqrt(most);
 }
 
 /*
  * Return whether a contact law ceases to push at the end of a step: with the contact held closed, its force would pull.
  */
-static int is_let_go(double before, double after) { return after < 1e-6 * before; }
+static int is_pulling_at_end(double before, double after) { return after < 1e-6 * before; }
 
 /*
  * Find the peaks of all joints inside a step up to `fraction`, where a force near its largest rose before and now
  * falls.
  */
-static void inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
+static void find_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force too small to be a peak */
     double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
     int trends[AT_LEAST_ONE(N_CLEARANCES)], arches[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        outermost(run, step, fraction, i, p);
+        find_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
         const double known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak : run->contacts.F_peak[i];
         before[i] = total_force(a), after[i] = total_force(b);
@@ -292,24 +297,26 @@ static void inner_peaks(Integrator *run, Step *step, double fraction, const Para
         const double share_of = run->discrete.contact[i].closed ? 0.9 : 0.97;
 #if N_RIGID
         if (!gives(i) && run->discrete.contact[i].closed)
-            rigid_peak(run, step, fraction, i, before[i], after[i], p);
+            find_rigid_peak(run, step, fraction, i, before[i], after[i], p);
 #endif
         const int bears = run->discrete.contact[i].closed || has_film(i);
         const double ends = max_of(before[i], after[i]),
-                     inside = bears ? largest_inside(run, step, fraction, i, p) : 0.0;
-        arches[i] = gives(i) && inside > (step->method->stiff ? ARCHED_STIFF : ARCHED) * ends;
+                     inside = bears ? largest_force_inside(run, step, fraction, i, p) : 0.0;
+        arches[i] = gives(i) && inside > (step->method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO) * ends;
         const double largest = !gives(i) ? 0.0 : arches[i] ? inside : ends;
         const int near = largest > share_of * known && largest > 0.0;
-        trends[i] = !near ? LOW : is_let_go(before[i], after[i]) ? -1 : trend(step, fraction, i, after[i]);
+        const int pulls = near && is_pulling_at_end(before[i], after[i]);
+        trends[i] = !near ? LOW : pulls ? -1 : force_trend(step, fraction, i, after[i]);
         unknown |= !trends[i];
     }
-    if (unknown && trends_beyond(run, step, fraction, after, trends, p))
+    if (unknown && extrapolate_trends(run, step, fraction, after, trends, p))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was zero in between */
         const int near = trends[i] != LOW, falls = near && trends[i] < 0;
-        if (near && (((falls || turned) && run->contacts.rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
-            inner_peak(run, step, fraction, i, before[i], after[i], p);
+        if (near && (((falls || turned) && run->contacts.is_rising[i]) || arches[i])
+            && make_dense(run, p, step) == 0)
+            find_inner_peak(run, step, fraction, i, before[i], after[i], p);
         set_rising(run, i, !falls);
     }
 }

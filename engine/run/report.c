@@ -21,9 +21,10 @@ static void report_monitor(const Integrator *run, double *gained, long *steps, l
     for (int k = 0; k < N_STEP_ENDS; k++)
         ended[k] = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++) {
-        const int corner = k - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
+        const int switch_index = k - N_CLEARANCES, friction = switch_index - N_SWITCHES;
+        const int user_event = friction - N_FRICTIONS;
         const int end = user_event >= 0 ? END_EVENT : friction >= 0 ? END_FRICTION
-            : corner >= 0 ? END_SWITCH : END_CONTACT;
+            : switch_index >= 0 ? END_SWITCH : END_CONTACT;
         ended[end] += run->progress.ended[k];
     }
 }

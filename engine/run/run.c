@@ -9,7 +9,7 @@
  * Evaluate the right-hand side with the inner states of contact laws, for given rigid contact forces. The laws read
  * their inner states from the contact states; the rates of these follow the works in dy. Return 0 or the status.
  */
-static int motion_of_laws(
+static int motion_with_inner_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     show_states(discrete, y);
@@ -35,9 +35,9 @@ static int rates(Integrator *run, double t, const double *y, const Parameters *p
     int joint[N_RIGID];
     const int n = list_closed(&run->discrete, joint);
     count_evaluations(run, n ? n + 1 : 0);
-    return rates_in_contact(motion_of_laws, N_Y, t, y, &run->discrete, p, dy, rhs);
+    return rates_in_contact(motion_with_inner_states, N_Y, t, y, &run->discrete, p, dy, rhs);
 #else
-    return motion_of_laws(t, y, &run->discrete, p, dy, rhs);
+    return motion_with_inner_states(t, y, &run->discrete, p, dy, rhs);
 #endif
 }
 
@@ -46,7 +46,7 @@ static int rates(Integrator *run, double t, const double *y, const Parameters *p
 #include "envelope.c"
 
 /* Return whether a penetration exceeds the range of validity of the contact laws, a tenth of the radius. */
-static int outside_model(const Integrator *run, const Parameters *p)
+static int is_outside_model(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (run->rhs.clearance[i].delta > deepest(p, i))
@@ -58,7 +58,7 @@ static int outside_model(const Integrator *run, const Parameters *p)
  * Update peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. Return 0, NOT_FINITE, OUTSIDE, or
  * the status of accept_state().
  */
-static int watch(Integrator *run, const Parameters *p)
+static int record_accepted_state(Integrator *run, const Parameters *p)
 {
     const RhsOutputs *rhs = &run->rhs;
     double sum = 0.0;
@@ -72,7 +72,7 @@ static int watch(Integrator *run, const Parameters *p)
         watch_joint(run, i);
     if (run->envelope.rows)
         extend_envelope(run);
-    return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
+    return !isfinite(sum) ? NOT_FINITE : is_outside_model(run, p) ? OUTSIDE : 0;
 }
 
 /* Store the state of all bodies, the discrete state and the contact codes at time t as row i of the samples. */
@@ -102,18 +102,18 @@ static void freeze_branches(Integrator *run)
 
 /*
  * Update the branches of all active switching functions at (t, y) until they agree with their signs, and evaluate the
- * right-hand side there. Switching function `kept` (-1: none) keeps its branch. A function that becomes active may have
- * held the other branch, on which its value may be NaN.
+ * right-hand side there. Switching function `fixed` (-1: none) keeps its branch. A function that becomes active may
+ * have held the other branch, on which its value may be NaN.
  */
 static int update_branches_at(
-    Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int kept, const Parameters *p)
+    Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int fixed, const Parameters *p)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed; pass++) {
         changed = 0;
         status = rates(run, t, y, p, dy, rhs);
         for (int k = 0; k < N_SWITCHES && status != STOPPED; k++)
-            if (k != kept && run->discrete.branch[k] * rhs->g[k] < 0.0) {
+            if (k != fixed && run->discrete.branch[k] * rhs->g[k] < 0.0) {
                 run->discrete.branch[k] = -run->discrete.branch[k];
                 changed = 1;
             }
@@ -154,12 +154,12 @@ static int lists_full(const Integrator *run)
 
 /*
  * Return the effective mass in kg that the force of contact i moves, NaN if undefined. The force of contact i changes
- * the rate of deltadot, which is linear in the velocities. way (N_X): the velocities at which deltadot is larger by 1
- * m/s.
+ * the rate of deltadot, which is linear in the velocities. direction (N_X): the velocities that increase deltadot by
+ * 1 m/s.
  */
-static double moved_mass(Integrator *run, int i, double *way, const Parameters *p)
+static double effective_mass(Integrator *run, int i, double *direction, const Parameters *p)
 {
-    const double apart = 1e-3; /* s */
+    const double duration = 1e-3; /* s */
     double force[2], rate[2], y[N_Y], dy[2][N_Y], scrap[N_Y];
     RhsOutputs rhs;
     memcpy(y, run->y, sizeof y);
@@ -170,14 +170,14 @@ static double moved_mass(Integrator *run, int i, double *way, const Parameters *
             return NAN;
         force[closed] = rhs.clearance[i].F_n;
         for (int k = N_X; k < 2 * N_X; k++)
-            y[k] = run->y[k] + apart * dy[closed][k];
+            y[k] = run->y[k] + duration * dy[closed][k];
         if (rates(run, run->t, y, p, scrap, &rhs))
             return NAN;
         rate[closed] = rhs.clearance[i].deltadot;
     }
-    const double pushed = (rate[1] - rate[0]) / apart;
+    const double pushed = (rate[1] - rate[0]) / duration;
     for (int k = 0; k < N_X; k++)
-        way[k] = (dy[1][N_X + k] - dy[0][N_X + k]) / pushed;
+        direction[k] = (dy[1][N_X + k] - dy[0][N_X + k]) / pushed;
     return (force[1] - force[0]) / pushed;
 }
 
@@ -186,19 +186,19 @@ static double moved_mass(Integrator *run, int i, double *way, const Parameters *
  * have lost no energy since the onset: 1/2 m u^2 = 1/2 m deltadot^2 + F delta / (n + 1), with the elastic force F at
  * deltadot = 0 and the exponent n of a power law.
  */
-static void begin_in_contact(Integrator *run, int i, const Parameters *p)
+static void estimate_approach_speed(Integrator *run, int i, const Parameters *p)
 {
     const double deltadot = run->rhs.clearance[i].deltadot;
-    double force[2], delta[2], way[N_X], y[N_Y], dy[N_Y];
+    double force[2], delta[2], direction[N_X], y[N_Y], dy[N_Y];
     DiscreteState known = run->discrete;
     RhsOutputs rhs;
     freeze_branches(run); /* frozen: an open contact stays open, wherever the journal is */
-    const double mass = moved_mass(run, i, way, p);
+    const double mass = effective_mass(run, i, direction, p);
     memcpy(y, run->y, sizeof y);
     for (int part = 0; part < 2 && mass > 0.0; part++) {
         for (int k = 0; k < N_X; k++) {
-            y[k] = run->y[k] - (part ? 0.1 * delta[0] * way[k] : 0.0);
-            y[N_X + k] = run->y[N_X + k] - deltadot * way[k];
+            y[k] = run->y[k] - (part ? 0.1 * delta[0] * direction[k] : 0.0);
+            y[N_X + k] = run->y[N_X + k] - deltadot * direction[k];
         }
         const int status = rates(run, run->t, y, p, dy, &rhs);
         force[part] = status ? NAN : fabs(rhs.clearance[i].F_n);
@@ -218,7 +218,7 @@ static void begin_in_contact(Integrator *run, int i, const Parameters *p)
  * Evaluate the first right-hand side of a run and set its contacts, friction modes and signs of user-defined events. A
  * start with penetration is in contact; friction begins with the mode of its slip.
  */
-static int begin(Integrator *run, const Parameters *p)
+static int begin_state(Integrator *run, const Parameters *p)
 {
     int status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
@@ -227,7 +227,7 @@ static int begin(Integrator *run, const Parameters *p)
     if (!status && begin_contacts_of_start(run, p)) {
         for (int i = 0; i < N_CLEARANCES; i++)
             if (run->discrete.contact[i].closed && !known.contact[i].closed && run->rhs.clearance[i].delta > 0.0)
-                begin_in_contact(run, i, p);
+                estimate_approach_speed(run, i, p);
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     }
     if (!status)
@@ -240,7 +240,7 @@ static int begin(Integrator *run, const Parameters *p)
             note_no_number(run, i, run->t);
     }
     run->ready = 1;
-    return status ? status : watch(run, p);
+    return status ? status : record_accepted_state(run, p);
 }
 
 /* Return the size of the memory of a run in bytes. */

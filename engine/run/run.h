@@ -1,5 +1,5 @@
 /*
- * Types of a run: the state that an integration method advances, and what is recorded on the way: contacts, events,
+ * Types of a run: the state that an integration method advances, and what is recorded meanwhile: contacts, events,
  * peaks and residuals. Each part of the struct Integrator has one owner, named in its comment.
  */
 #ifndef GUDGEON_RUN_H
@@ -63,11 +63,11 @@ enum {
 /* Length in s beyond which the end of a run does not limit the shortest sensible step. */
 #define LONG_RUN 1e4
 /* Shortest step, relative to the magnitude of the times. */
-#define LEAST_LENGTH (16.0 * DBL_EPSILON)
+#define MIN_STEP_FRACTION (16.0 * DBL_EPSILON)
 /* Ratio of two step lengths above which they count as equal. */
 #define SAME_LENGTH (1.0 - 1e-9)
 /* Relative step length below which a step counts as too short to advance. */
-#define SHORT_STEP (256.0 * LEAST_LENGTH)
+#define SHORT_STEP (256.0 * MIN_STEP_FRACTION)
 
 typedef struct Method Method; /* methods/methods.c */
 
@@ -119,9 +119,9 @@ typedef struct {
 typedef struct {
     double h, longest, left;         /* s: length tried now; of the first attempt; time left to the end of the run */
     double far, refused;             /* s: magnitude of the times; length of the last rejected attempt */
-    double error, of_films, end;     /* its error norm; error of its film forces; end of a fixed step, s */
+    double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
     int open, lane, again;           /* whether attempts go on; method in lanes; whether an attempt was rejected */
-    int shortened, strayed, given_up; /* attempts unresolved, or far from the constraints; both methods failed */
+    int n_shortened, n_strayed, methods_failed; /* attempts unresolved, or off the constraints; both failed */
 } Attempt;
 
 /* Destination of the samples of a run: n times t (s), rows of states, discrete states and codes, number stored. */
@@ -151,7 +151,7 @@ typedef struct {
 typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* contact that lasts in each joint */
     int compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
-    int rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
+    int is_rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
     Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
     int n_impacts, open_listed;
@@ -186,7 +186,7 @@ typedef struct {
 
 /* Counts of steps near singular positions: not tested, tested in vain. Written by: methods/singular_policy.c. */
 typedef struct {
-    long unlooked, in_vain;
+    long n_undetected, n_failed;
 } NearSingular;
 
 /* Counts of a run for its report. Written by: run/step_log.h. Copied by: batch/. */
@@ -230,15 +230,15 @@ typedef struct {
     double fixed, accept; /* length of fixed steps, s, 0: step-size control; largest error norm of an accepted step */
     double grid, on_grid; /* start of the grid of fixed steps, s; number of grid points passed */
     double last_step; /* length of the last step up to an event, s */
-    double h, h_stiff, error_before, steep;
+    double h, h_stiff, error_before, observed_order;
     double too_long, too_long_until; /* s: last length rejected for its error; the time at its end */
     /*
      * First step lengths after a contact begins or ends (by the number of closed contacts), and after a switching point
      * by branch; the length that the next step updates; order of the error of such a step (0: that of the method).
      */
-    double after_contact[N_CLEARANCES + 1][2], after_switch[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
+    double after_contact[N_CLEARANCES + 1][2], after_switch[AT_LEAST_ONE(N_SWITCHES)][2], *first, first_step_order;
     /* error of straight motion in a fitting first step, tolerances, explicit and stiff; that error per s, now */
-    double onset[2], onset_share;
+    double onset[2], onset_error_per_s;
 } StepControl;
 
 /*

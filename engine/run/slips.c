@@ -6,8 +6,8 @@
 #define MAX_RESIDUAL_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
 /*
- * Return the change of the rate of slip i, and in dy of all rates, when its friction force changes from +1 to -1 times
- * the limit. 0: the change is not known.
+ * Return the change of the rate of slip i when its friction force reverses (mode 1 to -1), and in dy that of all rates.
+ * 0: the change is unknown.
  */
 static double slip_response(Integrator *run, double t, const double *y, int i, const Parameters *p, double *dy)
 {
@@ -25,10 +25,10 @@ static double slip_response(Integrator *run, double t, const double *y, int i, c
 }
 
 /*
- * Return whether the velocity change `times` * `way` is a residual error of a step. The velocities are tested, not the
- * slip: a slip may be small because its lever arm is.
+ * Return whether the velocity change `factor` * `direction` is a residual error of a step. The velocities are tested,
+ * not the slip: a slip may be small because its lever arm is.
  */
-static int is_slip_residual(const Integrator *run, const double *direction, double times)
+static int is_slip_residual(const Integrator *run, const double *direction, double factor)
 {
     int small = 1;
     for (int k = N_X; k < 2 * N_X; k++) {
@@ -36,7 +36,7 @@ static int is_slip_residual(const Integrator *run, const double *direction, doub
         const double turns = least[0] > 0.0 ? least[1] / least[0] : 1.0; /* rad/m; rk4 does not know */
         const double located = is_angle[k - N_X] ? MAX_RESIDUAL_SLIP * turns : MAX_RESIDUAL_SLIP;
         const double tolerance = run->norm.weight[k] > 0.0 ? MAX_RESIDUAL_TOLERANCES / run->norm.weight[k] : 0.0;
-        small &= fabs(direction[k] * times) <= max_of(tolerance, located);
+        small &= fabs(direction[k] * factor) <= max_of(tolerance, located);
     }
     return small;
 }
@@ -64,14 +64,15 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
 }
 
 /* Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. */
-static int rates_at_rest(Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
+static int rates_at_rest(
+    Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     const int status = rates(run, t, y, p, dy, rhs);
     return status || !remove_slip_residuals(run, t, y, rhs, p) ? status : rates(run, t, y, p, dy, rhs);
 }
 
 /* Remove residual slips of sticking friction from a state y. */
-static void hold_slips(Integrator *run, double t, double *y, const Parameters *p)
+static void project_slips(Integrator *run, double t, double *y, const Parameters *p)
 {
     double dy[N_Y];
     RhsOutputs rhs;

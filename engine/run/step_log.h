@@ -30,7 +30,7 @@ static inline void count_rejected(Integrator *run) { run->counts.rejected++; }
 static inline void count_jacobian(Integrator *run) { run->counts.jacobians++; }
 
 /* Count a change of the mode of friction. */
-static inline void count_switch(Integrator *run) { run->counts.switches++; }
+static inline void count_mode_change(Integrator *run) { run->counts.switches++; }
 
 /* Set the largest residual of the velocity constraints so far. */
 static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->residuals.phi_dot_max = phi_dot; }

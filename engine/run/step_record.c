@@ -3,16 +3,16 @@
  * and points between them. At a jump there are two rows, just before and just after.
  */
 enum {
-    TAPE_ROW = N_TAPE_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
-    TAPE_PARTS = 4,             /* parts of a step, whose ends are recorded */
-    TAPE_SPARE = 4 * TAPE_PARTS /* largest number of rows of one step */
+    RECORD_ROW = N_TAPE_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
+    RECORD_PARTS = 4,             /* parts of a step, whose ends are recorded */
+    MAX_ROWS_PER_STEP = 4 * RECORD_PARTS /* largest number of rows of one step */
 };
 #define JUMP_OFFSET 1e-9 /* of a step: distance of the rows just before and after a jump */
 
 /* Return whether the step record may lack space for the rows of the next step. */
 static int is_record_full(const Integrator *run)
 {
-    return run->step_record.rows && run->step_record.n > run->step_record.capacity - TAPE_SPARE;
+    return run->step_record.rows && run->step_record.n > run->step_record.capacity - MAX_ROWS_PER_STEP;
 }
 
 /* Append a state at time t to the step record: jump mark, t, state of all bodies, discrete state, contact codes. */
@@ -22,7 +22,7 @@ static void record_state(Integrator *run, double t, const double *y, const Param
     signed char state[AT_LEAST_ONE(N_CLEARANCES)] = {0};
     if (!step_record->rows || step_record->n >= step_record->capacity)
         return;
-    double *row = step_record->rows + TAPE_ROW * step_record->n++, *discrete = row + N_TAPE_HEAD + N_S;
+    double *row = step_record->rows + RECORD_ROW * step_record->n++, *discrete = row + N_TAPE_HEAD + N_S;
     row[TAPE_JUMPED] = step_record->jumped;
     row[TAPE_T] = t;
     store_sample(run, t, y, p, 0, row + N_TAPE_HEAD, discrete, state);

@@ -3,7 +3,7 @@
  * function smaller than its uncertainty has no sign and keeps its branch.
  */
 #if N_WATCHED
-#define AS_SEEN 16.0 /* factor on observed differences, which may consist of rounding only */
+#define OBSERVED_FACTOR 16.0 /* factor on observed differences, which may consist of rounding only */
 
 /*
  * Add the constraint residual of a state to its error: the correction that closes the linkage, and the velocity
@@ -55,16 +55,16 @@ static void rounding_errors(Integrator *run, double t, const double *y, const Pa
  */
 static void add_stuck_slip(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double scrap[N_Y], way[N_Y];
+    double scrap[N_Y], direction[N_Y];
     RhsOutputs rhs;
     int status = -1;
     for (int i = 0; i < N_FRICTIONS; i++) {
         if (run->discrete.mode[i] != 0.0)
             continue;
         status = status < 0 ? rates(run, t, y, p, scrap, &rhs) : status;
-        const double response = status ? 0.0 : slip_response(run, t, y, i, p, way);
+        const double response = status ? 0.0 : slip_response(run, t, y, i, p, direction);
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
-            error[k] += fabs(way[k] * rhs.friction[i].v / response);
+            error[k] += fabs(direction[k] * rhs.friction[i].v / response);
     }
     for (int k = 0; k < N_X && status >= 0; k++) /* a held coordinate may be 0: use the smallest relevant length */
         error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->norm.least[is_angle[k]]);
@@ -107,11 +107,11 @@ static void error_of_watched(
         out[i] = 0.0;
     for (int mask = 0; mask < 8 && !failed; mask = mask ? 2 * mask : 1) {
         for (int k = 0; k < 2 * N_X; k++)
-            now[k] = y[k] + (k & mask ? -error[k] : error[k]) / AS_SEEN;
+            now[k] = y[k] + (k & mask ? -error[k] : error[k]) / OBSERVED_FACTOR;
         if (rates(run, t, now, p, dy, &other))
             continue;
         for (int i = 0; i < N_WATCHED; i++) {
-            const double change = AS_SEEN * fabs(watched_value(&other, i) - watched_value(&rhs, i));
+            const double change = OBSERVED_FACTOR * fabs(watched_value(&other, i) - watched_value(&rhs, i));
             out[i] += isfinite(change) ? change : 0.0;
         }
     }

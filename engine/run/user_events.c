@@ -1,10 +1,10 @@
 /* User-defined events: their list, their signs, and events at the start and end of a run. */
-#define SAME_ZERO 4.0 /* times the time resolution: closer zeros of one function count as one */
-#define RIGHT_AFTER 1e-11 /* s: events closer to the start or end of a run are at it; above the time resolution */
-#define RIGHT_AFTER_SHARE 1e-9 /* of the time in which a fast motion crosses the mechanism */
+#define SAME_ZERO_RESOLUTIONS 4.0 /* times the time resolution: closer zeros of one function count as one */
+#define COINCIDENCE_S 1e-11 /* s: events closer to the start or end of a run are at it; above the time resolution */
+#define COINCIDENCE_FRACTION 1e-9 /* of the time in which a fast motion crosses the mechanism */
 
 /* Append user-defined event i at time t (s) to the list, if the list has space. */
-static void list_event(Integrator *run, int i, double t)
+static void append_event(Integrator *run, int i, double t)
 {
     if (run->events.n < LISTED_EVENTS) {
         run->events.t[run->events.n] = t;
@@ -16,16 +16,17 @@ static void list_event(Integrator *run, int i, double t)
 static inline void set_pole(Integrator *run, int is_pole) { run->events.pole = is_pole; }
 
 /* Record user-defined event i at time t with the state there, and return whether the event ends the run. */
-static int note_event(Integrator *run, int i, double t, const double *now, const Parameters *p)
+static int record_user_event(Integrator *run, int i, double t, const double *now, const Parameters *p)
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
-    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->roots.time_resolution; k--)
+    const double first = t - SAME_ZERO_RESOLUTIONS * run->roots.time_resolution;
+    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= first; k--)
         if (run->events.number[k] == i)
             return 0; /* within the time resolution: the same zero, crossed again by rounding */
     if (run->events.n < LISTED_EVENTS)
         store_sample(run, t, now, p, run->events.n, at->y[0], at->latched[0], at->state[0]);
-    list_event(run, i, t);
+    append_event(run, i, t);
     return run->events.stop && event_stops[i];
 #else
     (void)run, (void)i, (void)t, (void)now, (void)p;
@@ -34,7 +35,7 @@ static int note_event(Integrator *run, int i, double t, const double *now, const
 }
 
 /* Reverse the sign of user-defined event i at its zero, and return whether this direction counts as an event. */
-static int cross_zero(Integrator *run, int i)
+static int reverse_event_sign(Integrator *run, int i)
 {
     const int to = -run->discrete.event_sign[i];
     run->discrete.event_sign[i] = (signed char)to;
@@ -45,7 +46,7 @@ static int cross_zero(Integrator *run, int i)
 static void note_no_number(Integrator *run, int i, double t)
 {
     if (!run->events.no_number[i])
-        list_event(run, i + N_USER_EVENTS, t);
+        append_event(run, i + N_USER_EVENTS, t);
     run->events.no_number[i] = 1;
 }
 
@@ -68,14 +69,14 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
  * Record user-defined events that a sudden change led across zero, and return ENDED if one of them ends the run.
  * before: their values before the change, NULL: any.
  */
-static int note_leaps(Integrator *run, const double *before, const Parameters *p)
+static int record_crossed_events(Integrator *run, const double *before, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int status = 0;
     resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if ((!before || !have_same_sign(before[i], value[i]))
-            && event_crosses(i, &run->discrete.event_sign[i], value[i]) && note_event(run, i, run->t, run->y, p))
+            && event_crosses(i, &run->discrete.event_sign[i], value[i]) && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
@@ -84,8 +85,8 @@ static int note_leaps(Integrator *run, const double *before, const Parameters *p
 /*
  * Evaluate the user-defined event functions `ahead` seconds after a state, along its rates; 0 below their uncertainty.
  */
-static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy, const Parameters *p,
-    double *value)
+static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy,
+    const Parameters *p, double *value)
 {
     double there[N_Y], scrap[N_Y];
     RhsOutputs rhs;
@@ -102,7 +103,7 @@ static int events_ahead(Integrator *run, double t, double ahead, const double *y
 /*
  * Evaluate the right-hand side `h` seconds after the present time, and update and freeze the branches that hold there.
  */
-static int look_beyond(Integrator *run, double h, const Parameters *p, RhsOutputs *beyond)
+static int evaluate_just_after(Integrator *run, double h, const Parameters *p, RhsOutputs *beyond)
 {
     double y[N_Y], dy[N_Y];
     for (int k = 0; k < N_Y; k++)
@@ -116,14 +117,14 @@ static int look_beyond(Integrator *run, double h, const Parameters *p, RhsOutput
  * Return the time difference in s within which an event counts as at the start or end of a run. It depends on the state
  * alone, and for rk4 on its step length `step`.
  */
-static double same_time(const Integrator *run, double step)
+static double coincidence_time(const Integrator *run, double step)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X && !(step > 0.0); k++) {
         const double least = run->norm.least[is_angle[k]];
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(fabs(run->dy[N_X + k]) / least)));
     }
-    const double near = min_of(RIGHT_AFTER, RIGHT_AFTER_SHARE * (step > 0.0 ? step : 1.0 / rate));
+    const double near = min_of(COINCIDENCE_S, COINCIDENCE_FRACTION * (step > 0.0 ? step : 1.0 / rate));
     return max_of(4.0 * DBL_EPSILON * fabs(run->t), near);
 }
 
@@ -135,11 +136,11 @@ static double same_time(const Integrator *run, double step)
  */
 static int event_signs_after(Integrator *run, double step, const Parameters *p, signed char *branch)
 {
-    const double h = same_time(run, step);
+    const double h = coincidence_time(run, step);
     double error[N_WATCHED], value[N_USER_EVENTS];
     int unknown = 0;
     RhsOutputs beyond;
-    const int status = look_beyond(run, h, p, &beyond);
+    const int status = evaluate_just_after(run, h, p, &beyond);
     if (status)
         return status;
     uncertainty(run, run->t, run->y, p, error);
@@ -161,7 +162,7 @@ static int event_signs_after(Integrator *run, double step, const Parameters *p, 
  * Record events whose zero, or jump across it, is at the end of the run; step: length of fixed steps, 0 otherwise.
  * Return ENDED if one of them ends the run.
  */
-static int end_on_zeros(Integrator *run, double step, const Parameters *p)
+static int record_events_at_end(Integrator *run, double step, const Parameters *p)
 {
     const DiscreteState discrete = run->discrete;
     signed char branch[N_USER_EVENTS];
@@ -169,7 +170,7 @@ static int end_on_zeros(Integrator *run, double step, const Parameters *p)
     int status = 0;
     run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS && !failed; i++)
-        if (event_crosses(i, &run->discrete.event_sign[i], branch[i]) && note_event(run, i, run->t, run->y, p))
+        if (event_crosses(i, &run->discrete.event_sign[i], branch[i]) && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
@@ -178,7 +179,7 @@ static int end_on_zeros(Integrator *run, double step, const Parameters *p)
  * Start with the signs of event functions and the branches just after the start. Branches stay as they were for rk4,
  * whose steps of length `step` do not freeze them; step = 0: another method.
  */
-static int begin_beyond(Integrator *run, double step, const Parameters *p)
+static int start_just_after(Integrator *run, double step, const Parameters *p)
 {
     signed char branch[N_USER_EVENTS];
     const DiscreteState before = run->discrete;
@@ -193,13 +194,13 @@ static int begin_beyond(Integrator *run, double step, const Parameters *p)
 }
 #else
 /* Return 0: the scene has no user-defined events. */
-static inline int end_on_zeros(Integrator *run, double step, const Parameters *p)
+static inline int record_events_at_end(Integrator *run, double step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, 0;
 }
 
 /* Return 0: the scene has no user-defined events. */
-static inline int begin_beyond(Integrator *run, double step, const Parameters *p)
+static inline int start_just_after(Integrator *run, double step, const Parameters *p)
 {
     return (void)run, (void)step, (void)p, 0;
 }
@@ -212,12 +213,12 @@ static inline int begin_beyond(Integrator *run, double step, const Parameters *p
 typedef struct {
     DiscreteState discrete;
     double y[N_Y], dy[N_Y], event[N_USER_EVENTS];
-} Held;
+} StateBeforeEvent;
 
 /* Return a copy of the discrete state, state, rates and event functions before an event. */
-static Held held_before(const Integrator *run)
+static StateBeforeEvent copy_before_event(const Integrator *run)
 {
-    Held before = {.discrete = run->discrete};
+    StateBeforeEvent before = {.discrete = run->discrete};
     memcpy(before.y, run->y, sizeof before.y);
     memcpy(before.dy, run->dy, sizeof before.dy);
     memcpy(before.event, run->rhs.event, sizeof before.event);
@@ -225,7 +226,7 @@ static Held held_before(const Integrator *run)
 }
 
 /* Return whether friction sticks or a rigid contact is closed now that was not `before`. */
-static int holds_more(const DiscreteState *before, const DiscreteState *now)
+static int is_more_held(const DiscreteState *before, const DiscreteState *now)
 {
     int more = 0;
     for (int i = 0; i < N_FRICTIONS; i++)
@@ -240,10 +241,10 @@ static int holds_more(const DiscreteState *before, const DiscreteState *now)
  * that was held and moves again gets its sign without an event. Whether it is held follows from its value `ahead`
  * seconds later, with and without the change. Return ENDED if one of them ends the run.
  */
-static int note_arrivals(Integrator *run, const Held *before, double ahead, const Parameters *p)
+static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *before, double ahead, const Parameters *p)
 {
     double error[N_WATCHED], now[N_USER_EVENTS], then[N_USER_EVENTS];
-    const int more = holds_more(&before->discrete, &run->discrete);
+    const int more = is_more_held(&before->discrete, &run->discrete);
     int zeros = 0, status = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
         zeros |= run->discrete.event_sign[i] == 0;
@@ -266,7 +267,7 @@ static int note_arrivals(Integrator *run, const Held *before, double ahead, cons
         const int comes = from * before->event[i] > least || from * then[i] < -least;
         if (comes || from * then[i] > least)
             *branch = 0;
-        if (comes && event_direction[i] * from <= 0 && note_event(run, i, run->t, run->y, p))
+        if (comes && event_direction[i] * from <= 0 && record_user_event(run, i, run->t, run->y, p))
             status = ENDED;
     }
     return status;
@@ -275,13 +276,13 @@ static int note_arrivals(Integrator *run, const Held *before, double ahead, cons
 /* Placeholder: nothing can hold an event function at zero in this scene. */
 typedef struct {
     int none;
-} Held;
+} StateBeforeEvent;
 
 /* Return a placeholder: nothing can hold an event function at zero in this scene. */
-static Held held_before(const Integrator *run) { return (void)run, (Held){0}; }
+static StateBeforeEvent copy_before_event(const Integrator *run) { return (void)run, (StateBeforeEvent){0}; }
 
 /* Return 0: nothing can hold an event function at zero in this scene. */
-static int note_arrivals(Integrator *run, const Held *before, double ahead, const Parameters *p)
+static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *before, double ahead, const Parameters *p)
 {
     return (void)run, (void)before, (void)ahead, (void)p, 0;
 }
