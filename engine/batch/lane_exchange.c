@@ -11,13 +11,14 @@ enum { ABREAST = LANES };
 enum { ABREAST = 4 * LANES };
 #endif
 
+/* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *b;
     const Single *one;
     Integrator *run[ABREAST];
     long number[ABREAST]; /* -1: free */
     int kind[ABREAST];    /* method of the next step of each run; -1: none */
-    int seated[LANES];    /* run whose parameters a lane holds; -1: none */
+    int loaded[LANES];    /* run whose parameters a lane holds; -1: none */
     LaneParameters p;
     Lanes h; /* lengths of the next steps, s */
 #if QUIET
@@ -43,12 +44,12 @@ static void load_parameters(Flow *flow, int k, int i)
 {
     for (int other = 0; other < ABREAST && !has_run(flow, i); other++)
         i = has_run(flow, other) ? other : i;
-    if (flow->seated[k] == i)
+    if (flow->loaded[k] == i)
         return;
     const double *p = flow->b->p_motion + flow->number[i] * flow->b->numbers;
     for (long j = 0; j < flow->b->numbers; j++)
         ((Lanes *)&flow->p)[j][k] = p[j];
-    flow->seated[k] = i;
+    flow->loaded[k] = i;
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
@@ -70,7 +71,7 @@ static void gather_past(LaneIntegrator *x, int k, Integrator *run)
 /* Load the state of lane k's run at the beginning of a step, and the length of the step. */
 static void gather(Flow *flow, int k)
 {
-    Integrator *run = flow->run[flow->seated[k]];
+    Integrator *run = flow->run[flow->loaded[k]];
     LaneIntegrator *x = &flow->x;
 #if QUIET
     if (has_run(flow, k) && flow->quiet.here[k])
@@ -204,7 +205,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 /* Copy the result of a trial in lane k to its run. */
 static void scatter(const Flow *flow, int k, int method)
 {
-    Integrator *run = flow->run[flow->seated[k]];
+    Integrator *run = flow->run[flow->loaded[k]];
     Step *step = &run->step;
     step->t = flow->step.t[k];
     step->h = flow->step.h[k];

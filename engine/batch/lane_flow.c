@@ -9,7 +9,8 @@
 enum { MIN_REPORTED = ABREAST / LANES }; /* runs reported at once: a call from Python is as long as several steps */
 
 /*
- * Update place i after its run returned `happened`; it is free if the run is over. Returns whether Python must be told.
+ * Update place i after its run returned `happened`; it is free if the run is over. Returns whether Python must be
+ * called.
  */
 static int update_place(Flow *flow, int i, int happened)
 {
@@ -55,12 +56,12 @@ static int lanes_of_method(const Flow *flow, int method)
 /* Load a run that needs this method into lane k, preferring the run that is there. Returns whether there is one. */
 static int load_lane(Flow *flow, int k, int method)
 {
-    const int last = flow->seated[k], is_own = last >= 0 && last % LANES == k && has_run(flow, last);
+    const int last = flow->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(flow, last);
     int best = is_own ? last : k;
     for (int i = k; i < ABREAST && !needs_method(flow, best, method); i += LANES)
         best = needs_method(flow, i, method) || !has_run(flow, best) ? i : best;
     load_parameters(flow, k, best);
-    return flow->seated[k] % LANES == k && needs_method(flow, flow->seated[k], method);
+    return flow->loaded[k] % LANES == k && needs_method(flow, flow->loaded[k], method);
 }
 
 /* Return whether a fixed step of lane k leads over an event; its run then repeats the step with its own branches. */
@@ -69,7 +70,7 @@ static int leads_over(const Flow *flow, int k)
     int some = 0;
 #if !TAYLOR
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    if (!(flow->run[flow->seated[k]]->control.fixed > 0.0))
+    if (!(flow->run[flow->loaded[k]]->control.fixed > 0.0))
         return 0;
     record_event_functions(&flow->x, &flow->step.rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
@@ -100,7 +101,7 @@ static int try_together(Flow *flow, int method, int *lists)
         unload_lane(flow, k);
         if (!lost)
             scatter(flow, k, method);
-        some += resume_run(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
+        some += resume_run(flow, flow->loaded[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
 }
@@ -127,7 +128,7 @@ static int advance_lanes(Flow *flow, int *lists)
     return some;
 }
 
-/* Begin or resume the run of place i, up to its next step. Returns whether Python must be told. */
+/* Begin or resume the run of place i, up to its next step. Returns whether Python must be called. */
 static int enter_run(Flow *flow, int i)
 {
     const Batch *b = flow->b;
@@ -172,7 +173,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         entered += number[i] >= 0;
     }
     for (int k = 0; k < LANES; k++)
-        flow.seated[k] = -1;
+        flow.loaded[k] = -1;
     for (int i = 0; i < ABREAST; i++)
         if (has_run(&flow, i))
             some += enter_run(&flow, i);

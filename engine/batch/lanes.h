@@ -47,12 +47,11 @@ static inline int any_of(LaneBits mask)
 
 #include "lane_functions.h"
 
-/*
- * Return the branch of switching function k: the frozen one, or the sign of `value` if `branch` is NULL. g[k] is set to
- * `value`.
- */
+/* Frozen branches, and values of the switching functions, of all lanes. */
 #define held_branches(discrete) (discrete)->branch
 #define reported_branches(rhs) (rhs)->g
+
+/* Return the branch of switching function k: frozen, or the sign of `value` if `branch` is NULL. g[k] = `value`. */
 static inline Lanes lanes_branch_of(const Lanes *branch, Lanes *g, int k, Lanes value)
 {
     g[k] = value;
@@ -94,15 +93,22 @@ static inline void put_together(Lanes *g, const Lanes *film, int first, int last
 #define StepOf LaneStep
 #define NormOf LaneNorm
 #define ComplexLinearOf LaneComplexLinear
+/* Return a constant in all lanes. */
 static inline Lanes real_of(double x) { return all_of(x); }
+/* Return the larger number of each lane; a NaN in x is propagated. */
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
+/* Return the smaller number of each lane; a NaN in x is propagated. */
 static inline Lanes real_min(Lanes x, Lanes y) { return lanes_min_of(x, y); }
+/* Return |x| of each lane. */
 static inline Lanes real_abs(Lanes x) { return lanes_fabs(x); }
+/* Return the square root of each lane. */
 static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
+/* Return 2^x of each lane to 1e-4. */
 static inline Lanes real_exp2(Lanes x) { return lanes_rough_exp2(x); }
+/* Return log2 x of each lane to 1e-4. */
 static inline Lanes real_log2(Lanes x) { return lanes_rough_log2(x); }
 
-/* ContactState of several runs; the following structs likewise. */
+/* ContactState of several runs. */
 typedef struct {
     Lanes closed, deltadot_minus;
 #if LAW_STATES
@@ -110,6 +116,7 @@ typedef struct {
 #endif
 } LaneContactState;
 
+/* DiscreteState of several runs. */
 typedef struct {
     LaneContactState contact[AT_LEAST_ONE(N_CLEARANCES)];
     Lanes event_sign[AT_LEAST_ONE(N_USER_EVENTS)];
@@ -118,6 +125,7 @@ typedef struct {
     Lanes least, least_size;
 } LaneDiscreteState;
 
+/* PinForce of several runs. */
 typedef struct {
     Lanes n, t, M_i, M_j, v_t;
 #if LAW_STATES
@@ -125,6 +133,7 @@ typedef struct {
 #endif
 } LanePinForce;
 
+/* Clearance of several runs. */
 typedef struct {
     Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
     Lanes ex, ey, v_t;
@@ -133,6 +142,7 @@ typedef struct {
 #endif
 } LaneClearance;
 
+/* RhsOutputs of several runs. */
 typedef struct {
     Lanes lambda[N_LOOPS + 1], power[N_WORK], event[AT_LEAST_ONE(N_USER_EVENTS)];
     LaneClearance clearance[AT_LEAST_ONE(N_CLEARANCES)];
@@ -157,12 +167,14 @@ static double lane_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Linear of several runs: the linearized equations and Newton's matrix. */
 typedef struct {
     const struct LaneParameters *p;
     Lanes value[AT_LEAST_ONE(N_VALUES)], lu[AT_LEAST_ONE(N_FACTORS)];
 } LaneLinear;
 
 #if IMPLICIT_STAGES
+/* ComplexLinear of several runs. */
 typedef struct {
     const struct LaneParameters *p;
     const Lanes *value;
@@ -170,6 +182,7 @@ typedef struct {
 } LaneComplexLinear;
 #endif
 
+/* ErrorNorm of several runs. */
 typedef struct {
     Lanes weight[N_Y];
 #if TAYLOR

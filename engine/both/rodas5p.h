@@ -49,7 +49,7 @@ static void rodas5p_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y)
     }
 }
 
-/* Its right-hand side: f + sum c_sj/h u_j. */
+/* Compute the right-hand side r = f + sum_j c_sj/h u_j of stage s. */
 static void rodas5p_right(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
 {
     const Real by = 1.0 / h;

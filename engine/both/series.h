@@ -7,7 +7,7 @@
 #define SERIES_APART __attribute__((noinline)) /* the address of thread-local memory is found once, not at each order */
 
 enum {
-    SERIES_PAIR = 2 * sizeof(SeriesRow), /* rows are processed in independent pairs */
+    SERIES_PAIR = 2 * sizeof(SeriesRow), /* products are processed in independent pairs */
     SERIES_WHOLE = SERIES_PAIR > sizeof(SeriesWide) ? SERIES_PAIR : sizeof(SeriesWide),
     SERIES_ROWS = (TAYLOR * sizeof(Real) + SERIES_WHOLE - 1) / SERIES_WHOLE * (SERIES_WHOLE / sizeof(SeriesRow))
 };

@@ -189,6 +189,7 @@ static int advance_to(Model *m, double t)
     return status;
 }
 #else
+/* Follow the kinematic motion and its works to time t. Returns a status. */
 static int advance_to(Model *m, double t)
 {
     double rows[2] = {m->t, t}, q[2 * N_Q], v[2 * N_Q], a[2 * N_Q], work[2 * N_WORK], phi[2] = {0.0, 0.0};

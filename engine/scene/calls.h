@@ -91,7 +91,7 @@ typedef struct {
     double *t_last, *last, *seconds;      /* time and state at the end; wall time of the time loop, s */
     long *counts;                         /* as in gudgeon_run_report */
     double *residuals, *peaks;
-    double *audited, *audited_t;          /* largest value of each check of the audit, -1: none, its time and place */
+    double *audited, *audited_t;          /* largest value of each audit check, -1: none; its time and location */
     int *audited_where;
     double *gained;                       /* time gained by the last steps, s; their number, stall; causes */
     long *paced, *ended;

@@ -138,7 +138,7 @@ int absolute_accelerations(double t, const double *all, const DiscreteState *dis
     double *force);
 /* Return whether the first or second rate of a drive jumps at time t. */
 int drives_jump(double t, const double *q, const double *v, const Parameters *p);
-/* Phi_q v - nu, and nu, of all rows: Phi_q v by differences of Phi over times h (s) before and after. */
+/* Phi_q v - nu, and nu, of all constraint equations; Phi_q v is the difference of Phi over h (s) before and after. */
 void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
     double *nu);
 

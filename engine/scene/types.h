@@ -148,7 +148,7 @@ typedef struct {
     double state_rate[LAW_STATES];       /* of the laws' inner states, each unit a second */
 #endif
 #if N_RIGID
-    double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; where surfaces do not give */
+    double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; of rigid surfaces */
 #ifdef WALLS
     int at_wall;                         /* then half_square_rate is delta'' itself, m/s^2 */
 #endif

@@ -311,6 +311,7 @@ static int is_pole(Integrator *run, const Step *step, double fraction, int i, co
     return isinf(rhs.event[i]);
 }
 #else
+/* Return 0: the scene has no user events. */
 static inline int is_pole(Integrator *run, const Step *step, double fraction, int i, const Parameters *p)
 {
     return (void)run, (void)step, (void)fraction, (void)i, (void)p, 0;
