@@ -18,8 +18,8 @@ static Real distance_from_rows(const IntegratorOf *run, const Real *before, cons
 }
 
 /*
- * Return the index in the state of component k (0 ... N_FELT - 1) on which the motion depends: coordinates, velocities,
- * inner states of laws, but no works.
+ * Return the index in the state of component k (0 ... N_FELT - 1) on which the motion depends. These are coordinates,
+ * velocities and inner states of laws, but no works.
  */
 static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 

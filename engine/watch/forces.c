@@ -4,7 +4,7 @@
  *
  * They follow from the right-hand side and have no bounds, and they may change within a step whose motion is at rest.
  * The dense output is sampled and bisected. On each part the event function is the parabola through both ends and the
- * middle within an error. That error is UNSURE times the largest by which the parabola of the whole part missed the
+ * middle within an error. It is UNSURE times the largest by which the parabola of the whole part missed the
  * samples of its halves, and at least a fourth of the whole part's error. In theory the halves have an eighth of it.
  */
 enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that bound a force between them */ };

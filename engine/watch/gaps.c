@@ -182,7 +182,8 @@ static double error_of_cubic(Place a, Place middle, Place b)
  * that is within the first half of the step.
  */
 static int first_zero(
-    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low, Place *high)
+    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low,
+    Place *high)
 {
     const double least = penetration_rounding(p, k), close = 4.0 * event_time_tolerance(run, step);
     PartOfStep part[MAX_BISECTIONS + 1] = {{bracket_end(run, step, k), INFINITY}};
