@@ -81,8 +81,8 @@ static double stage_of_minimum(const Step *step, int k)
 }
 
 /*
- * Return the node of the first stage with a negative event function k, if a later stage or the end is not negative, so
- * that it may cross zero more than once. Otherwise return 1.
+ * Return the node of the first stage with a negative event function k if a later stage or the end is not negative: it
+ * may cross zero more than once. Otherwise return 1.
  */
 static double first_negative_stage(const Step *step, int k, double end)
 {

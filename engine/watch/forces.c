@@ -84,9 +84,8 @@ static int values_of_stages(const Step *step, Place begin, Place end, StageValue
 
 #if N_TERMS
 /*
- * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part. It may if
- * its slope exceeds that of the parabola through them, by bounds, so that it may leave it by MAX_TERM_EXCESS of its
- * range.
+ * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part. By its
+ * bounds, it may then leave the parabola through them by more than MAX_TERM_EXCESS of its range.
  */
 static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
 {

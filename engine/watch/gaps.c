@@ -8,8 +8,8 @@
  * both ends within an error. That error is the one measured in the middle of the part before the bisection; in theory
  * its halves have a sixteenth of it.
  *
- * Guarantee: no zero of the dense output is missed, and none before the located one, as long as the error of a half
- * does not exceed the measured error of the whole, on parts of at most a quarter of the step.
+ * Guarantee: no zero of the dense output is missed, and none before the located one. It assumes that the error of a
+ * half does not exceed the measured error of the whole, on parts of at most a quarter of the step.
  */
 enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint in a step */ };
 
