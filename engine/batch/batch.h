@@ -1,25 +1,32 @@
-/* A batch of runs, as many.c and Python know it. */
+/*
+ * Access to a batch of runs, and the functions of a single run that ensembles in lanes call. Struct Batch is declared
+ * in scene/calls.h, because Python fills it.
+ */
 #ifndef GUDGEON_BATCH_H
 #define GUDGEON_BATCH_H
 #include "../scene/calls.h"
 
 enum {
-    NOT_YET = 0, UNTRIED = 1, TRIED = 2,  /* of a step: none is wanted yet; what others did of it */
-    MISSED = 3                            /* they tried it, and did not find its stages */
+    NOT_YET = 0, UNTRIED = 1, TRIED = 2,  /* of a step: none is requested yet; not tried in the lanes; tried there */
+    MISSED = 3                            /* tried in the lanes, and its stages were not found */
 };
 
-#define POLL_INTERVAL_S 0.02 /* s between two looks at whether the batch is ending */
+#define POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
 
-/* Times of run i, the last of them, and the first row of its samples. */
+/* Return the sample times of run i, s. */
 static inline const double *times_of(const Batch *b, long i) { return b->t + i * b->apart; }
+/* Return the last sample time of run i, s. */
 static inline double t_end_of(const Batch *b, long i) { return times_of(b, i)[b->wanted[i] - 1]; }
+/* Return the index of the first row of run i's samples. */
 static inline long rows_of(const Batch *b, long i) { return b->place[i] * b->samples; }
 
-/* What one run does by itself, for those who move several at once. */
+/* Functions of a single run, for the time loop of several runs in lanes. */
 typedef struct {
-    int (*begin)(const Batch *b, long i, const long *others, int n, void *run); /* others: beside it, -1: none */
-    int (*goes_on)(const Batch *b, long i, int tried, void *run); /* to its next step: GOES_ON, LISTS or RUN_OVER */
-    long (*unseen)(const void *run); /* steps that it may make before it looks at its pace; 0 where each is told of */
+    /* begin run i; others: n runs under way, -1: none; returns a status */
+    int (*begin)(const Batch *b, long i, const long *others, int n, void *run);
+    /* advance run i to its next step; returns GOES_ON, LISTS or RUN_OVER */
+    int (*advance_single)(const Batch *b, long i, int tried, void *run);
+    long (*unseen)(const void *run); /* steps before its next check of progress; 0: each is reported */
 } Single;
 
 #endif

@@ -1,4 +1,4 @@
-/* What is called from outside of a library of lanes: Python reads these declarations too. */
+/* Functions of a library of lanes that Python calls; Python reads these declarations too. */
 #ifndef GUDGEON_LANE_CALLS_H
 #define GUDGEON_LANE_CALLS_H
 

@@ -1,11 +1,9 @@
-/*
- * What goes from a run to its lane before a step is tried, and back.
- */
+/* Exchange of a run's state with its lane before and after a step is tried in the lanes. */
 #include "lane_quiet.c"
 
 /*
- * Where runs may go by one of several methods, more are under way than there are lanes: some share a lane, so that most
- * lanes have one that goes by the method which most want.
+ * Number of runs under way. If runs may use different methods, several runs share a lane, so that most lanes contain a
+ * run that needs the most frequent method.
  */
 #if TAYLOR
 enum { ABREAST = LANES };
@@ -13,45 +11,49 @@ enum { ABREAST = LANES };
 enum { ABREAST = 4 * LANES };
 #endif
 
+/* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *b;
     const Single *one;
     Integrator *run[ABREAST];
     long number[ABREAST]; /* -1: free */
-    int kind[ABREAST];    /* which method each wants its next step by; -1: none */
-    int seated[LANES];    /* which one a lane has, of those that share it; -1: none yet */
+    int kind[ABREAST];    /* method of the next step of each run; -1: none */
+    int loaded[LANES];    /* run whose parameters a lane holds; -1: none */
     LaneParameters p;
-    Lanes h; /* of the steps that come next */
+    Lanes h; /* lengths of the next steps, s */
 #if QUIET
     Quiet quiet;
 #endif
     LaneIntegrator x;
     LaneStep step;
 } Flow;
-/* What is empty at first. */
+/* Number of bytes of a Flow that are zero at the beginning. */
 #if TAYLOR
 #define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneIntegrator, series.terms))
 #else
 #define FLOW_BEGINS sizeof(Flow)
 #endif
 
-static int is_taken(const Flow *flow, int i) { return flow->number[i] >= 0; }
+/* Return whether place i has a run. */
+static int has_run(const Flow *flow, int i) { return flow->number[i] >= 0; }
 
-/* Run i, whose numbers lane k has from now on: what nobody shares computes what another one does, so that it
- * meets nothing odd. */
-static void project_contacts(Flow *flow, int k, int i)
+/*
+ * Load the parameters of run i into lane k. A lane without a run repeats another run, so that its numbers are regular.
+ */
+static void load_parameters(Flow *flow, int k, int i)
 {
-    for (int other = 0; other < ABREAST && !is_taken(flow, i); other++)
-        i = is_taken(flow, other) ? other : i;
-    if (flow->seated[k] == i)
+    for (int other = 0; other < ABREAST && !has_run(flow, i); other++)
+        i = has_run(flow, other) ? other : i;
+    if (flow->loaded[k] == i)
         return;
     const double *p = flow->b->p_motion + flow->number[i] * flow->b->numbers;
     for (long j = 0; j < flow->b->numbers; j++)
         ((Lanes *)&flow->p)[j][k] = p[j];
-    flow->seated[k] = i;
+    flow->loaded[k] = i;
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
+/* Load the iteration history of a run into lane k: guesses of the stages follow from it. */
 static void gather_past(LaneIntegrator *x, int k, Integrator *run)
 {
     update_iteration_history(run);
@@ -66,15 +68,15 @@ static void gather_past(LaneIntegrator *x, int k, Integrator *run)
 }
 #endif
 
-/* What a step of run k begins with; its length. */
+/* Load the state of lane k's run at the beginning of a step, and the length of the step. */
 static void gather(Flow *flow, int k)
 {
-    Integrator *run = flow->run[flow->seated[k]];
+    Integrator *run = flow->run[flow->loaded[k]];
     LaneIntegrator *x = &flow->x;
 #if QUIET
-    if (is_taken(flow, k) && flow->quiet.here[k])
+    if (has_run(flow, k) && flow->quiet.here[k])
         return;
-    if (is_taken(flow, k))
+    if (has_run(flow, k))
         load_quiet_lane(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
 #endif
     flow->h[k] = run->control.attempt.h;
@@ -111,6 +113,7 @@ static void gather(Flow *flow, int k)
         x->discrete.event_sign[i][k] = run->discrete.event_sign[i];
 }
 
+/* Copy the right-hand side's outputs of lane k to a single run. */
 static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
 {
     for (int i = 0; i < N_LOOPS; i++)
@@ -134,7 +137,7 @@ static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
         rhs->event[i] = x->event[i][k];
 }
 
-/* A step that lane k accepts, as its own run would have made it. */
+/* Copy an accepted step of lane k to its run, as the run itself would have made it. */
 static void scatter_step(const Flow *flow, int k, Step *step)
 {
     const LaneStep *x = &flow->step;
@@ -165,8 +168,8 @@ static void scatter_step(const Flow *flow, int k, Step *step)
     scatter_rhs(&x->rhs, k, &step->rhs);
 }
 
-/* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. */
 #if TAYLOR
+/* Copy counts and series of a trial in lane k to its run. */
 static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     (void)method;
@@ -178,6 +181,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
     run->control.attempt.h = flow->step.h[k];
 }
 #else
+/* Copy counts and iteration data of a trial in lane k to its run, as the run itself would have counted them. */
 static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     static const int of[KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
@@ -198,10 +202,10 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 }
 #endif
 
-/* What lane k has found goes to its run. */
+/* Copy the result of a trial in lane k to its run. */
 static void scatter(const Flow *flow, int k, int method)
 {
-    Integrator *run = flow->run[flow->seated[k]];
+    Integrator *run = flow->run[flow->loaded[k]];
     Step *step = &run->step;
     step->t = flow->step.t[k];
     step->h = flow->step.h[k];
@@ -211,9 +215,9 @@ static void scatter(const Flow *flow, int k, int method)
 #if TAYLOR
     const int counts = 1;
 #else
-    const int counts = flow->step.taken[k] || method == BY_DOPRI5; /* its error is told at the end */
+    const int counts = flow->step.taken[k] || method == BY_DOPRI5; /* its error needs the rates at the end */
 #endif
-    run->counts.evaluations += counts; /* of a series the end alone may be what refuses it */
+    run->counts.evaluations += counts; /* a series may be rejected by its end only */
     if (!flow->step.taken[k])
         return;
     run->choice.stability = flow->x.choice.stability[k];

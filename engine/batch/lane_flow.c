@@ -1,15 +1,18 @@
 /*
- * Runs side by side by a method that chooses its step: each has time, length and error of its own. Steps are tried
- * together, whatever follows from one (methods/adaptive.c) is its own run's. A lane whose run is over is free for
- * another one, from the next call on.
+ * Time loop of several runs in lanes by a method with step-size control. Each run has its own time, length and error.
+ * Steps are tried together; all consequences of a step (methods/adaptive.c) belong to its own run. The lane of a
+ * finished run takes another run at the next call.
  */
 #include "lane_calls.h"
 #include "lane_exchange.c"
 
-enum { TOLD = ABREAST / LANES }; /* runs that are told of at once: a call of Python's is as long as several steps */
+enum { MIN_REPORTED = ABREAST / LANES }; /* runs reported at once: a call from Python is as long as several steps */
 
-/* Whether place i is free from now on, what happened being one of those that Python is told of. */
-static int leaves(Flow *flow, int i, int happened)
+/*
+ * Update place i after its run returned `happened`; it is free if the run is over. Returns whether Python must be
+ * called.
+ */
+static int update_place(Flow *flow, int i, int happened)
 {
     if (happened == RUN_OVER)
         flow->number[i] = -1;
@@ -17,29 +20,29 @@ static int leaves(Flow *flow, int i, int happened)
     return happened != GOES_ON;
 }
 
-/* Run i is where its lane is. */
+/* Copy the state of a lane back to run i. */
 static void unload_lane(Flow *flow, int i)
 {
 #if QUIET
-    if (is_taken(flow, i) && flow->quiet.here[i])
+    if (has_run(flow, i) && flow->quiet.here[i])
         unload_quiet_lane(&flow->quiet, &flow->x, i, flow->h[i], flow->run[i]);
 #else
     (void)flow, (void)i;
 #endif
 }
 
-/* Run i goes on to its next step. Returns whether Python is to be told of it. */
+/* Advance run i to its next step; tried: what the lanes did of the last one. Returns whether Python must be called. */
 static int resume_run(Flow *flow, int i, int tried, int *lists)
 {
-    const int happened = flow->one->goes_on(flow->b, flow->number[i], tried, flow->run[i]);
+    const int happened = flow->one->advance_single(flow->b, flow->number[i], tried, flow->run[i]);
     *lists |= happened == LISTS;
-    return leaves(flow, i, happened);
+    return update_place(flow, i, happened);
 }
 
-/* Whether run i wants a step by this method. */
+/* Return whether the next step of run i needs this method. */
 static int needs_method(const Flow *flow, int i, int method) { return flow->kind[i] == method; }
 
-/* In how many lanes one does. */
+/* Return the number of lanes with a run that needs this method. */
 static int lanes_of_method(const Flow *flow, int method)
 {
     int some[LANES] = {0}, count = 0;
@@ -50,24 +53,24 @@ static int lanes_of_method(const Flow *flow, int method)
     return count;
 }
 
-/* Seats a run in lane k that wants this method, that which sat there if it does; whether there is one. */
+/* Load a run that needs this method into lane k, preferring the run that is there. Returns whether there is one. */
 static int load_lane(Flow *flow, int k, int method)
 {
-    const int last = flow->seated[k], own = last >= 0 && last % LANES == k && is_taken(flow, last);
-    int best = own ? last : k;
+    const int last = flow->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(flow, last);
+    int best = is_own ? last : k;
     for (int i = k; i < ABREAST && !needs_method(flow, best, method); i += LANES)
-        best = needs_method(flow, i, method) || !is_taken(flow, best) ? i : best;
-    project_contacts(flow, k, best);
-    return flow->seated[k] % LANES == k && needs_method(flow, flow->seated[k], method);
+        best = needs_method(flow, i, method) || !has_run(flow, best) ? i : best;
+    load_parameters(flow, k, best);
+    return flow->loaded[k] % LANES == k && needs_method(flow, flow->loaded[k], method);
 }
 
-/* Whether lane k leads a fixed step over an event: its own run does not hold branches there (open_attempt). */
+/* Return whether a fixed step of lane k leads over an event; its run then repeats the step with its own branches. */
 static int leads_over(const Flow *flow, int k)
 {
     int some = 0;
 #if !TAYLOR
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    if (!(flow->run[flow->seated[k]]->control.fixed > 0.0))
+    if (!(flow->run[flow->loaded[k]]->control.fixed > 0.0))
         return 0;
     record_event_functions(&flow->x, &flow->step.rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
@@ -78,13 +81,13 @@ static int leads_over(const Flow *flow, int k)
     return some;
 }
 
-/* One step of one run in each lane is tried. Returns of how many runs Python is to be told. */
+/* Try one step of one run in each lane. Returns the number of runs that Python must be told of. */
 static int try_together(Flow *flow, int method, int *lists)
 {
-    int some = 0, wanted[LANES];
+    int some = 0, requested[LANES];
     LaneBits quiet = {0};
     for (int k = 0; k < LANES; k++) {
-        wanted[k] = load_lane(flow, k, method);
+        requested[k] = load_lane(flow, k, method);
         gather(flow, k);
     }
     try_lanes(&flow->x, method, flow->h, &flow->p, &flow->step);
@@ -92,22 +95,22 @@ static int try_together(Flow *flow, int method, int *lists)
     quiet = accept_quiet_steps(&flow->quiet, &flow->x, &flow->step, &flow->h);
 #endif
     for (int k = 0; k < LANES; k++) {
-        if (!wanted[k] || quiet[k])
+        if (!requested[k] || quiet[k])
             continue;
         const int lost = flow->step.lost[k] || leads_over(flow, k);
         unload_lane(flow, k);
         if (!lost)
             scatter(flow, k, method);
-        some += resume_run(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
+        some += resume_run(flow, flow->loaded[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
 }
 
 /*
- * A step of runs that go by the method which the most lanes have one for: the others wait until theirs is that one.
- * Each for itself where no two lanes have.
+ * Make a step of the runs that need the method most lanes have a run for; the other runs wait. If no two lanes share a
+ * method, each run makes its own step. Returns the number of runs that Python must be told of.
  */
-static int advance(Flow *flow, int *lists)
+static int advance_lanes(Flow *flow, int *lists)
 {
     int some = 0, most = 0, count[KINDS];
     for (int method = 0; method < KINDS; method++) {
@@ -117,7 +120,7 @@ static int advance(Flow *flow, int *lists)
     if (count[most] > 1)
         return try_together(flow, most, lists);
     for (int i = 0; i < ABREAST; i++) {
-        if (!is_taken(flow, i))
+        if (!has_run(flow, i))
             continue;
         unload_lane(flow, i);
         some += resume_run(flow, i, UNTRIED, lists);
@@ -125,8 +128,8 @@ static int advance(Flow *flow, int *lists)
     return some;
 }
 
-/* Begins the run of place i, or goes on with it, up to where it wants a step. */
-static int enter(Flow *flow, int i)
+/* Begin or resume the run of place i, up to its next step. Returns whether Python must be called. */
+static int enter_run(Flow *flow, int i)
 {
     const Batch *b = flow->b;
     const long run = flow->number[i];
@@ -134,23 +137,27 @@ static int enter(Flow *flow, int i)
         b->status[run] = flow->one->begin(b, run, flow->number, ABREAST, flow->run[i]);
         b->phase[run] = b->status[run] ? OVER : BEGUN;
     }
-    return leaves(flow, i, b->phase[run] == OVER ? RUN_OVER : flow->one->goes_on(b, run, NOT_YET, flow->run[i]));
+    return update_place(
+        flow, i, b->phase[run] == OVER ? RUN_OVER : flow->one->advance_single(b, run, NOT_YET, flow->run[i]));
 }
 
-static int count_of(const Flow *flow)
+/* Return the number of runs under way. */
+static int count_runs(const Flow *flow)
 {
     int count = 0;
     for (int i = 0; i < ABREAST; i++)
-        count += is_taken(flow, i);
+        count += has_run(flow, i);
     return count;
 }
 
+/* Return the number of runs that a call of gudgeon_lanes() integrates together. */
 int gudgeon_lane_count(void) { return ABREAST; }
 
 /*
- * Runs number[i] (ABREAST of them, -1: none), each in a memory of its own. Returns GOES_ON, to be called again, as soon
- * as some runs are over (number[i] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
- * ALL_OVER where not two are left, or the batch is ending: what is not over then goes on alone (gudgeon_ensemble).
+ * Integrate the runs number[i] (ABREAST of them, -1: none), each with its own Integrator run[i]. Returns GOES_ON, to be
+ * called again, if runs are over (number[i] = -1) or after `limit` steps; LISTS if the lists of a run are full;
+ * ALL_OVER if fewer than two runs are left or the batch is ending. Unfinished runs then continue alone
+ * (gudgeon_ensemble).
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -166,23 +173,23 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         entered += number[i] >= 0;
     }
     for (int k = 0; k < LANES; k++)
-        flow.seated[k] = -1;
+        flow.loaded[k] = -1;
     for (int i = 0; i < ABREAST; i++)
-        if (is_taken(&flow, i))
-            some += enter(&flow, i);
-    for (long left = flow.b->limit; some < TOLD && !lists && left > 0 && !*flow.b->ending; left--) {
-        if (count_of(&flow) < 2)
+        if (has_run(&flow, i))
+            some += enter_run(&flow, i);
+    for (long left = flow.b->limit; some < MIN_REPORTED && !lists && left > 0 && !*flow.b->ending; left--) {
+        if (count_runs(&flow) < 2)
             break;
-        some += advance(&flow, &lists);
+        some += advance_lanes(&flow, &lists);
     }
     const double fraction = (lane_seconds() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < ABREAST; i++) {
         unload_lane(&flow, i);
         if (number[i] >= 0)
             flow.b->seconds[number[i]] += fraction;
-        if (is_taken(&flow, i))
+        if (has_run(&flow, i))
             flow.b->t_last[flow.number[i]] = flow.run[i]->t;
         number[i] = flow.number[i];
     }
-    return lists ? LISTS : (some || count_of(&flow) > 1) && !*flow.b->ending ? GOES_ON : ALL_OVER;
+    return lists ? LISTS : (some || count_runs(&flow) > 1) && !*flow.b->ending ? GOES_ON : ALL_OVER;
 }

@@ -1,11 +1,9 @@
-/*
- * Functions of vectors, lane by lane those of scene/numbers.h, scene/functions.h and of the library.
- */
+/* Elementary functions of vectors: lane by lane those of scene/numbers.h, scene/functions.h and the C library. */
 #ifndef GUDGEON_LANE_FUNCTIONS_H
 #define GUDGEON_LANE_FUNCTIONS_H
 #include "../scene/function_table.h"
 
-/* As max_of, min_of, sign_of: a NaN in x stays, and x of two equals, as in the second operand of these instructions. */
+/* The larger or smaller number; a NaN in x is propagated, and x is taken of two equal ones. */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
 #define EXTREME_OF(name, beyond) (Lanes)__builtin_ia32_##name##pd512_mask(y, x, x, (char)-1, 4)
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
@@ -15,25 +13,31 @@
 #else
 #define EXTREME_OF(name, beyond) pick(x beyond y, y, x)
 #endif
+/* Return max_of() of each lane. */
 static inline Lanes lanes_max_of(Lanes x, Lanes y) { return EXTREME_OF(max, <); }
+/* Return min_of() of each lane. */
 static inline Lanes lanes_min_of(Lanes x, Lanes y) { return EXTREME_OF(min, >); }
 #undef EXTREME_OF
+/* Return sign_of() of each lane. */
 static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
+/* Return the absolute value of each lane. */
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 
-/* As mod_of, mod_on, period_branch. */
+/* Return mod_of() of each lane. */
 static inline Lanes lanes_mod_of(Lanes a, Lanes b)
 {
     for (int k = 0; k < LANES; k++)
         a[k] = mod_of(a[k], b[k]);
     return a;
 }
+/* Return mod_on() of each lane. */
 static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes branch)
 {
     for (int k = 0; k < LANES; k++)
         a[k] = mod_on(a[k], b[k], branch[k]);
     return a;
 }
+/* Return period_branch() of each lane. */
 static inline Lanes lanes_period_branch(Lanes a, Lanes b)
 {
     for (int k = 0; k < LANES; k++)
@@ -41,14 +45,17 @@ static inline Lanes lanes_period_branch(Lanes a, Lanes b)
     return a;
 }
 
-/* As just_ahead, just_behind, finite_slope. */
+/* Return just_ahead() of each lane. */
 static inline Lanes lanes_just_ahead(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
+/* Return just_behind() of each lane. */
 static inline Lanes lanes_just_behind(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
+/* Return finite_slope() of each lane. */
 static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behind, Lanes way)
 {
     return pick(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / way);
 }
 
+/* Return the square root of each lane. */
 static inline Lanes lanes_sqrt(Lanes x)
 {
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
@@ -83,10 +90,12 @@ static inline Lanes lanes_sqrt(Lanes x)
     }
 LANE_AFTER_LANE_FUNCTIONS(LANE_AFTER_LANE, LANE_AFTER_LANE_OF_TWO)
 
-/* As those of scene/functions.h; what is beyond their ranges goes to the library lane by lane. */
 typedef unsigned long long LaneWords __attribute__((vector_size(8 * LANES)));
+/* Return the bits of each lane. */
 static inline LaneWords lanes_bits_of(Lanes x) { return (LaneWords)x; }
+/* Return the numbers of given bits. */
 static inline Lanes lanes_of_bits(LaneWords bits) { return (Lanes)bits; }
+/* Return entry k of the rows of a table that the last seven bits of each lane select. */
 static inline Lanes lanes_entries(const double *table, int width, LaneWords bits, int k)
 {
     Lanes found = {0.0};
@@ -106,6 +115,7 @@ static inline Lanes lanes_entries(const double *table, int width, LaneWords bits
 #undef PARTS_POWER
 #undef PARTS_ENTRY
 
+/* Return sin x of each lane. */
 static inline Lanes lanes_sin(Lanes x)
 {
     Lanes r, rest;
@@ -117,6 +127,7 @@ static inline Lanes lanes_sin(Lanes x)
     return found;
 }
 
+/* Return cos x of each lane. */
 static inline Lanes lanes_cos(Lanes x)
 {
     Lanes r, rest;
@@ -128,8 +139,10 @@ static inline Lanes lanes_cos(Lanes x)
     return found;
 }
 
+/* Return the lanes in which x is positive, finite and not subnormal. */
 static inline LaneBits lanes_is_normal(Lanes x) { return (x >= DBL_MIN) & (x <= DBL_MAX); }
 
+/* Return exp x of each lane. */
 static inline Lanes lanes_exp(Lanes x)
 {
     const LaneBits fits = lanes_fabs(x) < 700.0;
@@ -139,6 +152,7 @@ static inline Lanes lanes_exp(Lanes x)
     return found;
 }
 
+/* Return ln x of each lane. */
 static inline Lanes lanes_log(Lanes x)
 {
     const LaneBits fits = lanes_is_normal(x);
@@ -148,9 +162,10 @@ static inline Lanes lanes_log(Lanes x)
     return found;
 }
 
+/* Return x^y of each lane. */
 static inline Lanes lanes_pow(Lanes x, Lanes y)
 {
-    const LaneBits none = ((LaneBits)x == 0) & (y > 0.0); /* a contact's law where there is no contact */
+    const LaneBits none = ((LaneBits)x == 0) & (y > 0.0); /* as in a law of an open contact */
     const LaneBits normal = lanes_is_normal(x) & (lanes_fabs(y) < 0x1p60);
     const LaneBits of_root = (x > 1e-150) & (x < 1e150) & ((y == 1.5) | (y == 0.5));
     const Lanes root = lanes_sqrt(pick(of_root, x, all_of(1.0)));
@@ -168,7 +183,7 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
     return found;
 }
 
-/* As scene/trigonometry.h; lanes whose angle is so large that there the library is asked are marked as rare. */
+/* Compute sine and cosine of each lane; lanes with angles beyond TURN_LIMIT are marked as rare. */
 static inline void sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
 {
 #define SINES_OF Lanes

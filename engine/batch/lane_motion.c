@@ -1,13 +1,11 @@
-/*
- * The right-hand side of several runs, and the way back onto the constraints.
- */
-/* Beside a singular position the single runs go on alone. */
+/* Set the limits of pivots in all lanes; near a singular position the single runs make the step. */
 static inline void singular_thresholds(LaneDiscreteState *discrete)
 {
     discrete->least = all_of(CONTINUES ? NEARBY : NEARLY_SINGULAR);
     discrete->least_size = all_of(CONTINUES ? NEARBY : VANISHING);
 }
 
+/* Compute the accelerations of all lanes; lanes with a vanishing pivot are marked as rare. */
 static inline int lane_dynamics(Lanes t, const Lanes *q, const Lanes *v, LaneDiscreteState *discrete,
     const LaneParameters *p, Lanes *a, LaneRhsOutputs *rhs)
 {
@@ -23,6 +21,7 @@ static inline int lane_dynamics(Lanes t, const Lanes *q, const Lanes *v, LaneDis
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->rare)
 #include "../both/motion.h"
 
+/* Return the lanes in which a sum of n components of a (and b, if not NULL) is not finite. */
 static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 {
     Lanes sum = all_of(0.0);
@@ -33,6 +32,7 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 
 #include "../both/states.h"
 
+/* Compute the rates dy of all lanes. */
 static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
     show_states(&run->discrete, y);
@@ -41,6 +41,7 @@ static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParamet
     return 0;
 }
 
+/* Compute the steps dq, dv to the closures; lanes without one are marked as rare. Returns `open`. */
 static LaneBits can_close(LaneIntegrator *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p,
     Lanes *dq, Lanes *dv, Lanes *worst)
 {

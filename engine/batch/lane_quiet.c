@@ -1,22 +1,22 @@
 /*
- * Steps of which nothing but their ends is wanted: no sample lies in them, nobody watches, no row has to be closed.
- * They are taken in the lanes, as accept_step of methods/adaptive.c does it; its run is told of them together, before
- * it is asked again.
+ * Steps that need no action of their run: no sample lies in them, nothing is observed, no closure is projected. They
+ * are accepted in the lanes as accept_step() of methods/adaptive.c does. Their run is updated later, before its next
+ * call.
  */
 #define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
 #if QUIET
 #include "../both/error_weights.h"
 
-/* Of each lane: the time of its run's next sample, its end; how far the last step taken here could have gone. */
+/* Of each lane: the time of its run's next sample and its end, s; the longest step of the last series, s. */
 typedef struct {
     Lanes sample, t_end, reach;
-    LaneBits open;                    /* whether steps may be taken here */
-    long steps[LANES], unseen[LANES]; /* that were taken; that may still be */
+    LaneBits open;                    /* whether steps may be accepted here */
+    long steps[LANES], unseen[LANES]; /* steps accepted here; allowed number */
     int here[LANES];                  /* whether the lane has the run's state */
 } Quiet;
 
-/* What is kept in lane k from its run, whose next step is in the lane. */
+/* Load the part of run i's state into lane k that only steps accepted in the lanes need. */
 static void load_quiet_lane(
     Quiet *quiet, LaneIntegrator *x, int k, const Batch *b, long i, const Single *one, const Integrator *run)
 {
@@ -38,18 +38,18 @@ static void load_quiet_lane(
         x->norm.inverse_scale[j][k] = run->norm.inverse_scale[j];
 }
 
-/* As far as the times of a run's steps are from zero, as open_attempt has it. */
-static Lanes far_of(const Quiet *quiet, const LaneIntegrator *x)
+/* Return the scale of the times of steps for rounding, s, as open_attempt() does. */
+static Lanes scale_of(const Quiet *quiet, const LaneIntegrator *x)
 {
     return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(LONG_RUN)), lanes_fabs(x->t));
 }
 
-/* Takes the steps that were tried where nothing else is to be done, with the next ones' lengths; which these are. */
+/* Accept the tried steps that need no action of their run, and choose the next lengths h. Returns their lanes. */
 static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneStep *step, Lanes *h)
 {
     const Lanes t = x->t + step->h;
     const LaneBits now = quiet->open & step->taken & (step->error <= x->control.accept) & (t < quiet->sample)
-        & (step->h < quiet->t_end - x->t) & (step->h >= SHORT_STEP * far_of(quiet, x))
+        & (step->h < quiet->t_end - x->t) & (step->h >= SHORT_STEP * scale_of(quiet, x))
         & ~not_finite(step->y, step->dy, N_Y);
     note_works(x, now, step->y);
     for (int j = 0; j < N_Y; j++) {
@@ -71,7 +71,7 @@ static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneSt
     return now;
 }
 
-/* Tells run k of the steps that were taken in its lane: it is where it wants the next one, of length h. */
+/* Copy the steps accepted in lane k to its run, which continues with a step of length h. */
 static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, double h, Integrator *run)
 {
     const long steps = quiet->steps[k];
@@ -100,7 +100,7 @@ static void unload_quiet_lane(Quiet *quiet, const LaneIntegrator *x, int k, doub
     run->choice.stability = 0.0;
     run->series.reach = quiet->reach[k];
     run->control.h = TAYLOR_AHEAD * run->series.reach;
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],
-        .open = 1};
+    run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t,
+        .far = scale_of(quiet, x)[k], .open = 1};
 }
 #endif

@@ -1,22 +1,21 @@
-/*
- * A step by the motion's own series, tried for several runs (methods/taylor.c).
- */
+/* A step by the Taylor series of the motion, tried for several runs (methods/taylor.c). */
 #define SeriesRow Lanes
 #define SeriesWide Lanes
 #define SeriesPart Lanes
 #include "../both/series.h"
 
-/* A step whose error is known only at its end is taken back where that is too large. */
+/* Reject the steps whose error, known only at their end, is too large. */
 static void refuse_late(const LaneIntegrator *run, LaneStep *step)
 {
     step->taken &= ~(step->error > run->control.accept);
 }
 
+/* Do nothing: lanes store no end of a step. */
 static void forget_end(const LaneIntegrator *run) { (void)run; }
 
 #include "../both/taylor.h"
 
-/* As taylor_try: links in one line are left to the single runs. */
+/* Try a step by Taylor series in all lanes; singular positions are left to the single runs. */
 static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();

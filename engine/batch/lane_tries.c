@@ -1,10 +1,11 @@
 /*
- * A step of a method that chooses its length, tried for several runs. Where in a lane a pivot vanishes or a number
- * ceases to be finite, its own run tries it again (methods/); what follows from a step is every run's own.
+ * A step of a method with step-size control, tried for several runs. Where a pivot vanishes in a lane or a number is
+ * not finite, its own run repeats the step (methods/). All consequences of a step belong to its run.
  */
 #include "lane_motion.c"
 #include "../both/distance.h"
 
+/* Discard the data of the stages of the previous step. */
 static void forget_stages(LaneStep *step)
 {
     step->n_seen = 0;
@@ -20,7 +21,10 @@ static void forget_stages(LaneStep *step)
     }
 }
 
-/* From here on the step is that of the lanes which accept it. */
+/*
+ * Determine the lanes that accept the step, that fail, and whose stages were not found. Returns whether none accepts
+ * it.
+ */
 static int is_refused(LaneIntegrator *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !TAYLOR
@@ -34,6 +38,7 @@ static int is_refused(LaneIntegrator *run, LaneStep *step)
     return !any_of(step->taken);
 }
 
+/* Project the end of a step and compute the rates there; failing lanes are marked as rare. Returns 0. */
 static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters *p)
 {
     Lanes before[N_Y];
@@ -49,7 +54,7 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
 #if TAYLOR
 #include "lane_series.c"
 #else
-/* Not negative while things go on as they are, as evaluate_event_functions of step.c. */
+/* Compute the event functions of all lanes, as evaluate_event_functions(): non-negative until an event. */
 static void record_event_functions(const LaneIntegrator *run, const LaneRhsOutputs *rhs, Lanes *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -62,11 +67,13 @@ static void record_event_functions(const LaneIntegrator *run, const LaneRhsOutpu
         out[N_CLEARANCES + N_SWITCHES + k] = run->discrete.event_sign[k] * rhs->event[k];
 }
 
+/* Return the squared force of joint i, N^2. */
 static Lanes square_of_force(const LaneRhsOutputs *rhs, int i)
 {
     return rhs->clearance[i].F_n * rhs->clearance[i].F_n + rhs->clearance[i].F_t * rhs->clearance[i].F_t;
 }
 
+/* Store event functions, forces and rates of a stage at `node`, and their extrema. */
 static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRhsOutputs *rhs, double node)
 {
     Lanes *const seen = step->seen[step->n_seen];
@@ -83,6 +90,7 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
     }
 }
 
+/* Update the range of coordinates and velocities over the stages. */
 static void record_stage_state(LaneStep *step, const Lanes *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
@@ -91,13 +99,14 @@ static void record_stage_state(LaneStep *step, const Lanes *y)
     }
 }
 
+/* Mark lanes whose error is not finite as rare. Returns 0. */
 static int is_not_a_number(LaneIntegrator *run, Lanes error)
 {
     run->discrete.rare |= ~(lanes_fabs(error) <= DBL_MAX);
     return 0;
 }
 
-/* As make_linear of rodas5p.c. */
+/* Linearize all lanes and factorize Newton's matrix for h gamma = hg. Returns 0. */
 static int make_linear(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 {
     show_states(&run->discrete, run->y);
@@ -112,7 +121,7 @@ static int make_linear(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 #include "../both/rodas5p.h"
 
 #if IMPLICIT_STAGES
-/* As those of methods/radau.c. */
+/* Factorize Newton's matrix at a complex h gamma. Returns 0. */
 static int make_pair(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *pair)
 {
     pair->p = run->newton.linear.p;
@@ -121,13 +130,16 @@ static int make_pair(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLin
     return 0;
 }
 
+/* Do nothing: gather_past() has loaded the iteration history. */
 static void look_around(LaneIntegrator *run) { (void)run; } /* gather_past has */
 
+/* Count n right-hand sides in the active lanes. */
 static void count_rates(LaneIntegrator *run, LaneBits active, int n)
 {
     run->newton.evaluations += pick(active, all_of(n), all_of(0.0));
 }
 
+/* Begin an iteration of the stages: count n right-hand sides and reset the data of the stages in the active lanes. */
 static void begin_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, int n)
 {
     count_rates(run, active, n);
@@ -144,7 +156,7 @@ static void begin_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, int
     }
 }
 
-/* What a lane sees that has found its stages stays as it is. */
+/* Store the data of a stage in the active lanes; lanes that have found their stages keep theirs. */
 static void note_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneRhsOutputs *rhs,
     double node)
 {
@@ -169,6 +181,7 @@ static void note_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, cons
     }
 }
 
+/* Mark the lanes whose stages were not found. Returns 0. */
 static int stages_lost(LaneIntegrator *run, LaneBits lost)
 {
     run->newton.missed = lost & ~run->discrete.rare;
@@ -178,6 +191,7 @@ static int stages_lost(LaneIntegrator *run, LaneBits lost)
 #include "../both/radau.h"
 #endif
 
+/* Try a step of length h by `method` in all lanes. */
 static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
@@ -195,7 +209,7 @@ static int method_try(LaneIntegrator *run, int method, Lanes h, const LaneParame
 #endif
 
 #if !TAYLOR
-/* In how many lanes something may end the step that they accept, as far as stages and its end tell. */
+/* Return in how many accepting lanes an event may end the step, by stages and end. */
 static int count_possible_events(const LaneIntegrator *run, const LaneStep *step)
 {
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
@@ -210,7 +224,7 @@ static int count_possible_events(const LaneIntegrator *run, const LaneStep *step
     return count;
 }
 
-/* The interpolant of the explicit method, where more than one lane will ask for it; whatever is odd stays its run's. */
+/* Make the dense output of dop853 if more than one lane needs it; failing lanes leave it to their run. */
 static void make_dense(LaneIntegrator *run, const LaneParameters *p, LaneStep *step)
 {
     const LaneBits rare = run->discrete.rare;
@@ -226,7 +240,7 @@ static void make_dense(LaneIntegrator *run, const LaneParameters *p, LaneStep *s
 }
 #endif
 
-/* A step of length h of all lanes; where it is neither accepted nor lost its error alone tells. */
+/* Try a step of length h in all lanes. In lanes that neither accept nor lose it only the error is set. */
 static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->discrete.rare = (LaneBits){0};

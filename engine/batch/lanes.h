@@ -1,7 +1,7 @@
 /*
- * Several runs side by side: a number of each in the lanes of one vector (extensions of gcc and clang). Lane by lane
- * the operations are those of a single run, in the same order, so that the results are the same to the last bit;
- * functions that only the library has are called for one lane after the other.
+ * Vectors of several runs: a number of each run in the lanes of one vector (extensions of gcc and clang). Lane by lane
+ * the operations are those of a single run in the same order, so that results are the same to the last bit. Functions
+ * that only the library has are called for one lane after the other.
  */
 #ifndef GUDGEON_LANES_H
 #define GUDGEON_LANES_H
@@ -18,16 +18,19 @@ enum { LANES = 2 };
 typedef double Lanes __attribute__((vector_size(8 * LANES)));
 typedef long long LaneBits __attribute__((vector_size(8 * LANES)));
 
+/* Return a vector with x in all lanes. */
 static inline Lanes all_of(double x) { return x - (Lanes){0.0}; }
 
-/* a where the mask is set, else b. */
+/* Return a in the lanes of the mask, b in the others. */
 static inline Lanes pick(LaneBits mask, Lanes a, Lanes b)
 {
     return (Lanes)(((LaneBits)a & mask) | ((LaneBits)b & ~mask));
 }
 
+/* Return the complement of a mask. */
 static inline LaneBits is_not(LaneBits mask) { return ~mask; }
 
+/* Return whether a mask has any lane. */
 static inline int any_of(LaneBits mask)
 {
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512DQ__)
@@ -44,24 +47,24 @@ static inline int any_of(LaneBits mask)
 
 #include "lane_functions.h"
 
-/*
- * Corners: runs hold contacts and sides of corners over a step, and are told where the switching functions are. side:
- * NULL where a function holds none.
- */
+/* Frozen branches, and values of the switching functions, of all lanes. */
 #define held_branches(discrete) (discrete)->branch
 #define reported_branches(rhs) (rhs)->g
+
+/* Return the branch of switching function k: frozen, or the sign of `value` if `branch` is NULL. g[k] = `value`. */
 static inline Lanes lanes_branch_of(const Lanes *branch, Lanes *g, int k, Lanes value)
 {
     g[k] = value;
     return branch ? branch[k] : lanes_sign_of(value);
 }
 
-/* Corners first to last - 1 of a joint do not switch; the same, those of its film put aside. */
+/* Mark switching functions first to last - 1 as not in use. */
 static inline void silence(Lanes *g, int first, int last)
 {
     for (int k = first; k < last; k++)
         g[k] = all_of(NAN);
 }
+/* Move switching functions first to last - 1 to `film`, and mark them as not in use. */
 static inline void set_aside(Lanes *g, Lanes *film, int first, int last)
 {
     for (int k = first; k < last; k++)
@@ -69,14 +72,17 @@ static inline void set_aside(Lanes *g, Lanes *film, int first, int last)
     silence(g, first, last);
 }
 
-/* What switches in a joint: of its film where it is free, of the contact elsewhere, where both are mixed of both. */
+/*
+ * Combine the switching functions of a joint: those of its film where it is free, those of the contact where it
+ * touches, both where they are mixed.
+ */
 static inline void put_together(Lanes *g, const Lanes *film, int first, int last, LaneBits touching, LaneBits mixed)
 {
     for (int k = first; k < last; k++)
         g[k] = pick(touching, pick(mixed & (g[k] != g[k]), film[k], g[k]), film[k]);
 }
 
-/* What the text in both/ is made of here. */
+/* Types and operations that the text of both/ uses for lanes. */
 #define Real Lanes
 #define Mask LaneBits
 #define IntegratorOf LaneIntegrator
@@ -87,15 +93,22 @@ static inline void put_together(Lanes *g, const Lanes *film, int first, int last
 #define StepOf LaneStep
 #define NormOf LaneNorm
 #define ComplexLinearOf LaneComplexLinear
+/* Return a constant in all lanes. */
 static inline Lanes real_of(double x) { return all_of(x); }
+/* Return the larger number of each lane; a NaN in x is propagated. */
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
+/* Return the smaller number of each lane; a NaN in x is propagated. */
 static inline Lanes real_min(Lanes x, Lanes y) { return lanes_min_of(x, y); }
+/* Return |x| of each lane. */
 static inline Lanes real_abs(Lanes x) { return lanes_fabs(x); }
+/* Return the square root of each lane. */
 static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
+/* Return 2^x of each lane to 1e-4. */
 static inline Lanes real_exp2(Lanes x) { return lanes_rough_exp2(x); }
+/* Return log2 x of each lane to 1e-4. */
 static inline Lanes real_log2(Lanes x) { return lanes_rough_log2(x); }
 
-/* As ContactState, DiscreteState, PinForce, Clearance, RhsOutputs, Linear of a single run. */
+/* ContactState of several runs. */
 typedef struct {
     Lanes closed, deltadot_minus;
 #if LAW_STATES
@@ -103,14 +116,16 @@ typedef struct {
 #endif
 } LaneContactState;
 
+/* DiscreteState of several runs. */
 typedef struct {
     LaneContactState contact[AT_LEAST_ONE(N_CLEARANCES)];
     Lanes event_sign[AT_LEAST_ONE(N_USER_EVENTS)];
     Lanes branch[AT_LEAST_ONE(N_SWITCHES)];
-    LaneBits rare; /* lanes whose step the single runs are to make */
+    LaneBits rare; /* lanes whose step the single runs must make */
     Lanes least, least_size;
 } LaneDiscreteState;
 
+/* PinForce of several runs. */
 typedef struct {
     Lanes n, t, M_i, M_j, v_t;
 #if LAW_STATES
@@ -118,6 +133,7 @@ typedef struct {
 #endif
 } LanePinForce;
 
+/* Clearance of several runs. */
 typedef struct {
     Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
     Lanes ex, ey, v_t;
@@ -126,21 +142,24 @@ typedef struct {
 #endif
 } LaneClearance;
 
+/* RhsOutputs of several runs. */
 typedef struct {
     Lanes lambda[N_LOOPS + 1], power[N_WORK], event[AT_LEAST_ONE(N_USER_EVENTS)];
     LaneClearance clearance[AT_LEAST_ONE(N_CLEARANCES)];
     Lanes g[AT_LEAST_ONE(N_SWITCHES)];
 } LaneRhsOutputs;
 
+/* Return the lanes whose contact is closed. */
 static inline LaneBits is_closed(const LaneContactState *contact) { return contact->closed > 0.0; }
 
-/* Whether a joint has its dry contact. */
+/* Return the lanes whose joint has a dry contact. */
 static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
 {
     (void)delta;
     return is_closed(contact);
 }
 
+/* Return the wall time, s. */
 static double lane_seconds(void)
 {
     struct timespec now;
@@ -148,12 +167,14 @@ static double lane_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Linear of several runs: the linearized equations and Newton's matrix. */
 typedef struct {
     const struct LaneParameters *p;
     Lanes value[AT_LEAST_ONE(N_VALUES)], lu[AT_LEAST_ONE(N_FACTORS)];
 } LaneLinear;
 
 #if IMPLICIT_STAGES
+/* ComplexLinear of several runs. */
 typedef struct {
     const struct LaneParameters *p;
     const Lanes *value;
@@ -161,6 +182,7 @@ typedef struct {
 } LaneComplexLinear;
 #endif
 
+/* ErrorNorm of several runs. */
 typedef struct {
     Lanes weight[N_Y];
 #if TAYLOR
@@ -168,7 +190,7 @@ typedef struct {
 #endif
 } LaneNorm;
 
-/* Of a run by a method that chooses its step: what a step that is tried begins with. */
+/* Integrator of several runs: the data with which a trial step begins. */
 typedef struct {
     Lanes t, y[N_Y], dy[N_Y];
     struct {
@@ -177,7 +199,7 @@ typedef struct {
     LaneNorm norm;
     struct {
         Lanes accept;
-        double fixed; /* whether steps are: s, 0 */
+        double fixed; /* length of fixed steps, s; 0: step-size control */
     } control;
     LaneDiscreteState discrete;
     LaneRhsOutputs rhs;
@@ -185,14 +207,14 @@ typedef struct {
     struct {
         int order; /* the same in all lanes: a batch has one tolerance */
         Lanes reach;
-        Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
+        Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* last member: it is large and filled by each trial */
     } series;
 #else
     struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
         Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
-        Lanes evaluations; /* rates, of the step that is tried */
+        Lanes evaluations; /* right-hand sides of the trial step */
         LaneBits continues, missed;
 #endif
     } newton;
@@ -200,8 +222,8 @@ typedef struct {
 } LaneIntegrator;
 
 /*
- * As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found, that
- * have no interpolant where others do.
+ * Step of several runs, with masks of lanes: `taken` accept it; `lost` leave it to their run; `missed` did not find its
+ * stages; `no_dense` have no dense output.
  */
 typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];

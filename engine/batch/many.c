@@ -1,14 +1,15 @@
 /*
- * The time loop of one run and of many, one after the other: start, steps and report of each without Python. Several
- * threads may work on one Batch, each on runs of its own and with an Integrator of its own; a run is the same as if it
- * were alone.
+ * The time loop of one run and of ensembles, one run after the other: start, steps and report of each without Python.
+ * Several threads may work on one Batch, each on its own runs with its own Integrator. Results do not depend on the
+ * other runs.
  */
 #include "batch.h"
 #include "../scene/start.h"
 
+/* Return whether the batch is ending. */
 static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 
-/* Whom the long computations of a run ask whether to go on. */
+/* Set up the cancellation of a run's computations: by the callback of the batch, or when the batch is ending. */
 static void request_cancellation_by(const Batch *b, Cancellation *cancellation)
 {
     if (b->ask)
@@ -17,7 +18,7 @@ static void request_cancellation_by(const Batch *b, Cancellation *cancellation)
         start_cancellation(cancellation, is_ending, (void *)b, POLL_INTERVAL_S);
 }
 
-/* Whether run j, which has begun, was closed here from what run i begins with too. */
+/* Return whether run j has begun and its start was computed here from the same data as that of run i. */
 static int begins_alike(const Batch *b, long i, long j)
 {
     const int is_closed = j >= 0 && j != i && b->phase[j] != NEW && b->status[j] != NOT_CLOSED
@@ -27,7 +28,10 @@ static int begins_alike(const Batch *b, long i, long j)
         && same_start((const Parameters *)(b->p + i * b->numbers), (const Parameters *)(b->p + j * b->numbers));
 }
 
-/* (q, v) of run i, closed: those of one of `n` others in this thread (-1: none), if it begins alike. */
+/*
+ * Compute the start (q, v) of run i, or copy that of one of n other runs (-1: none) that begins alike. Returns nonzero
+ * on failure.
+ */
 static int close_run(const Batch *b, long i, const long *others, int n, Cancellation *cancellation)
 {
     double *start = b->start + i * 2 * N_Q, residual;
@@ -41,6 +45,7 @@ static int close_run(const Batch *b, long i, const long *others, int n, Cancella
         || !all_finite(start + N_Q, N_Q);
 }
 
+/* Begin run i: start, discrete states, audit, envelope, method. Returns 0, STOPPED or NOT_CLOSED. */
 static int start_run(const Batch *b, long i, const long *others, int n, Integrator *run)
 {
     double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0};
@@ -51,7 +56,7 @@ static int start_run(const Batch *b, long i, const long *others, int n, Integrat
         return cancellation.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
-    const StepRecord step_record = run->step_record; /* of the thread, not of one run */
+    const StepRecord step_record = run->step_record; /* belongs to the thread, not to one run */
     gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_DISCRETE));
     run->began = i + 1;
     gudgeon_run_record(run, step_record.rows, step_record.capacity);
@@ -66,7 +71,7 @@ static int start_run(const Batch *b, long i, const long *others, int n, Integrat
     return 0;
 }
 
-/* Row k of run i's samples is the present state. */
+/* Store the present state as sample k of run i. */
 static void take_sample(const Batch *b, long i, long k, Integrator *run)
 {
     const long row = rows_of(b, i) + k;
@@ -75,8 +80,8 @@ static void take_sample(const Batch *b, long i, long k, Integrator *run)
 }
 
 /*
- * The first sample of run i that is no number, because a force was none between the stages of a step; 0: there is none.
- * No sample is checked twice.
+ * Return the index of the first sample of run i that is not finite, because a force is undefined between the stages; 0:
+ * none. No sample is checked twice.
  */
 static long first_odd(const Batch *b, long i)
 {
@@ -88,8 +93,8 @@ static long first_odd(const Batch *b, long i)
     return 0;
 }
 
-/* Steps of run i, at most `limit`, with their samples. */
-static int advance(const Batch *b, long i, long limit, Integrator *run)
+/* Make at most `limit` steps of run i and store its samples. Returns a status. */
+static int advance_run(const Batch *b, long i, long limit, Integrator *run)
 {
     const double *p = b->p_motion + i * b->numbers, *t = times_of(b, i);
     const long row = rows_of(b, i), n = b->wanted[i];
@@ -100,7 +105,7 @@ static int advance(const Batch *b, long i, long limit, Integrator *run)
     return status;
 }
 
-/* Sample k of run i, which is no number, is taken back with those after it. */
+/* Remove sample k of run i, which is not finite, and all later ones. */
 static void take_back(const Batch *b, long i, long k)
 {
     b->done[i] = k;
@@ -108,7 +113,7 @@ static void take_back(const Batch *b, long i, long k)
     memcpy(b->last + i * N_S, b->y + (rows_of(b, i) + k - 1) * N_S, N_S * sizeof(double));
 }
 
-/* The present state as the last sample of run i, in place of those that are as late. */
+/* Store the present state as the last sample of run i, in place of samples that are not earlier. */
 static void close_samples(const Batch *b, long i, int status, Integrator *run)
 {
     const double *times = times_of(b, i), t_end = t_end_of(b, i);
@@ -120,7 +125,7 @@ static void close_samples(const Batch *b, long i, int status, Integrator *run)
     take_sample(b, i, b->done[i]++, run);
 }
 
-/* Run i is over: its report, and where it ended before its last sample but did not fail, the state there. */
+/* End run i: write its report, and its last state if it ended early without an error. */
 static void end_run(const Batch *b, long i, int status, Integrator *run)
 {
     double *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_DISCRETE)];
@@ -141,6 +146,7 @@ static void end_run(const Batch *b, long i, int status, Integrator *run)
     b->phase[i] = OVER;
 }
 
+/* Return whether contacts, events or recorded states of a run wait to be fetched. */
 static int has_lists(const Integrator *run)
 {
     int some = run->contacts.n_impacts > 0 || run->events.n > 0 || run->step_record.n > 0;
@@ -150,9 +156,9 @@ static int has_lists(const Integrator *run)
 }
 
 /*
- * Runs *current to end - 1. Returns ALL_OVER; LISTS or RUN_OVER: contacts or events of run *current wait to be
- * fetched, and it goes on or is over; GOES_ON: `limit` steps were made. To be called again, after RUN_OVER with
- * the next run. Once the batch is ending, runs that have begun are over where they are, and none begins.
+ * Integrate the runs *current to end - 1. Returns ALL_OVER; LISTS or RUN_OVER if contacts or events of run *current are
+ * to be fetched, and it continues or is over; GOES_ON after `limit` steps. Call again, after RUN_OVER with the next
+ * run. If the batch is ending, runs under way end at once and no run begins.
  */
 int gudgeon_ensemble(const void *batch, void *integrator, long *current, long end)
 {
@@ -168,7 +174,7 @@ int gudgeon_ensemble(const void *batch, void *integrator, long *current, long en
         if (b->phase[i] != BEGUN)
             continue;
         const double before = seconds_now();
-        const int status = *b->ending && b->done[i] < b->wanted[i] ? STOPPED : advance(b, i, b->limit, run);
+        const int status = *b->ending && b->done[i] < b->wanted[i] ? STOPPED : advance_run(b, i, b->limit, run);
         b->seconds[i] += seconds_now() - before;
         const int is_over = status != EVENTS_FULL && (status || b->done[i] == b->wanted[i]);
         if (!is_over && !first_odd(b, i))
@@ -181,11 +187,13 @@ int gudgeon_ensemble(const void *batch, void *integrator, long *current, long en
 }
 #if HAS_LANES
 
+/* Begin run i for the lanes. */
 static int begin_single(const Batch *b, long i, const long *others, int n, void *run)
 {
     return start_run(b, i, others, n, run);
 }
 
+/* Return the arrays of run i's samples. */
 static Samples samples_of(const Batch *b, long i)
 {
     const long row = rows_of(b, i);
@@ -196,8 +204,8 @@ static Samples samples_of(const Batch *b, long i)
 }
 
 /*
- * Run i to where its next step is to be tried, which is in run->control.attempt; of one that has been, in
- * run->step, what follows comes first. One that others left untried is tried here.
+ * Advance run i to its next step, run->control.attempt. tried: what the lanes did of the last step in run->step, which
+ * is completed first; a step that they left untried is tried here. Returns GOES_ON, LISTS or RUN_OVER.
  */
 static int next_single(const Batch *b, long i, int tried, void *integrator)
 {
@@ -225,15 +233,16 @@ static int next_single(const Batch *b, long i, int tried, void *integrator)
     return RUN_OVER;
 }
 
+/* Return the number of steps that a run may make in the lanes before its next check. */
 static long unseen_single(const void *integrator)
 {
     const Integrator *run = integrator;
     const long steps = run->step_record.rows || run->envelope.rows ? 0 : steps_before_check(&run->progress.monitor);
-    /* steps before a check */
     const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
     return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
 }
 
+/* Return the functions of a single run for a library of lanes. */
 const void *gudgeon_single(void)
 {
     static const Single single = {begin_single, next_single, unseen_single};

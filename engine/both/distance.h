@@ -1,11 +1,14 @@
 /*
- * What is measured of a step that is tried: how stiff the equations are in it, and how far it ends from the constraint
- * equations before it is projected, an error that no estimate sees.
+ * Measures of a trial step: its stiffness, and the distance of its end from the constraint equations before the
+ * projection, an error that no estimate contains.
  */
-#define FAR_FROM_ROWS 10.0 /* tolerances, that the end of a step may lie from the rows; as a rule it is less than one */
-#define DIGITS_OF_ROWS 1e-10 /* of a coordinate or velocity: that may be rounding, of what flies off many tolerances */
+#define FAR_FROM_ROWS 10.0 /* tolerances: largest distance of a step's end from the constraint equations */
+#define DIGITS_OF_ROWS 1e-10 /* of a coordinate or velocity: changes that may be rounding */
 
-/* How far the end of a step lay from the rows, in tolerances, by what it was and what it is now that it is closed. */
+/*
+ * Return the distance of a step's end from the constraint equations, in tolerances, from the states before and after
+ * its projection.
+ */
 static Real distance_from_rows(const IntegratorOf *run, const Real *before, const Real *y)
 {
     Real most = real_of(0.0);
@@ -14,8 +17,11 @@ static Real distance_from_rows(const IntegratorOf *run, const Real *before, cons
     return most;
 }
 
-/* Where in a state the motion's k-th part is, of N_FELT: coordinates, velocities, inner states of laws. */
+/*
+ * Return the index in the state of component k (0 ... N_FELT - 1) on which the motion depends. These are coordinates,
+ * velocities and inner states of laws, but no works.
+ */
 static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
-/* h rho: the length of a step times the largest rate at which its stages saw rates change. */
+/* Store h rho: the length of a step times the largest rate that its stages show. */
 static inline void note_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }

@@ -1,14 +1,14 @@
 /*
- * A step of DOP853 that is tried: stages, error, end. Where it is not accepted it has no end. Then what lies between
- * its ends.
+ * A trial step of DOP853 (E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.10): stages, error,
+ * end, and the dense output. A rejected step has no end.
  */
 static const double dop853_node[] = {0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274,
     0.2816496580927726, 0.3333333333333333, 0.25, 0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571,
     1.0, 1.0, 0.1, 0.2, 0.7777777777777778};
 
-enum { DOP853_STAGES = 12, DOP853_MORE = 3 /* of the interpolant alone */ };
+enum { DOP853_STAGES = 12, DOP853_MORE = 3 /* additional stages of the dense output */ };
 
-/* y = y0 + h sum_j a_sj k_j for stage s. */
+/* Compute y = y0 + h sum_j a_sj k_j for stage s. */
 static void dop853_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
 {
     switch (s) {
@@ -96,7 +96,7 @@ static void dop853_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
     }
 }
 
-/* Hairer's estimate from those of orders 5 and 3, the largest of all components. */
+/* Return the scaled error by Hairer's combination of the estimates of orders 5 and 3, the largest of all components. */
 static Real dop853_error(const IntegratorOf *run, const StepOf *step)
 {
     const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
@@ -116,6 +116,7 @@ static Real dop853_error(const IntegratorOf *run, const StepOf *step)
     return pick(both > 0.0, real_abs(step->h) * five * five / real_sqrt(both), five);
 }
 
+/* Try a step of length h: stages, error and, if it is accepted, its end. Returns a status. */
 static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y];
@@ -156,7 +157,7 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     return 0;
 }
 
-/* Three more stages, then the coefficients of the interpolant. */
+/* Compute the three additional stages and the coefficients of the dense output. Returns a status. */
 static int dop853_dense(IntegratorOf *run, const ParametersOf *p, StepOf *step)
 {
     Real (*k)[N_Y] = step->k;

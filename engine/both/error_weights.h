@@ -1,9 +1,7 @@
-/*
- * What errors are measured by: speeds so far, and what follows from them.
- */
+/* Error weights: the reciprocal tolerances by which errors of a step are multiplied. */
 #include "speed.h"
 
-/* Add the works of a step, where it is taken, to the energy that was turned over; y: the state at its end. */
+/* Add the works of an accepted step to the energy scale, J. y: the state at its end. */
 static void note_works(IntegratorOf *run, Mask taken, const Real *y)
 {
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
@@ -13,9 +11,9 @@ static void note_works(IntegratorOf *run, Mask taken, const Real *y)
 }
 
 /*
- * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
- * the energy that was turned over: nothing in the motion feels them, but a balance of energy does. Those of inner
- * states of laws are set once (methods/begin.c).
+ * Update the error weights. Tolerances of coordinates are given; those of velocities grow with the largest speed, those
+ * of works with the energy scale, because the motion does not depend on them. Those of inner states are set once
+ * (methods/begin.c).
  */
 static void update_error_weights(IntegratorOf *run)
 {

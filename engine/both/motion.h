@@ -1,10 +1,14 @@
-/* What is integrated: coordinates of the tree, their rates, works. */
+/*
+ * The right-hand side in tree coordinates, and the constraint residuals of accepted states.
+ *
+ * MOTION computes the rates dy of the integrated state y: tree coordinates, their rates, works. It returns a status.
+ */
 IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy, RhsOutputsOf *rhs)
 {
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, discrete, p, dy + N_X, rhs);
 #ifdef N_IDLE
     for (int i = 0; i < N_IDLE; i++)
-        rhs->g[idle[i]] = real_of(NAN); /* they do not act */
+        rhs->g[idle[i]] = real_of(NAN); /* these switching functions are not in use */
 #endif
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];
@@ -13,7 +17,7 @@ IN_BOTH int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const Param
     return status;
 }
 
-/* The largest |Phi| and |Phi_dot| so far, with those of an accepted state. */
+/* Update the maxima of |Phi| and |Phi_dot| with an accepted state. Returns 0. */
 IN_BOTH int accept_state(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p,
     const RhsOutputsOf *rhs, Real *phi_max, Real *phi_dot_max)
 {

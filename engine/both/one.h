@@ -1,12 +1,12 @@
 /*
- * Text in this folder is compiled twice: for one run, where it is made of these, and for several runs side by side
- * (batch/lanes.h), where a number is a vector of theirs and a truth a mask. Lane by lane the operations are the same,
- * in the same order, so that a run is the same, to the last bit, alone and among others.
+ * Types and operations of the text in this folder for one run. The same text is compiled for several runs in lanes
+ * (batch/lanes.h), where a number is a vector and a condition is a mask. The operations and their order are the same,
+ * so that a run gives the same bits alone and among others.
  */
 #ifndef GUDGEON_ONE_H
 #define GUDGEON_ONE_H
 
-enum { /* bytes that the processor holds side by side: longer vectors go through memory */
+enum { /* bytes of a vector register */
 #if defined __AVX512F__
     REGISTER = 64
 #elif defined __AVX__
@@ -27,17 +27,27 @@ enum { /* bytes that the processor holds side by side: longer vectors go through
 #define NormOf ErrorNorm
 #define ComplexLinearOf ComplexLinear
 
-/* a where it is true, else b. */
+/* Return a if the mask is true, else b. */
 static inline double pick(int mask, double a, double b) { return mask ? a : b; }
+/* Return the negation of a mask. */
 static inline int is_not(int mask) { return !mask; }
+/* Return whether a mask is true for any run. */
 static inline int any_of(int mask) { return mask != 0; }
+/* Return whether a contact is closed. */
 static inline int is_closed(const ContactState *contact) { return contact->closed; }
+/* Return a constant as a Real. */
 static inline double real_of(double x) { return x; }
+/* Return the larger number; a NaN in x is propagated. */
 static inline double real_max(double x, double y) { return max_of(x, y); }
+/* Return the smaller number; a NaN in x is propagated. */
 static inline double real_min(double x, double y) { return min_of(x, y); }
+/* Return |x|. */
 static inline double real_abs(double x) { return fabs(x); }
+/* Return the square root of x. */
 static inline double real_sqrt(double x) { return sqrt(x); }
+/* Return 2^x to 1e-4. */
 static inline double real_exp2(double x) { return rough_exp2(x); }
+/* Return log2 x to 1e-4. */
 static inline double real_log2(double x) { return rough_log2(x); }
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * Back onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v, measured by M. The second time for the
- * velocities at the mended positions. A pivot that vanishes (links in line) leaves the state as it is.
+ * Project a state onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v in the norm of M, in up to three
+ * passes; velocities use the corrected positions. A vanishing pivot (links in line) leaves the state unchanged.
  */
 static void project_rows(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
 {

@@ -1,25 +1,24 @@
 /*
- * A step of Radau IIA that is tried: collocation at 3 or 5 points, of order 5 or 9, L-stable. All stages are found
- * together by simplified Newton iterations, which a change of basis splits into one real and one or two complex
- * systems,
- * each with the matrix of a single stage. The error is that of an embedded formula of order 3 or 5, filtered by the
- * real
- * matrix. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same,
- * Stiff differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
+ * A trial step of Radau IIA: collocation at 3 or 5 points, of order 5 or 9, L-stable. All stages are found by
+ * simplified Newton iterations, which a change of basis splits into one real and one or two complex systems of the size
+ * of one stage. The error is that of an embedded formula of order 3 or 5, filtered by the real matrix. E. Hairer, G.
+ * Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same, Stiff differential
+ * equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
-enum { RADAU_MOST = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
-#define RADAU_ENOUGH 3e-3   /* of a step's tolerance: how well its stages are found */
-#define RADAU_ROUNDED 4e-16 /* of the state: what is left of a change by rounding */
-#define RADAU_NOISE 2.5e4   /* times that, at most, where rates are differences of large forces */
+enum { RADAU_MAX_STAGES = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
+#define RADAU_ENOUGH 3e-3   /* of a step's tolerance: error of its stages */
+#define RADAU_ROUNDED 4e-16 /* of the state: change by rounding */
+#define RADAU_NOISE 2.5e4   /* times that, at most, if rates are differences of large forces */
 
 /*
- * The inverse of Butcher's matrix is T diag(gamma, pairs) T^-1 in real form: behind the first, two columns of T and two
- * rows of its inverse go with real and imaginary part of one number. `dense`: the collocation polynomial's
- * coefficients.
+ * The coefficients of a method. Butcher's inverse is T diag(gamma, pairs) T^-1 in real form: after the first, two
+ * columns of T (to_stages) and two rows of T^-1 (from_stages) are real and imaginary parts. `dense`: the coefficients
+ * of the collocation polynomial.
  */
 typedef struct {
-    double node[RADAU_MOST], gamma, pair[RADAU_MOST / 2][2], to_stages[RADAU_MOST][RADAU_MOST],
-        from_stages[RADAU_MOST][RADAU_MOST], error[RADAU_MOST], dense[RADAU_MOST][RADAU_MOST];
+    double node[RADAU_MAX_STAGES], gamma, pair[RADAU_MAX_STAGES / 2][2], to_stages[RADAU_MAX_STAGES][RADAU_MAX_STAGES],
+        from_stages[RADAU_MAX_STAGES][RADAU_MAX_STAGES], error[RADAU_MAX_STAGES],
+        dense[RADAU_MAX_STAGES][RADAU_MAX_STAGES];
 } RadauTable;
 
 static const RadauTable RADAU5 = {

@@ -1,8 +1,9 @@
-/*
- * The same text for 3 and for 5 stages (radau.h).
- */
+/* The functions of a Radau step, compiled for 3 and for 5 stages (radau.h). */
 
-/* Guesses of the stages, less the beginning: as the last step's motion goes on, or as rates at the beginning lead. */
+/*
+ * Guess the stages, relative to the beginning: extrapolate the motion of the last step, or integrate the rates at the
+ * beginning.
+ */
 static void RADAU(guess)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
 {
     const Real H = run->newton.last_h;
@@ -18,7 +19,7 @@ static void RADAU(guess)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
     }
 }
 
-/* One real system and the complex ones, factorized for a step. */
+/* Factorize the real matrix and the complex ones for a step of length h. Returns a status. */
 static int RADAU(factor)(IntegratorOf *run, Real h, ComplexLinearOf *pairs, const ParametersOf *p)
 {
     int status = make_linear(run, h * (1.0 / RADAU_TABLE.gamma), p);
@@ -29,7 +30,7 @@ static int RADAU(factor)(IntegratorOf *run, Real h, ComplexLinearOf *pairs, cons
     return status;
 }
 
-/* What an iteration adds to the stages z, from their rates f. */
+/* Compute the Newton correction of the stages z from their rates f. */
 static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf *pairs, Real (*f)[N_Y], Real (*z)[N_Y],
     Real (*change)[N_Y])
 {
@@ -78,11 +79,11 @@ static void RADAU(change)(const IntegratorOf *run, Real h, const ComplexLinearOf
 }
 
 /*
- * Rates f of the stages at z; where they are still looked for, what is seen there. Returned in `apart`: the largest
- * change of a film's force at a stage since the iteration before, as a share of the largest force in this step.
+ * Compute the rates f of the stages z and, for active runs, store the data of the stages. force_change: the largest
+ * change of a film force since the previous iteration, relative to the largest force in this step. Returns a status.
  */
 static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], const ParametersOf *p, StepOf *step,
-    Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *apart)
+    Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *force_change)
 {
     Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
     RhsOutputsOf rhs;
@@ -108,24 +109,27 @@ static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], 
             force[i][s][1] = Fy;
         }
     }
-    *apart = real_of(0.0);
+    *force_change = real_of(0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
         if (has_film(i))
-            *apart = real_max(change[i] / real_max(most[i], real_of(DBL_MIN)), *apart);
+            *force_change = real_max(change[i] / real_max(most[i], real_of(DBL_MIN)), *force_change);
     return 0;
 }
 
-/* The stages of a step, in step->k; `lost`: where they were not found. */
+/*
+ * Find the stages of a step, in step->k, by simplified Newton iterations. lost: where they are not found. Returns a
+ * status.
+ */
 static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs, const ParametersOf *p, StepOf *step,
     Mask *lost)
 {
-    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), apart;
+    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), force_change;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
-    /* how fast changes fell in another step tells less of this one: to the power 3/4 */
+    /* the convergence rate of an earlier step is less certain for this one: power 3/4 */
     const Real known = real_sqrt(run->newton.falls) * real_sqrt(real_sqrt(run->newton.falls));
     Real falls = pick(run->newton.falls > 0.0, known, real_of(0.5));
     Real (*const z)[N_Y] = step->k;
-    /* nearer they cannot be told apart; where no error is looked at, nearly so near */
+    /* rounding bounds the accuracy of the stages; with fixed steps the iteration goes down to it */
     Real rounded = real_of(0.0);
     for (int i = 0; i < N_Y; i++)
         rounded = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounded);
@@ -135,9 +139,9 @@ static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs
     *lost = (Mask){0};
     const int controlled = any_of(run->control.accept <= DBL_MAX);
     const int patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
-    const double hope = controlled ? 0.9 : 2.0; /* a step that has to be made gets over a bad guess */
+    const double hope = controlled ? 0.9 : 2.0; /* a fixed step may begin with a bad guess */
     for (int pass = 0; pass < patience && any_of(active); pass++) {
-        const int status = RADAU(rates)(run, h, active, z, p, step, f, force, &apart);
+        const int status = RADAU(rates)(run, h, active, z, p, step, f, force, &force_change);
         if (status)
             return status;
         RADAU(change)(run, h, pairs, f, z, change);
@@ -153,15 +157,16 @@ static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs
         Mask found = active & (way <= rounded);
         if (pass > 0)
             falls = pick(active & is_not(found), way / before, falls);
-        /* a film's force is linear in velocities by sectors of their direction: the first change may miss the sector */
+        /* a film force is linear in the velocity by sectors of its direction: the first change may miss the sector */
         if (pass > has_films()) {
-            /* it no longer falls */
-            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= run->newton.force_found);
+            /* the change no longer decreases */
+            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded)
+                & (force_change <= run->newton.force_found);
             *lost |= active & is_not(found | (falls < hope));
             active &= found | (falls < hope);
         }
         found |= active & (falls * way <= enough * (1.0 - falls))
-            & (falls * apart <= run->newton.force_found * (1.0 - falls));
+            & (falls * force_change <= run->newton.force_found * (1.0 - falls));
         run->newton.falls = pick(found, real_max(falls, real_of(1e-3)), run->newton.falls);
         active &= is_not(found);
         before = pick(active, way, real_of(1.0));
@@ -170,7 +175,10 @@ static int RADAU(stages)(IntegratorOf *run, Real h, const ComplexLinearOf *pairs
     return 0;
 }
 
-/* The error of a step from rates at its beginning and from what its stages add: a size for each component. */
+/*
+ * Return the scaled error of a step, from rates dy at its beginning and the contribution `bend` of its stages; u: the
+ * error of each component.
+ */
 static Real RADAU(error)(const IntegratorOf *run, Real h, const Real *dy, const Real *bend, Real *r, Real *u)
 {
     Real most = real_of(0.0);
@@ -182,6 +190,7 @@ static Real RADAU(error)(const IntegratorOf *run, Real h, const Real *dy, const 
     return most;
 }
 
+/* Try a step of length h: stages, error and, if it is accepted, its end. Returns a status. */
 static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real by = RADAU_TABLE.gamma / h;
@@ -214,7 +223,7 @@ static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     }
     note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     const Mask large = step->error > run->control.accept;
-    if (any_of(large)) { /* once more, at a state that errs as much: less is left of what is stiff and not wrong */
+    if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];
         RhsOutputsOf rhs;
         for (int i = 0; i < N_Y; i++)

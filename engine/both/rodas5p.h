@@ -1,5 +1,6 @@
 /*
- * A step of Rodas5P that is tried: stages, error, end. Where it is not accepted it has no end.
+ * A trial step of Rodas5P, a Rosenbrock method of order 5 (G. Steinebach, BIT 63 (2023)): stages, error, end. A
+ * rejected step has no end.
  */
 enum { RODAS5P_STAGES = 8 };
 #define RODAS5P_GAMMA 0.21193756319429014
@@ -8,7 +9,7 @@ static const double rodas5p_node[] = {0.0, 0.6358126895828704, 0.409579839339753
 static const double rodas5p_time[] = {0.21193756319429014, -0.42387512638858027, -0.3384627126235924,
     1.8046452872882734, 2.325825639765069, 0.0, 0.0, 0.0};
 
-/* Where stage s > 0 is evaluated: y0 + sum a_sj u_j. */
+/* Compute the state y = y0 + sum_j a_sj u_j of stage s > 0. */
 static void rodas5p_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y)
 {
     switch (s) {
@@ -48,7 +49,7 @@ static void rodas5p_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y)
     }
 }
 
-/* Its right-hand side: f + sum c_sj/h u_j. */
+/* Compute the right-hand side r = f + sum_j c_sj/h u_j of stage s. */
 static void rodas5p_right(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
 {
     const Real by = 1.0 / h;
@@ -95,6 +96,7 @@ static void rodas5p_right(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
     }
 }
 
+/* Try a step of length h: stages, error and, if it is accepted, its end. Returns a status. */
 static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real hg = h * RODAS5P_GAMMA;
@@ -119,7 +121,7 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         }
         rodas5p_right(s, h, f, step->k, r);
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
-        if (s == 7) /* the last two stages lie at one time: what f changes between them is J times their way */
+        if (s == 7) /* the last two stages are at one time: f changes between them by J times their difference */
             for (int k = 0; k < N_FELT; k++) {
                 const int i = felt(k);
                 change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);

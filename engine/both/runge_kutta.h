@@ -1,15 +1,16 @@
 /*
- * A step of an explicit Runge-Kutta method with the coefficients of a tableau (methods/runge_kutta.c), its error, and
- * its interpolant: y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))), of which d0 to d2 make the cubic through both ends
- * with their rates (C. Hermite, J. reine angew. Math. 84, 1878).
+ * A trial step of an explicit Runge-Kutta method given by a tableau (methods/runge_kutta.c), its error and its dense
+ * output y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))). Here d0 to d2 are Hermite's cubic through both ends with
+ * their rates.
  */
-enum { RK4_STAGES = 4, DOPRI5_STAGES = 6, MOST_STAGES = 6 };
+enum { RK4_STAGES = 4, DOPRI5_STAGES = 6, MAX_STAGES = 6 };
 
+/* The coefficients of an explicit Runge-Kutta method. */
 typedef struct Tableau {
-    int stages, estimates; /* estimates: whether there is an error */
-    double node[MOST_STAGES], a[MOST_STAGES][MOST_STAGES], weight[MOST_STAGES];
-    double error[MOST_STAGES + 1];   /* of all stages and of the step's end: less those of the lower order */
-    double between[MOST_STAGES + 1]; /* d3 / h; 0: the interpolant is the cubic */
+    int stages, estimates; /* estimates: whether there is an error estimate */
+    double node[MAX_STAGES], a[MAX_STAGES][MAX_STAGES], weight[MAX_STAGES];
+    double error[MAX_STAGES + 1];   /* of all stages and of the end: differences from the weights of lower order */
+    double between[MAX_STAGES + 1]; /* d3 / h; 0: the dense output is the cubic */
 } Tableau;
 
 /* The classical method of order 4: W. Kutta, Z. Math. Phys. 46 (1901), 435. */
@@ -30,7 +31,10 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
     .between = {-12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0, -10690763975.0 / 1880347072.0,
         701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0}};
 
-/* A step that is tried; k[0] is left over from the step before. Rates at its end are those of the next step's begin. */
+/*
+ * Try a step of length h: stages, error and, if it is accepted, its end. The first stage has the rates at the end of
+ * the previous step. Returns a status.
+ */
 static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
 {
     Real y[N_Y], change = real_of(0.0), way = real_of(0.0), worst = real_of(0.0);
@@ -70,7 +74,7 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const P
         return NOT_FINITE;
     if (is_refused(run, step))
         return 0;
-    for (int k = 0; k < N_FELT; k++) { /* rho h, of two states at the step's end: the last stage's and the step's */
+    for (int k = 0; k < N_FELT; k++) { /* h rho from two states at the end: of the last stage and of the step */
         const int i = felt(k);
         const Real by = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - step->k[of->stages - 1][i]) * by, change);
@@ -80,7 +84,7 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const P
     return 0;
 }
 
-/* The coefficients of the interpolant, from the stages that there are. */
+/* Compute the coefficients of the dense output from the stages of the step. */
 static inline void runge_kutta_dense(const IntegratorOf *run, const Tableau *of, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {

@@ -1,25 +1,26 @@
 /*
- * Coefficients of the Taylor series of a motion. At each order the sums over lower orders of all products are made
- * first, for they need nothing of each other; what is left of an order is linear (the scene's own functions). Of one
- * run a SeriesRow is so many products as a register holds, and the scene's own functions fill a SeriesWide;
- * in lanes both are one product of so many runs.
+ * Coefficients of the Taylor series of a motion. At each order, the sums over lower orders of all products are computed
+ * first, because they are independent of each other. The rest of an order is linear (functions derived for the scene).
+ * For one run, a SeriesRow is a register of products, and the derived functions fill a SeriesWide. In lanes, both are
+ * one product of several runs.
  */
-#define SERIES_APART __attribute__((noinline)) /* where a thread's own memory lies is found once, not at each order */
+#define SERIES_APART __attribute__((noinline)) /* the address of thread-local memory is found once, not at each order */
 
 enum {
-    SERIES_PAIR = 2 * sizeof(SeriesRow), /* rows go in pairs: neither waits for the other's sums */
+    SERIES_PAIR = 2 * sizeof(SeriesRow), /* products are processed in independent pairs */
     SERIES_WHOLE = SERIES_PAIR > sizeof(SeriesWide) ? SERIES_PAIR : sizeof(SeriesWide),
     SERIES_ROWS = (TAYLOR * sizeof(Real) + SERIES_WHOLE - 1) / SERIES_WHOLE * (SERIES_WHOLE / sizeof(SeriesRow))
 };
 
+/* The sums of all products, as the derived functions and as the loops read them. */
 typedef union {
     TaylorFactors of;
     SeriesRow row[SERIES_ROWS];
 } SeriesSums;
 
 /*
- * Of every product: left_1 right_{k-1} + ... + left_{k-1} right_1, and of order k + 1 what is known of it already: all
- * but left_1 right_k and left_k right_1.
+ * Compute of every product left_1 right_{k-1} + ... + left_{k-1} right_1 (sum), and of order k + 1 all terms but left_1
+ * right_k and left_k right_1 (next).
  */
 SERIES_APART static void series_sums(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum, SeriesRow *next)
@@ -41,7 +42,7 @@ SERIES_APART static void series_sums(int k, SeriesRow (*left)[SERIES_ROWS], Seri
     }
 }
 
-/* What was left open of an order. */
+/* Add the two terms of order k that series_sums() left out. */
 SERIES_APART static void series_rest(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum)
 {
@@ -49,7 +50,7 @@ SERIES_APART static void series_rest(int k, SeriesRow (*left)[SERIES_ROWS], Seri
         sum[i] += left[1][i] * right[k - 1][i] + left[k - 1][i] * right[1][i];
 }
 
-/* c[k], k = 2 ... order, where c[0] and what follows from accelerations of c[1] are known, as is what `at` keeps. */
+/* Compute c[k], k = 2 ... order, from c[0], the accelerations and powers in c[1], and the values `at` of order 0. */
 SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues *at, int order, Real (*c)[TAYLOR_Y],
     SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS])
 {
@@ -70,7 +71,7 @@ SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues
     }
 }
 
-/* A thread's room for factors. */
+/* Return the thread-local memory for the factors of all products. */
 static SeriesRow (*series_factors(void))[TAYLOR_ORDERS][SERIES_ROWS]
 {
     static _Thread_local SeriesRow factors[2][TAYLOR_ORDERS][SERIES_ROWS];

@@ -1,4 +1,4 @@
-/* The largest speed so far, of lengths and of angles. */
+/* Update the largest speeds of lengths and angles. */
 static void note_speed(IntegratorOf *run)
 {
     for (int k = 0; k < N_X; k++)

@@ -1,7 +1,4 @@
-/*
- * Inner states of laws, which lie behind the works in what is integrated: laws read them where they read the latch, and
- * say their rates beside their forces.
- */
+/* Copy the inner states of a state y to the contact states, where the laws read them. */
 static inline void show_states(DiscreteStateOf *discrete, const Real *y)
 {
 #if LAW_STATES
@@ -12,6 +9,7 @@ static inline void show_states(DiscreteStateOf *discrete, const Real *y)
 #endif
 }
 
+/* Copy the rates of the inner states from the contacts to dy. */
 static inline void rates_of_states(const RhsOutputsOf *rhs, Real *dy)
 {
 #if LAW_STATES

@@ -1,16 +1,16 @@
 /*
- * A step by the motion's own series: how far it is good for, and the state there. Of one run a SeriesPart is so many
- * components of the state side by side, in lanes it is one of so many runs.
+ * A step by the Taylor series of the motion: the longest valid length, and the state at its end. For one run, a
+ * SeriesPart is several components of the state; in lanes, one component of several runs.
  */
 enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 
-#define TAYLOR_DECAY 2.0 /* log2 of the factor by which a term may exceed the tolerance for each order more */
-#define TAYLOR_AHEAD 8.0 /* times the last step: so far the next one may lead, until its own series bounds it */
-enum { TAYLOR_DEFECT = 5 /* log2 of the defect, in tolerances, that the end of a step may have; less at low orders */ };
+#define TAYLOR_DECAY 2.0 /* log2 of the factor by which a term may exceed the tolerance per lower order */
+#define TAYLOR_AHEAD 8.0 /* times the last step: first limit of the next one */
+enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
 
 /*
- * The longest step whose last two terms are no larger than the tolerance. Symmetry may make them small, or zero: the
- * defect at the end of the step shows that.
+ * Return the longest step whose last two terms do not exceed the tolerance, s. Symmetry may make them small or zero;
+ * the defect at the end of the step shows that.
  */
 static Real taylor_reach(const IntegratorOf *run)
 {
@@ -24,7 +24,7 @@ static Real taylor_reach(const IntegratorOf *run)
     return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));
 }
 
-/* The same by all terms: each may exceed the tolerance by a fixed factor for each order more. */
+/* Return the longest step by all terms, s: each may exceed the tolerance by a fixed factor per lower order. */
 static Real taylor_reach_of_all(const IntegratorOf *run)
 {
     Real steepest = real_of(-INFINITY);
@@ -37,7 +37,7 @@ static Real taylor_reach_of_all(const IntegratorOf *run)
     return real_exp2(-steepest);
 }
 
-/* The state so long after that of the run, and its rate of change: even powers and odd ones, each with its slope. */
+/* Compute the state y and its rate at time h after the run's state: even and odd powers separately. */
 static inline void taylor_both(const IntegratorOf *run, Real h, Real *y, Real *rate)
 {
     const int top = run->series.order - run->series.order % 2;
@@ -63,16 +63,14 @@ static inline void taylor_both(const IntegratorOf *run, Real h, Real *y, Real *r
     }
 }
 
-/* The state alone. */
+/* Compute the state y at time h after the run's state. */
 static inline void taylor_at(const IntegratorOf *run, Real h, Real *y)
 {
     Real rate[N_Y];
     taylor_both(run, h, y, rate);
 }
 
-/*
- * The defect h |y' - f| of a step at its end, in the error norm of velocities: as a share of what it may be.
- */
+/* Return the defect h |y' - f| at the end of a step in the error norm of velocities, relative to the allowed one. */
 static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
 {
     const int few = run->series.order - 4;
@@ -83,8 +81,8 @@ static Real taylor_defect(const IntegratorOf *run, const StepOf *step, const Rea
 }
 
 /*
- * A step of length h, or of the longest that the series is good for: with a fixed one nobody asks. Where its defect is
- * too large, it is made once more with a length from all terms.
+ * Try a step of length h, or of the longest valid length; a fixed step is always h. If its defect is too large, the
+ * step is repeated once with a length from all terms. Returns a status.
  */
 static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
@@ -99,7 +97,7 @@ static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
     for (int again = 0;; again = 1) {
         step->h = h;
         taylor_both(run, h, step->y, rate);
-        step->error = free ? h / run->series.reach : real_of(0.0); /* its root: accepted where it is one at most */
+        step->error = free ? h / run->series.reach : real_of(0.0); /* root of the error: accepted up to 1 */
         if (!again && is_refused(run, step))
             return 0;
         status = finish_step(run, step, p);

@@ -1,13 +1,16 @@
 /*
- * Model exchange: others integrate what the engine's loops do, coordinates of the tree (or of all bodies), their
- * velocities and the works. Contacts begin and end as events, told by each penetration as an indicator; closed loops
- * are put back onto their rows as an event, too, where they have drifted.
+ * Model exchange: the importer integrates the state of the engine's loops, tree coordinates (or those of all bodies),
+ * velocities and works. Contacts begin and end as events, with penetrations as event indicators. Closed loops are
+ * projected as an event when they have drifted.
  */
 #if FMU_EXCHANGE
-#define DRIFTS 1e-11 /* of the mechanism's size or 1 rad: how far rows may open before they are closed */
+#define MAX_DRIFT 1e-11 /* of the mechanism's size or 1 rad: drift at which closures are projected */
 
-/* Corners that lie on their other side go there: those whose branches meet, or all. Whether there were any. */
-static int turn_crossed(Model *m, const RhsOutputs *rhs, int all)
+/*
+ * Change the branches of switching functions with the opposite sign: those whose branches meet, or `all`. Returns
+ * whether any changed.
+ */
+static int update_branches(Model *m, const RhsOutputs *rhs, int all)
 {
     int some = 0;
     for (int k = 0; k < N_SWITCHES; k++)
@@ -19,9 +22,9 @@ static int turn_crossed(Model *m, const RhsOutputs *rhs, int all)
 }
 
 /*
- * Rates, and joints with play, at the present state. Between events contacts stay as they are, and so do corners of
- * expressions, whose branches may lie apart: an importer's step sees one smooth function. Branches of contact laws
- * meet, and are those of the state: a slip that stays by a corner would be an event again and again.
+ * Compute rates dx and contacts at the present state. Between events, contacts and branches of expressions are frozen,
+ * so that the importer integrates a smooth function. Branches of contact laws meet and follow the state, because a slip
+ * near a switching point would cause repeated events. Returns a status.
  */
 static int exchange_rates(Model *m, double *dx, RhsOutputs *rhs)
 {
@@ -29,12 +32,15 @@ static int exchange_rates(Model *m, double *dx, RhsOutputs *rhs)
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         DiscreteState now = m->discrete;
         status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, rhs);
-        changed = now.held && turn_crossed(m, rhs, 0);
+        changed = now.held && update_branches(m, rhs, 0);
     }
     return status;
 }
 
-/* The largest velocity of a kind counts for all of it; of works the energy of the motion. 1: some are larger now. */
+/*
+ * Raise the nominals: to the largest velocity of a kind, of works to the kinetic energy. Returns whether any is larger
+ * now.
+ */
 static int note_nominals(Model *m)
 {
     double mass[N_Q], all[N_S], energy = 0.0;
@@ -56,8 +62,8 @@ static int note_nominals(Model *m)
 }
 
 /*
- * What counts as much, as in the engine's own runs (methods/begin.c): of coordinates the smallest length or angle that
- * matters; of velocities at least a hundredth of what leads over that in the time that the start takes for it.
+ * Set the nominals at the start, as in methods/begin.c: of coordinates the smallest length or angle that matters
+ * (`least`); of velocities 1 % of the speed that covers it in the time scale of the start. Returns a status.
  */
 static int nominals_at_start(Model *m, const double *least)
 {
@@ -80,21 +86,25 @@ static int nominals_at_start(Model *m, const double *least)
     return status;
 }
 
-static void remember(Model *m) { read_discrete_state(m->latched, &m->discrete); }
+/* Read the discrete state from that of the sample. */
+static void read_contacts(Model *m) { read_discrete_state(m->latched, &m->discrete); }
 
-/* Absolute coordinates from what is integrated, or the other way in co-simulation. */
-static void exchange_places(Model *m)
+/* Convert the integrated state to absolute coordinates in model exchange, and the other way in co-simulation. */
+static void convert_state(Model *m)
 {
     if (m->exchange) {
         to_absolute(m->t, m->x, &m->discrete, (const Parameters *)m->p, m->y);
     } else {
-        remember(m);
+        read_contacts(m);
         from_absolute(m->t, m->y, &m->discrete, (const Parameters *)m->p, m->x);
     }
 }
 
-/* How far the rows are open; with `moves` the state is put back onto them. -1: a row depends on others. */
-static double closes(Model *m, int moves)
+/*
+ * Return the drift of the closures, relative to the mechanism's size; with `moves` the state is projected onto them.
+ * -1: a closure depends on others.
+ */
+static double drift_of_closures(Model *m, int moves)
 {
     double most = 0.0;
     for (int pass = 0; pass < (moves ? 3 : 1) && N_LOOPS > 0; pass++) {
@@ -113,7 +123,7 @@ static double closes(Model *m, int moves)
     return most;
 }
 
-/* Indicator k of the state that `rhs` is of; a corner that does not act is as far from its zero as it may be. */
+/* Return event indicator k: a penetration, or a switching function; its branch if it is not in use. */
 static double indicator_of(const Model *m, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
@@ -122,8 +132,8 @@ static double indicator_of(const Model *m, const RhsOutputs *rhs, int k)
     return isnan(rhs->g[corner]) ? m->discrete.branch[corner] : rhs->g[corner];
 }
 
-/* Functions of corners that are zero to the bit become what they are a moment later. */
-static int look_ahead(Model *m, const double *dx, RhsOutputs *rhs)
+/* Replace switching functions that are exactly zero by their values a moment later. Returns a status. */
+static int resolve_zero_branches(Model *m, const double *dx, RhsOutputs *rhs)
 {
     int status = 0, some = 0;
     double x[N_Y], scrap[N_Y];
@@ -146,8 +156,8 @@ static int look_ahead(Model *m, const double *dx, RhsOutputs *rhs)
     return status;
 }
 
-/* What begins here: joints that touch from now on, or no longer, and sides of corners, which may change others. */
-static int switches(Model *m)
+/* Update contacts and branches at an event, including branches that change as a consequence. Returns a status. */
+static int update_modes(Model *m)
 {
     double dx[N_Y];
     RhsOutputs rhs;
@@ -155,7 +165,7 @@ static int switches(Model *m)
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
         const Clearance *joint = &rhs.clearance[i];
         const int touches = !isnan(m->latched[i]);
-        /* importers come to zero itself: it is what it becomes */
+        /* at exactly zero the rate decides */
         const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
@@ -164,35 +174,39 @@ static int switches(Model *m)
         m->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
-        status = look_ahead(m, dx, &rhs);
+        status = resolve_zero_branches(m, dx, &rhs);
     for (int k = 0; k < N_SWITCHES && !status; k++)
         m->discrete.branch[k] = rhs.g[k] < 0.0 ? -1.0 : 1.0;
-    remember(m);
+    read_contacts(m);
     m->discrete.held = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         status = exchange_rates(m, dx, &rhs);
-        changed = !status && turn_crossed(m, &rhs, 1);
+        changed = !status && update_branches(m, &rhs, 1);
     }
     return status;
 }
 
+/* Enter event mode (FMI 3); no action is needed. */
 FMI3_EXPORT fmi3Status fmi3EnterEventMode(fmi3Instance instance) { return (void)instance, fmi3OK; }
+/* Enter continuous-time mode (FMI 3); no action is needed. */
 FMI3_EXPORT fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) { return (void)instance, fmi3OK; }
 
+/* Update contacts and branches, and project the closures, at an event. */
 FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, fmi3Boolean *terminate,
     fmi3Boolean *nominals, fmi3Boolean *values, fmi3Boolean *timed, fmi3Float64 *next)
 {
     Model *m = instance;
-    const int status = switches(m); /* as the importer found it: closing may move what it located back across zero */
-    const double open = closes(m, 1);
+    const int status = update_modes(m); /* before the projection, which may move a located indicator back across zero */
+    const double open = drift_of_closures(m, 1);
     *again = *terminate = *timed = false;
     *nominals = !status && note_nominals(m);
     *next = INFINITY;
     *values = open != 0.0;
     m->moved = 1;
-    return status ? fails(m, "the motion cannot be followed", status) : fmi3OK;
+    return status ? log_failure(m, "the motion cannot be followed", status) : fmi3OK;
 }
 
+/* End impacts whose penetration decreases, and request an event if closures have drifted. */
 FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_return, fmi3Boolean *event,
     fmi3Boolean *terminate)
 {
@@ -204,11 +218,12 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
         for (int i = 0; i < N_CLEARANCES; i++)
             if (m->state[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
                 m->state[i] = CODE_CONTACT;
-    *event = closes(m, 0) > DRIFTS;
+    *event = drift_of_closures(m, 0) > MAX_DRIFT;
     *terminate = false;
     return fmi3OK;
 }
 
+/* Set the time, s. */
 FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
 {
     Model *m = instance;
@@ -217,41 +232,44 @@ FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
     return fmi3OK;
 }
 
-static fmi3Status counted(const Model *m, size_t n, size_t wanted)
+/* Return an error if n is not the expected number of values. */
+static fmi3Status check_count(const Model *m, size_t n, size_t expected)
 {
-    return n == wanted ? fmi3OK : fails(m, "another number of values than there are", (int)n);
+    return n == expected ? fmi3OK : log_failure(m, "another number of values than there are", (int)n);
 }
 
+/* Set the integrated state, N_Y values. */
 FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t n)
 {
     Model *m = instance;
-    if (counted(m, n, N_Y))
+    if (check_count(m, n, N_Y))
         return fmi3Error;
     memcpy(m->x, x, sizeof m->x);
     m->moved = 1;
     return fmi3OK;
 }
 
-/* A number of each state. */
-static fmi3Status given(const Model *m, const double *own, fmi3Float64 value[], size_t n)
+/* Copy one number of each state to `value`. */
+static fmi3Status copy_state_values(const Model *m, const double *source, fmi3Float64 value[], size_t n)
 {
-    if (counted(m, n, N_Y))
+    if (check_count(m, n, N_Y))
         return fmi3Error;
-    memcpy(value, own, N_Y * sizeof *own);
+    memcpy(value, source, N_Y * sizeof *source);
     return fmi3OK;
 }
 
+/* Get the integrated state, N_Y values. */
 FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n)
 {
-    return given(instance, ((const Model *)instance)->x, x, n);
+    return copy_state_values(instance, ((const Model *)instance)->x, x, n);
 }
 
-/* What may be left out where a step is too long: the importer takes a shorter one. */
+/* Get the rates of the state; fmi3Discard if they are undefined, so that the importer takes a shorter step. */
 FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 dx[], size_t n)
 {
     Model *m = instance;
     RhsOutputs rhs;
-    if (counted(m, n, N_Y))
+    if (check_count(m, n, N_Y))
         return fmi3Error;
     if (exchange_rates(m, dx, &rhs))
         return fmi3Discard;
@@ -261,12 +279,13 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, 
     return fmi3OK;
 }
 
+/* Get the event indicators. */
 FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 z[], size_t n)
 {
     Model *m = instance;
     double dx[N_Y];
     RhsOutputs rhs;
-    if (counted(m, n, N_INDICATORS))
+    if (check_count(m, n, N_INDICATORS))
         return fmi3Error;
     if (N_INDICATORS && exchange_rates(m, dx, &rhs))
         return fmi3Discard;
@@ -275,16 +294,19 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
     return fmi3OK;
 }
 
+/* Get the nominals of the states. */
 FMI3_EXPORT fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominal[], size_t n)
 {
-    return given(instance, ((const Model *)instance)->nominal, nominal, n);
+    return copy_state_values(instance, ((const Model *)instance)->nominal, nominal, n);
 }
 
+/* Get the number of states, N_Y. */
 FMI3_EXPORT fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *n)
 {
     return (void)instance, *n = N_Y, fmi3OK;
 }
 
+/* Get the number of event indicators. */
 FMI3_EXPORT fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n)
 {
     return (void)instance, *n = N_INDICATORS, fmi3OK;

@@ -1,7 +1,7 @@
 /*
- * A scene as an FMU: FMI 3's functions over the calls of scene/calls.h. "fmu.h" beside it is written with the scene:
- * its numbers, its start, and where each output is. In co-simulation the time loops are the engine's own, and a
- * communication point ends a step; model exchange (exchange.c) leaves them to others.
+ * A scene as an FMU: functions of FMI 3 that create, initialize, step and free an instance. The file "fmu.h", written
+ * with the scene, contains parameters, start and the locations of outputs. In co-simulation the engine integrates, and
+ * a communication point ends a step. In model exchange (exchange.c) the importer integrates.
  */
 #include "model.h"
 #include "engine/scene/kernels.h"
@@ -15,14 +15,17 @@
 
 #include "instance.c"
 
+/* Return the version of FMI. */
 FMI3_EXPORT const char *fmi3GetVersion(void) { return "3.0"; }
 
+/* Accept and ignore the settings of debug logging. */
 FMI3_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t n, const fmi3String names[])
 {
     return (void)instance, (void)on, (void)n, (void)names, fmi3OK;
 }
 
-static Model *made(fmi3String name, fmi3String token, fmi3InstanceEnvironment environment,
+/* Create an instance with default settings. Returns NULL if the token is wrong or memory is exhausted. */
+static Model *create_instance(fmi3String name, fmi3String token, fmi3InstanceEnvironment environment,
     fmi3LogMessageCallback log_message)
 {
     if (!token || strcmp(token, FMU_TOKEN)) {
@@ -47,6 +50,7 @@ static Model *made(fmi3String name, fmi3String token, fmi3InstanceEnvironment en
     return m;
 }
 
+/* Create an instance for co-simulation. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
     fmi3Boolean visible, fmi3Boolean logs, fmi3Boolean has_event_mode, fmi3Boolean returns_early,
     const fmi3ValueReference required[], size_t n, fmi3InstanceEnvironment environment,
@@ -54,15 +58,16 @@ FMI3_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String
 {
     (void)resources, (void)visible, (void)logs, (void)has_event_mode, (void)returns_early, (void)required, (void)n;
     (void)update;
-    return made(name, token, environment, log_message);
+    return create_instance(name, token, environment, log_message);
 }
 
+/* Create an instance for model exchange; NULL if the scene does not support it. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
     fmi3Boolean visible, fmi3Boolean logs, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message)
 {
     (void)resources, (void)visible, (void)logs;
 #if FMU_EXCHANGE
-    Model *m = made(name, token, environment, log_message);
+    Model *m = create_instance(name, token, environment, log_message);
     if (m)
         m->exchange = 1;
     return m;
@@ -71,8 +76,10 @@ FMI3_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3Strin
 #endif
 }
 
+/* Return NULL: scheduled execution is not supported. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name) { return (void)name, NULL; }
 
+/* Free an instance. */
 FMI3_EXPORT void fmi3FreeInstance(fmi3Instance instance)
 {
     Model *m = instance;
@@ -83,14 +90,17 @@ FMI3_EXPORT void fmi3FreeInstance(fmi3Instance instance)
     free(m);
 }
 
+/*
+ * Enter initialization mode: set start and end times and the importer's tolerance, unless one was set as a parameter.
+ */
 FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean has_tolerance,
     fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop)
 {
     Model *m = instance;
     if (m->phase != SETTING)
-        return refuses(m, "initialization mode is entered once, after instantiation or a reset");
+        return log_error(m, "initialization mode is entered once, after instantiation or a reset");
     m->phase = INITIALIZING;
-    m->begun = 0; /* outputs may have been asked for before */
+    m->begun = 0; /* outputs may have been requested before */
     m->t = start;
     m->t_end = has_stop ? stop : start + TIME_CONSTANT;
     if (has_tolerance && tolerance > 0.0 && tolerance < 1.0 && !m->rtol_given)
@@ -98,19 +108,22 @@ FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Bo
     return fmi3OK;
 }
 
+/* Leave initialization mode and begin the run. */
 FMI3_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
     Model *m = instance;
     if (m->phase != INITIALIZING)
-        return refuses(m, "initialization mode was not entered");
-    if (!m->begun && begin(m))
+        return log_error(m, "initialization mode was not entered");
+    if (!m->begun && begin_run(m))
         return fmi3Error;
     m->phase = RUNNING;
     return fmi3OK;
 }
 
+/* Accept the end of a simulation. */
 FMI3_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return (void)instance, fmi3OK; }
 
+/* Reset an instance to its state after instantiation. */
 FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
 {
     Model *m = instance;
@@ -122,6 +135,7 @@ FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
     return fmi3OK;
 }
 
+/* Integrate to t + h, a communication point; t must be the present time. */
 FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Float64 h, fmi3Boolean no_return,
     fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *last)
 {
@@ -130,13 +144,13 @@ FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Floa
     *event_needed = *terminate = *early = false;
     *last = m->t;
     if (m->phase != RUNNING)
-        return refuses(m, "a step is made after initialization");
+        return log_error(m, "a step is made after initialization");
     if (!(h > 0.0) || fabs(t - m->t) > 1e-9 * fmax(1.0, fabs(t)))
-        return fails(m, "a step begins where the last one ended, and is longer than 0", 0);
+        return log_failure(m, "a step begins where the last one ended, and is longer than 0", 0);
     const double end = t + h;
-    const int status = m->ended ? 0 : advance(m, end);
+    const int status = m->ended ? 0 : advance_to(m, end);
     if (status)
-        return fails(m, "the motion cannot be followed", status);
+        return log_failure(m, "the motion cannot be followed", status);
     m->t = *last = end;
     m->moved = 1;
     *terminate = m->ended;

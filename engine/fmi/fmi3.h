@@ -1,7 +1,4 @@
-/*
- * What of FMI 3.0.2 (https://fmi-standard.org/docs/3.0.2/) is used here, as the standard has it: types, and the names
- * of all functions that a library must have.
- */
+/* Types and macros of FMI 3.0.2 (https://fmi-standard.org/docs/3.0.2/) that the FMU uses. */
 #ifndef GUDGEON_FMI3_H
 #define GUDGEON_FMI3_H
 #include <stdbool.h>
@@ -24,7 +21,7 @@ typedef void (*fmi3IntermediateUpdateCallback)(void);
 #define FMI3_EXPORT __attribute__((visibility("default")))
 #endif
 
-/* Functions of kinds of variables and of interfaces that this FMU does not have: they say so. */
+/* Define a function of FMI that this FMU does not support; it returns fmi3Error. */
 #define FMI3_NONE(name) FMI3_EXPORT fmi3Status name(fmi3Instance instance) { return (void)instance, fmi3Error; }
 
 #endif

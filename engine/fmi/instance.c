@@ -1,21 +1,21 @@
-/*
- * An instance: its numbers and its start, the engine's steps to a time, and all that follows from a state.
- */
+/* An instance of the FMU: its parameters and start, the engine's steps to a time, and the outputs at a state. */
 enum {
     SLICE = 4000,
     SETTING = 0, INITIALIZING, RUNNING, /* parameters are set in the first two */
-    N_INDICATORS = N_CLEARANCES + FMU_JUMPS /* in model exchange: contacts, corners whose branches may lie apart */
+    N_INDICATORS = N_CLEARANCES + FMU_JUMPS /* in model exchange: contacts, switching points with a jump */
 };
-#define TIME_CONSTANT 1e3 /* s: an end that nobody has said */
+#define TIME_CONSTANT 1e3 /* s: end of a simulation without a stop time */
 
+/* All results at a state, as gudgeon_evaluate() returns them. */
 typedef struct {
     double a[FMU_AT_LEAST(N_Q)], multipliers[FMU_AT_LEAST(N_ROWS)],
         reactions[FMU_AT_LEAST(N_REACTION_COLUMNS * N_REACTIONS)], torques[FMU_AT_LEAST(N_DRIVES)],
         clearance[FMU_AT_LEAST(N_CLEARANCE_COLUMNS * N_CLEARANCES)],
         series[FMU_AT_LEAST(N_SERIES)], friction[FMU_AT_LEAST(N_FRICTION_COLUMNS * N_FRICTIONS)],
         energy[N_ENERGY], power[N_WORK], drift[N_DRIFT];
-} Followed;
+} Outputs;
 
+/* The state of an instance. */
 typedef struct {
     char *name;
     fmi3InstanceEnvironment environment;
@@ -23,13 +23,13 @@ typedef struct {
     double given[FMU_SLOTS], p[FMU_NUMBERS], motion[FMU_NUMBERS];
     unsigned char is_given[FMU_SLOTS];
     double t, t_end, rtol;
-    int phase, rtol_given; /* one of the enum's; whether the tolerance was set: an importer's own does not change it */
+    int phase, rtol_given; /* phase of the enum; whether the tolerance was set as a parameter */
     double y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)], a[FMU_AT_LEAST(N_Q)];
     signed char state[FMU_AT_LEAST(N_CLEARANCES)];
-    int moved, begun, ended; /* whether outputs are of another state; the run has begun; an event has ended it */
-    Followed out;
+    int moved, begun, ended; /* outputs are not up to date; the run has begun; an event has ended it */
+    Outputs out;
 #if FMU_EXCHANGE
-    int exchange; /* whether others integrate */
+    int exchange; /* whether the importer integrates */
     double x[N_Y], nominal[N_Y], extent;
     DiscreteState discrete;
 #endif
@@ -37,7 +37,8 @@ typedef struct {
     void *run;
 } Model;
 
-static fmi3Status refuses(const Model *m, const char *what)
+/* Log a message with the instance's name. Returns fmi3Error. */
+static fmi3Status log_error(const Model *m, const char *what)
 {
     char text[700];
     snprintf(text, sizeof text, "%s: %s", m->name, what);
@@ -46,8 +47,8 @@ static fmi3Status refuses(const Model *m, const char *what)
     return fmi3Error;
 }
 
-/* The sentence is for where a status is one of those of the engine's loops. */
-static fmi3Status fails(const Model *m, const char *what, int status)
+/* Log a message with the time and, if `status` is one of the engine, its reason. Returns fmi3Error. */
+static fmi3Status log_failure(const Model *m, const char *what, int status)
 {
     char text[600];
     const char *why = status == OUTSIDE ? ": a journal or corner is deeper in its wall than its law is good for"
@@ -60,19 +61,20 @@ static fmi3Status fails(const Model *m, const char *what, int status)
         snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);
     else
         snprintf(text, sizeof text, "%s at t = %.9g s", what, m->t);
-    return refuses(m, text);
+    return log_error(m, text);
 }
 
 #include "conditions.c"
 #if INTEGRATES
-static int advance(Model *m, double t);
+/* Integrate to time t, which ends a step. Returns a status. */
+static int advance_to(Model *m, double t);
 #endif
 #if FMU_EXCHANGE
 static int nominals_at_start(Model *m, const double *least);
 #endif
 
-/* Numbers of the run, the start that closes the linkage, and a run that begins there. */
-static fmi3Status begin(Model *m)
+/* Compute the parameters and the start, and begin the run there. */
+static fmi3Status begin_run(Model *m)
 {
     double residual = 0.0, size = 0.0, *q = m->y, *v = m->y + N_Q;
     unsigned char projected[FMU_SLOTS];
@@ -80,10 +82,10 @@ static fmi3Status begin(Model *m)
     gudgeon_prepare(m->given, m->is_given, m->p);
     for (int k = 0; k < FMU_SIZES; k++) {
         const double x = m->p[fmu_sizes[k][0]], y = fmu_sizes[k][1] < 0 ? 0.0 : m->p[fmu_sizes[k][1]];
-        size = fmax(size, sqrt(x * x + y * y)); /* to the bit as in sizes.py */
+        size = fmax(size, sqrt(x * x + y * y)); /* the same bits as in sizes.py */
     }
     size = size > 0.0 ? size : 1.0;
-    if (!allowed(m, size))
+    if (!are_parameters_valid(m, size))
         return fmi3Error;
     memcpy(projected, m->is_given, sizeof projected);
     memcpy(still, m->given, sizeof still);
@@ -93,13 +95,13 @@ static fmi3Status begin(Model *m)
     }
     gudgeon_prepare(still, projected, m->motion);
     memset(m->y, 0, sizeof m->y);
-    if (gudgeon_start(m->t, m->p, size, q, v, &residual)) { /* from where it closes with the file's numbers */
+    if (gudgeon_start(m->t, m->p, size, q, v, &residual)) { /* continue from the start with the file's parameters */
         int some = 0;
         memcpy(m->y, fmu_start, sizeof fmu_start);
         for (int k = 0; k < FMU_SLOTS; k++)
             some |= m->is_given[k];
         if (some && gudgeon_continuation(m->t, m->p, size, q, v))
-            return fails(m, "the linkage does not close with these parameters", 0);
+            return log_failure(m, "the linkage does not close with these parameters", 0);
     }
     for (int k = 0; k < N_DISCRETE; k++)
         m->latched[k] = NAN;
@@ -109,7 +111,7 @@ static fmi3Status begin(Model *m)
     m->size = gudgeon_run_size();
     m->run = calloc(1, m->size);
     if (!m->run)
-        return fails(m, "there is no memory", 0);
+        return log_failure(m, "there is no memory", 0);
     for (int k = 0; k < FMU_PLAYS; k++)
         if (m->p[fmu_plays[k]] > 0.0)
             length = fmin(length, m->p[fmu_plays[k]]);
@@ -123,15 +125,15 @@ static fmi3Status begin(Model *m)
     double y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
     memcpy(y, m->y, sizeof y);
     memcpy(latched, m->latched, sizeof latched);
-    /* contacts and modes of friction that it begins with; then the run itself, whose lengths its end decides */
+    /* first the contacts and modes of friction at the start, then the run itself */
     for (int start = 1; start >= 0; start--) {
         gudgeon_run_start(m->run, m->motion, m->t, y, latched);
         gudgeon_run_stop(m->run, !start);
         gudgeon_adaptive_setup(m->run, gudgeon_method(fine ? FMU_BEGINS_FINE : FMU_BEGINS),
             FMU_AUTOMATIC ? gudgeon_method(fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
-        const int status = start ? advance(m, m->t) : 0;
+        const int status = start ? advance_to(m, m->t) : 0;
         if (status)
-            return fails(m, "the motion cannot begin", status);
+            return log_failure(m, "the motion cannot begin", status);
     }
     m->ended = 0;
 #if FMU_EXCHANGE
@@ -141,13 +143,13 @@ static fmi3Status begin(Model *m)
     from_absolute(m->t, m->y, &m->discrete, (const Parameters *)m->p, m->x);
     const int odd = nominals_at_start(m, least);
     if (odd)
-        return fails(m, "the motion cannot begin", odd);
+        return log_failure(m, "the motion cannot begin", odd);
 #endif
 #else
     m->size = gudgeon_kinematic_size();
     m->run = calloc(1, m->size);
     if (!m->run)
-        return fails(m, "there is no memory", 0);
+        return log_failure(m, "there is no memory", 0);
     gudgeon_kinematic_begin(m->run, FMU_REACH, size, m->t_end, NULL, NULL, INFINITY);
 #endif
     m->begun = 1;
@@ -168,7 +170,7 @@ static void discard_lists(void *run)
 }
 
 /* To t, a step ends there. */
-static int advance(Model *m, double t)
+static int advance_to(Model *m, double t)
 {
     long done = 0;
     int status = 0;
@@ -187,7 +189,8 @@ static int advance(Model *m, double t)
     return status;
 }
 #else
-static int advance(Model *m, double t)
+/* Follow the kinematic motion and its works to time t. Returns a status. */
+static int advance_to(Model *m, double t)
 {
     double rows[2] = {m->t, t}, q[2 * N_Q], v[2 * N_Q], a[2 * N_Q], work[2 * N_WORK], phi[2] = {0.0, 0.0};
     long steps = 0, done = 0;
@@ -209,28 +212,29 @@ static int advance(Model *m, double t)
 #endif
 
 #if FMU_EXCHANGE
-static void exchange_places(Model *m);
+static void convert_state(Model *m);
 #endif
 
-/* Everything that follows from the state. */
-static int follow(Model *m)
+/* Evaluate all outputs at the present state, unless they are up to date. Returns a status. */
+static int evaluate_outputs(Model *m)
 {
     long failed = 0;
-    Followed *o = &m->out;
+    Outputs *o = &m->out;
     const double t = FMU_BEYOND ? m->t + fmax(32.0 * 2.220446049250313e-16 * fabs(m->t), 1e-100) : m->t;
     if (!m->moved)
         return 0;
     m->moved = 0;
 #if FMU_EXCHANGE
-    exchange_places(m);
+    convert_state(m);
 #endif
     return gudgeon_evaluate(1, &t, m->y, m->y + N_Q, m->latched, m->p, o->a, o->multipliers, o->reactions, o->torques,
         o->clearance, o->series, o->friction, o->energy, o->power, o->drift, &failed);
 }
 
+/* Return an output: column of a part of the results; part < 0: contact codes. */
 static double value_of(const Model *m, int part, int column)
 {
-    const Followed *o = &m->out;
+    const Outputs *o = &m->out;
     const double *const parts[] = {m->y, m->y + N_Q, m->y + 2 * N_Q, m->latched, o->a, o->multipliers, o->reactions,
         o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift};
     return part < 0 ? m->state[column] : parts[part][column];

@@ -1,7 +1,7 @@
 /*
- * User events of a kinematic motion. The motion is followed again step by step, and parts of a step are halved until
- * bounds decide for every event function whether it has a zero (watch/zeros.h). A zero is located with Newton's method
- * at every time that is evaluated.
+ * User events of a kinematic motion. The motion is followed again step by step. Parts of a step are halved until bounds
+ * decide for every event function whether it has a zero (watch/zeros.h). A zero is located with Newton's method at
+ * every time that is evaluated.
  */
 #include "../watch/zeros.h"
 
@@ -16,7 +16,7 @@ typedef struct {
 } SampledPosition;
 
 /* Evaluate the event functions at a position. */
-static void evaluate_events(KinematicRun *run, SampledPosition *view)
+static void evaluate_events(Course *run, SampledPosition *view)
 {
     RhsOutputs rhs = {0};
     double a[N_Q];
@@ -69,7 +69,7 @@ static void speeds_of(const Position *at, double extent, double *speed)
  * Perturb a position by its rounding errors, with signs by the bits of `mask`, and compute its velocities. Near a
  * singular position, Newton's last step shows that rounding counts for more.
  */
-static void perturb_position(const KinematicRun *run, const Position *here, int mask, Position *other)
+static void perturb_position(const Course *run, const Position *here, int mask, Position *other)
 {
     double step[N_PLACE + 1], *q = positions_of(other);
     *other = *here;
@@ -86,7 +86,7 @@ static void perturb_position(const KinematicRun *run, const Position *here, int 
  * Return by how much rounding errors of positions and velocities change event function i; 0 where they include a pole.
  * Several combinations of signs are tried.
  */
-static double event_uncertainty(const KinematicRun *run, SampledPosition *here, int i)
+static double event_uncertainty(const Course *run, SampledPosition *here, int i)
 {
     const Position *at = &here->at;
     double of_q[N_Q] = {0.0}, of_v[N_Q] = {0.0}, speed[2];
@@ -114,7 +114,7 @@ static double event_uncertainty(const KinematicRun *run, SampledPosition *here, 
 }
 
 /* Return the value of event function i, whose last sign is `branch`, or 0 if it is below its uncertainty. */
-static double resolved_value(const KinematicRun *run, SampledPosition *here, int i, int branch)
+static double resolved_value(const Course *run, SampledPosition *here, int i, int branch)
 {
     const double f = here->event[i];
     return branch * f > 0.0 || !(fabs(f) <= event_uncertainty(run, here, i)) ? f : 0.0;
@@ -126,7 +126,7 @@ static double resolved_value(const KinematicRun *run, SampledPosition *here, int
  * at the ends of this and the n - 1 later parts, the last status.
  */
 typedef struct {
-    KinematicRun *run;
+    Course *run;
     signed char *branch;
     double *t;
     int *event;
@@ -347,7 +347,7 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
     const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
     long *done)
 {
-    KinematicRun *run = integrator;
+    Course *run = integrator;
     SampledPosition end[DEEPEST + 2];
     Search of = {.run = run, .branch = branch, .t = at, .event = event, .capacity = capacity, .start = start,
         .stop = stop, .end = end};

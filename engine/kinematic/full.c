@@ -7,7 +7,7 @@
  * Compute accelerations and powers by the equations of motion. A positive status is a constraint equation, numbered
  * after the N_ROWS equations of project().
  */
-static int solve_motion(KinematicRun *run, const Position *here, double *a, RhsOutputs *rhs)
+static int solve_motion(Course *run, const Position *here, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation, USUAL_SHARES};
     const int status = dynamics(beyond_jump(here->t), here->q, here->v, &discrete, run->p, a, rhs);
@@ -18,7 +18,7 @@ static int solve_motion(KinematicRun *run, const Position *here, double *a, RhsO
  * Solve Phi(q, t) = 0 by Newton's method until the correction no longer decreases. moved: incremented by the
  * corrections; left: the last one, rad or fraction of the size. Returns a status.
  */
-static int close_linkage(const KinematicRun *run, double t, double *q, double *moved, double *last_correction)
+static int close_linkage(const Course *run, double t, double *q, double *moved, double *last_correction)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
@@ -65,7 +65,7 @@ static int solve_velocities(double t, const double *q, const Parameters *p, doub
  * Solve position and velocities at time t from a near position; complete_position() adds the accelerations. moved: the
  * correction of the first guess. Returns a status.
  */
-static int solve_position_at(const KinematicRun *run, double t, const Position *from, Position *to, double *moved)
+static int solve_position_at(const Course *run, double t, const Position *from, Position *to, double *moved)
 {
     *moved = 0.0;
     to->t = t;
@@ -77,7 +77,7 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
 }
 
 /* Complete a position for a sample: accelerations, |Phi| and |Phi_dot|. Returns a status. */
-static int complete_position(KinematicRun *run, Position *here)
+static int complete_position(Course *run, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     RhsOutputs rhs;
@@ -96,7 +96,7 @@ static int complete_position(KinematicRun *run, Position *here)
 }
 
 /* Set the position at time t to given q and v (N_Q) and complete it. Returns a status. */
-static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *here)
+static int set_position(Course *run, double t, const double *q, const double *v, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     here->t = t;

@@ -1,15 +1,19 @@
 /*
- * The audit of samples: what is reported there against equations that produced none of it; and what the audit of steps
- * (run/audit.c) takes from the equations of all bodies. It owns no state.
+ * The audit of samples: results are checked by equations that did not produce them. It also provides the equations of
+ * all bodies for the audit of steps (run/audit.c). It owns no state.
  */
 
+/*
+ * Compute the accelerations a (N_Q) by the equations of all bodies at their state `all` (q, v, works). force: largest
+ * constraint or friction force, N. Returns a status.
+ */
 int absolute_accelerations(double t, const double *all, const DiscreteState *discrete, const Parameters *p, double *a,
     double *force)
 {
     double rate[N_S];
     RhsOutputs rhs;
     DiscreteState now = *discrete;
-    now.held = 0; /* switching functions of all bodies have other numbers */
+    now.held = 0; /* switching functions of all bodies have other indices */
     now.least = NEARLY_SINGULAR;
     now.least_size = VANISHING;
     const int status = rates_at(t, all, &now, p, rate, &rhs);
@@ -23,6 +27,10 @@ int absolute_accelerations(double t, const double *all, const DiscreteState *dis
     return status;
 }
 
+/*
+ * Compute Phi_q v - nu (`missed`) and nu of all constraint equations; Phi_q v is the difference of Phi over h (s)
+ * before and after.
+ */
 void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
     double *nu)
 {
@@ -38,7 +46,7 @@ void velocity_residuals(double t, const double *q, const double *v, double h, co
         missed[r] = (phi[1][r] - phi[0][r]) / between - nu[r];
 }
 
-/* Whether a drive's rate, or second rate, jumps or is unbounded at a time: then a sample lies between two motions. */
+/* Return whether the first or second rate of a drive jumps, or is unbounded, at time t. */
 int drives_jump(double t, const double *q, const double *v, const Parameters *p)
 {
     const double near = max_of(1e-9 * fabs(t), 1e-12);
@@ -57,14 +65,16 @@ int drives_jump(double t, const double *q, const double *v, const Parameters *p)
     return 0;
 }
 
-/* W: powers below it are products of numbers that underflow, without digits. */
+/* W: smaller powers are products of underflowing numbers. */
 #define LEAST_POWER 1e-250
 
 /*
- * The audit of n samples (runtime/simulation/audit.py): into `off` (n, 4), as shares of the largest terms, what is left
- * of v M a + lambda (Phi_q v - nu) + dV/dt - sum of powers; of drive torques times rates - power of the drives; of Phi,
- * as a share of `size` (m); of Phi_q v - nu. dV/dt and Phi_q v are differences along v. A sample at a jump of a drive
- * has zeros.
+ * Audit n samples (runtime/simulation/audit.py). off (n, 4), each relative to the largest term:
+ *   0: v M a + lambda (Phi_q v - nu) + dV/dt - sum of powers;
+ *   1: drive torques times rates - power of the drives;
+ *   2: Phi, relative to `size` (m);
+ *   3: Phi_q v - nu.
+ * dV/dt and Phi_q v are differences along v. A sample at a jump of a drive has zeros.
  */
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *off)
@@ -109,7 +119,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
         double terms = LEAST_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
         terms += 4e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
-        for (int i = 0; i < N_FRICTIONS; i++) /* while it sticks the powers of all forces are rounding of its own */
+        for (int i = 0; i < N_FRICTIONS; i++) /* in stick, all powers are rounding errors of friction */
             terms += fabs(rhs.friction[i].force) * (fast[0] + fabs(rhs.friction[i].v));
         for (int k = 0; k < N_Q; k++)
             sum += v[k] * m[k] * dy[N_Q + k];
@@ -131,7 +141,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             off[2] = max_of(off[2], fabs(phi[row]) / (unit + most));
             if (speed > 0.0)
                 off[3] = max_of(off[3], fabs(missed[row]) / speed);
-            const double lost = rhs.lambda[r] * missed[row]; /* of a velocity off its constraint, as rounding is */
+            const double lost = rhs.lambda[r] * missed[row]; /* power of the velocity error, as by rounding */
             sum += lost;
             terms += fabs(lost) + 1e-2 * fabs(rhs.lambda[r]) * speed; /* missed is known to 1e-8 of speed */
         }

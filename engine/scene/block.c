@@ -1,6 +1,6 @@
 /*
- * Rows that are solved together: L U of a dense n x n block. Pivots are chosen by rows, each measured by its largest
- * entry; 1 where nothing but rounding is left of them.
+ * Factorize A (n x n, by rows) in place; order: the pivot rows. Pivots are compared relative to the largest entry of
+ * their row. Returns 1 if only rounding is left of a pivot, else 0.
  */
 int factor_block(int n, double *A, int *order)
 {
@@ -36,7 +36,7 @@ int factor_block(int n, double *A, int *order)
     return 0;
 }
 
-/* x: the right-hand sides in, the solution out. */
+/* Solve A x = b with the factors of factor_block(). x: b on entry, the solution on return. */
 void solve_block(int n, const double *A, const int *order, double *x)
 {
     double z[LARGEST_BLOCK];

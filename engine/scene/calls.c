@@ -1,6 +1,4 @@
-/*
- * The state equation y' = f(t, y) with y = (q, v, work), and everything that is computed from a state.
- */
+/* Compute the rates dy of the state y = (q, v, works) in absolute coordinates. Returns a status. */
 static int state_equation(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *dy,
     RhsOutputs *rhs)
 {
@@ -15,19 +13,21 @@ static int state_equation(double t, const double *y, const DiscreteState *discre
 #if N_RIGID
 #include "contact_forces.h"
 
+/* Compute the rates of a state with the contact forces stored in `discrete`. */
 static int state_rates(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return state_equation(t, y, discrete, p, dy, rhs);
 }
 
-/* At a sample: with the forces of its closed contacts. */
+/* Compute the rates of a state with the forces of its closed rigid contacts. Returns a status. */
 static int rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return rates_in_contact(state_rates, N_S, t, y, discrete, p, dy, rhs);
 }
 #else
+/* Compute the rates of a state. Returns a status. */
 static int rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -35,7 +35,10 @@ static int rates_at(
 }
 #endif
 
-/* The memory of a sample: impact velocities, NaN where a joint is open; then the modes of friction. */
+/*
+ * Read the discrete state of a sample (N_DISCRETE numbers): approach speeds, NaN for open joints; modes of friction;
+ * inner states of laws.
+ */
 void read_discrete_state(const double *sample, DiscreteState *discrete)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -60,25 +63,29 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
     discrete->least_size = VANISHING;
 }
 
+/* Compute the parameters p from given values; defaults where is_given is 0. */
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
 {
     prepare(given, is_given, (Parameters *)p);
 }
 
-/* The same of several runs, a row each. */
+/* Compute the parameters of several runs; each has a row of `slots` given values. */
 void gudgeon_prepare_runs(long runs, long slots, const double *given, const unsigned char *is_given, double *p)
 {
     for (long i = 0; i < runs; i++)
         prepare(given + i * slots, is_given + i * slots, (Parameters *)p + i);
 }
 
+/* Compute the diagonal of the mass matrix, m[N_Q]. */
 void gudgeon_mass(const double *p, double *m) { mass_matrix((const Parameters *)p, m); }
 
+/* Compute the constraint equations Phi, N_ALL_ROWS. */
 void gudgeon_phi(double t, const double *q, const double *p, double *phi)
 {
     constraints(t, q, (const Parameters *)p, phi);
 }
 
+/* Compute the Jacobian Phi_q, N_ALL_ROWS x N_Q, by rows. */
 void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q)
 {
     for (long k = 0; k < (long)N_ALL_ROWS * N_Q; k++)
@@ -86,21 +93,25 @@ void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q)
     jacobian(t, q, (const Parameters *)p, phi_q);
 }
 
+/* Compute nu, the right-hand side of the velocity constraints Phi_q v = nu. */
 void gudgeon_nu(double t, const double *q, const double *p, double *nu)
 {
     velocity_rhs(t, q, (const Parameters *)p, nu);
 }
 
+/* Compute gamma, the right-hand side of the acceleration constraints Phi_q a = gamma. */
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows)
 {
     acceleration_rhs(t, q, v, (const Parameters *)p, gamma_rows);
 }
 
+/* Compute guess, set coordinates and set rates of a start from the parameters. */
 void gudgeon_start_values(const double *p, double *guess, double *set, double *rates)
 {
     start_values((const Parameters *)p, guess, set, rates);
 }
 
+/* Compute the rates dy of the state y in absolute coordinates. discrete: as in a sample. Returns a status. */
 int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy)
 {
     DiscreteState now = {0};
@@ -109,7 +120,10 @@ int gudgeon_rhs(double t, const double *y, const double *discrete, const double 
     return rates_at(t, y, &now, (const Parameters *)p, dy, &rhs);
 }
 
-/* The same right-hand side many times over, for benchmarks; the sum keeps the calls alive. */
+/*
+ * Evaluate the right-hand side `count` times for benchmarks; each call depends on the one before. Returns a sum that
+ * keeps the calls.
+ */
 double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p)
 {
     double dy[N_S], moved[N_S], sum = 0.0;
@@ -125,8 +139,8 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *dis
 
 #ifdef WALLS
 /*
- * Of each guide with play the sum of its corners' forces on the slider, N, and their moment about the slider's point,
- * N m: that is in the middle between the first corner and the last, which lie opposite each other.
+ * Sum the corner forces on the slider of each guide with play, N, and their moment about the slider's point, N m. That
+ * point is in the middle between the first and the last corner, which are opposite.
  */
 static void sum_corners(const Clearance *clearance, double *reaction)
 {
@@ -148,8 +162,8 @@ static void sum_corners(const Clearance *clearance, double *reaction)
 #endif
 
 /*
- * Everything at n samples, but for arrays that are NULL; reactions, torques, series and energy belong together.
- * Returns 0 or the pivot that vanished, with the sample in `failed`.
+ * Compute all results at n samples; arrays that are NULL are left out. Reactions, torques, series and energy belong
+ * together. Returns 0 or the number of a vanishing pivot, with the sample in `failed`.
  */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
@@ -213,7 +227,10 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     return 0;
 }
 
-/* The same at samples of several runs, one behind the other: counts[i] of run i, by its row of `numbers` numbers. */
+/*
+ * Compute all results at samples of several runs, stored one after the other: counts[i] samples of run i, with its row
+ * of `numbers` parameters. Arguments and status as gudgeon_evaluate().
+ */
 int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
     const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,

@@ -1,7 +1,6 @@
 /*
- * What is called from outside, and nothing else is seen there: Python reads these declarations too. Arrays are
- * C-contiguous and of the lengths that model.h has; parameters `p` are those that gudgeon_prepare makes; all numbers
- * are SI.
+ * All functions that Python calls; no other symbol of a library is visible. Python reads these declarations too. Arrays
+ * are C-contiguous with the lengths of model.h, parameters `p` are those of gudgeon_prepare(), numbers are SI.
  */
 #ifndef GUDGEON_CALLS_H
 #define GUDGEON_CALLS_H
@@ -69,39 +68,39 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
 void gudgeon_run_report(const void *integrator, double *t, long *counts, double *numbers, double *peaks);
 
 /*
- * Arrays with a row for each run; `numbers` are the doubles of Parameters. Samples of run i begin at row
- * place[i] * samples: runs that are over may have left their place to others.
+ * A batch of runs: arrays have a row for each run; `numbers` is the number of doubles of Parameters. Samples of run i
+ * begin at row place[i] * samples; runs that have ended may leave their rows to others.
  */
 typedef struct {
-    long samples, numbers, limit;         /* rows of a place; steps after which a call returns */
-    int choice, automatic, stop;          /* of gudgeon_adaptive_setup; whether events end a run */
+    long samples, numbers, limit;         /* rows for the samples of a run; doubles of Parameters; steps per call */
+    int choice, automatic, stop;          /* arguments of gudgeon_adaptive_setup; whether events end a run */
     int audit;                            /* level: AuditLevel */
-    int fixed;                            /* whether steps are given */
+    int fixed;                            /* whether steps have a fixed length */
     double *t;
-    long apart, *wanted, *place;          /* times of run i: wanted[i] of them from t + i * apart; 0: those of all */
+    long apart, *wanted, *place;          /* sample times of run i: wanted[i] from t + i * apart; apart = 0: common */
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *least;         /* given steps; tolerances as gudgeon_adaptive_setup takes them */
+    double *step, *scale, *least;         /* fixed steps, s; tolerances as for gudgeon_adaptive_setup */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
-    double *remembered;                   /* latches, modes, inner states at the start, as in a sample */
-    signed char *codes;                   /* of the contacts that a run goes on with */
-    double *y, *latched;                  /* samples, by place */
+    double *remembered;                   /* discrete states at the start, as in a sample */
+    signed char *codes;                   /* contact codes of a resumed run */
+    double *y, *latched;                  /* samples */
     signed char *state;
-    long *done, *checked;                 /* samples stored; those that are known to be numbers */
+    long *done, *checked;                 /* samples stored; samples checked to be finite */
     int *status;
-    double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
-    long *counts;                         /* as gudgeon_run_report has them */
+    double *t_last, *last, *seconds;      /* time and state at the end; wall time of the time loop, s */
+    long *counts;                         /* as in gudgeon_run_report */
     double *residuals, *peaks;
-    double *audited, *audited_t;          /* largest value of each check of the audit, -1: none, its time and place */
+    double *audited, *audited_t;          /* largest value of each audit check, -1: none; its time and location */
     int *audited_where;
-    double *gained;                       /* of the last steps: s; how many, whether they crawl; what ended them */
+    double *gained;                       /* time gained by the last steps, s; their number, stall; causes */
     long *paced, *ended;
-    double *trace;                        /* rows of a trace for each run, trace_rows of them; NULL: none */
+    double *trace;                        /* rows of an envelope for each run, trace_rows of them; NULL: none */
     long trace_rows, *traced;             /* written rows */
-    int (*ask)(void *);                   /* called by runs with `caller` each `every` seconds: not 0: stop; or NULL */
+    int (*ask)(void *);                   /* polled with `caller` every `every` seconds; nonzero: cancel; or NULL */
     void *caller;
     double every;
-    const volatile int *ending;           /* not 0: all runs end where they are */
+    const volatile int *ending;           /* nonzero: all runs end at once */
 } Batch;
 
 int gudgeon_ensemble(const void *batch, void *integrator, long *current, long end);

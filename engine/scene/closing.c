@@ -1,15 +1,15 @@
 /*
- * Closing a linkage by Newton's steps, each the smallest that closes the linearized rows, as the runtime does it
- * (closure.py). Where rows depend on each other, or no step helps, 1 is returned.
+ * Closing a linkage by Newton's method; each step is the smallest that closes the linearized constraint equations, as
+ * in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
  */
 #include "shortest_step.c"
 
-#define HELD_FROM 1e-6 /* below this norm a factor serves the next steps too, as long as they leave a tenth open */
-#define NO_MORE 1e-14  /* of the norm, times how far from the origin the linkage is: rounding, mostly */
+#define HELD_FROM 1e-6 /* below this norm a factorization is reused while steps reduce the norm tenfold */
+#define NO_MORE 1e-14  /* of the norm, times the distance of the linkage from the origin: rounding */
 
 enum { MAX_CLOSING = 60 };
 
-/* -Phi, and what is still open of the start's set, over their sizes; the norm of both. */
+/* Compute the residuals w->rest: -Phi and the differences from the set coordinates, scaled. Returns their norm. */
 static double open_rows(Closing *w, double t, const double *q, const Parameters *p)
 {
     double sum = 0.0;
@@ -27,7 +27,10 @@ static double open_rows(Closing *w, double t, const double *q, const Parameters 
     return sqrt(sum);
 }
 
-/* Phi_q, and the rows of set, over their sizes and weights; rows of `rest` with them, whose norm is returned. */
+/*
+ * Compute the linearized equations w->row (Phi_q and the set coordinates), scaled by sizes and weights, and the
+ * residuals. Returns the norm of the residuals.
+ */
 SELDOM static double linearized_rows(Closing *w, double t, const double *q, const Parameters *p)
 {
     jacobian(t, q, p, &w->row[0][0]);
@@ -39,7 +42,10 @@ SELDOM static double linearized_rows(Closing *w, double t, const double *q, cons
     return open_rows(w, t, q, p);
 }
 
-/* Angles that rows alone determine (drives, sliders). */
+/*
+ * Solve for the angles that equations without lengths determine (drives, sliders). Returns 1 if these depend on each
+ * other.
+ */
 SELDOM static int place_angles(Closing *w, double t, const Parameters *p, double *q)
 {
     int place[N_Q];
@@ -62,7 +68,7 @@ SELDOM static int place_angles(Closing *w, double t, const Parameters *p, double
     return 0;
 }
 
-/* From the guess, by the weights of coordinates, squared. */
+/* Return the squared weighted distance of q from the guess. */
 static double distance(const Closing *w, const double *q)
 {
     double sum = 0.0;
@@ -71,14 +77,14 @@ static double distance(const Closing *w, const double *q)
     return sum;
 }
 
-/* Whether so much of the rows is none but rounding. */
+/* Return whether a norm of residuals is rounding only. */
 static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + NO_MORE * w->reach / w->size; }
 
 /*
- * Whether what Newton's steps lead to is no nearer to the guess than what is known: the last one left a small share of
- * the rows open, and those that follow are smaller by as much.
+ * Return whether Newton's steps lead to a configuration that is not nearer to the guess than the nearest known one.
+ * fraction_left: the fraction of the residuals that the last step left; the following steps are smaller by as much.
  */
-static int is_no_nearer(const Closing *w, const double *q, double share_left)
+static int is_no_nearer(const Closing *w, const double *q, double fraction_left)
 {
     double step = 0.0, away = 0.0;
     for (int k = 0; k < N_Q; k++) {
@@ -87,18 +93,18 @@ static int is_no_nearer(const Closing *w, const double *q, double share_left)
         step += w->step[k] * w->step[k];
         away += weighed * weighed;
     }
-    return share_left < 0.1 && sqrt(away) - 4.0 * share_left * sqrt(step) > sqrt(w->nearest);
+    return fraction_left < 0.1 && sqrt(away) - 4.0 * fraction_left * sqrt(step) > sqrt(w->nearest);
 }
 
 /*
- * Newton with line search, positions put in first; ends where no step helps any more, or leads to nothing nearer. Rows
- * that are closed to rounding leave q as it is, to the bit.
+ * Solve the constraint equations by Newton's method with line search; the first step is for positions only. Equations
+ * closed to rounding leave q unchanged to the bit. Returns 1 if they are not closed or lead to nothing nearer.
  */
 SELDOM static int close_rows(Closing *w, double t, const Parameters *p, double *q)
 {
     const double rounding = NO_MORE * w->reach / w->size;
     double other[N_Q];
-    int held = 0; /* factor and rows are those of a place before */
+    int held = 0; /* factorization and equations are those of an earlier q */
     if (!w->all.n)
         rows_together(w, &w->all, N_ALL_ROWS + N_SET, set_place);
     double norm = linearized_rows(w, t, q, p);

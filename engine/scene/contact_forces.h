@@ -1,13 +1,13 @@
 /*
- * Forces between surfaces that do not give (Newton's restitution): in a closed contact whatever keeps e = c. All
- * accelerations are affine in these forces, so the right-hand side without them, and with each of them alone, tells
- * delta'' = r - D F and the rates a + way F: with the joints, drives and sticks that there are.
+ * Forces of closed rigid contacts (Newton's restitution), which keep e = c. Accelerations are affine in these forces F.
+ * The right-hand side without them and with each alone gives delta'' = r - D F, with the Delassus operator D, and the
+ * rates a + way F.
  */
 #ifndef GUDGEON_CONTACT_FORCES_H
 #define GUDGEON_CONTACT_FORCES_H
 
-enum { MOST_RATES = N_S > N_Y ? N_S : N_Y };
-#define DEPENDENT 1e-10 /* of D's diagonal: less is left of a contact that others hold already */
+enum { MAX_RATES = N_S > N_Y ? N_S : N_Y };
+#define DEPENDENT 1e-10 /* of D's diagonal: a smaller pivot belongs to a contact that depends on others */
 
 #if N_RUBBED
 enum { RUBS = 1 };
@@ -15,18 +15,19 @@ enum { RUBS = 1 };
 enum { RUBS = 0 };
 #endif
 
+/* Compute the rates of a state (state_rates() or motion()); returns a status. */
 typedef int RatesOf(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 
-/* How contacts answer to a unit force in each of them. */
+/* The Delassus operator of n closed contacts, and the rates that unit contact forces cause. */
 typedef struct {
     int n, joint[N_RIGID];
     double r[N_RIGID];                /* delta'' without forces, m/s^2 */
-    double D[N_RIGID][N_RIGID];       /* what a force in column j takes from that of row i, 1/kg */
-    double way[N_RIGID][MOST_RATES];  /* rates that it adds, each unit a newton */
+    double D[N_RIGID][N_RIGID];       /* -d(delta_i'')/dF_j, 1/kg */
+    double way[N_RIGID][MAX_RATES];  /* change of all rates by a unit force, each unit a newton */
 } Delassus;
 
-/* delta'' from e . e'' + e' . e' = e e'' + e'^2; of a corner at a wall it is known. */
+/* Return delta'' of a joint, m/s^2, from e . e'' + e' . e' = e e'' + e'^2; of a corner at a wall it is known. */
 static double outward_rate(const Clearance *joint)
 {
 #ifdef WALLS
@@ -36,6 +37,7 @@ static double outward_rate(const Clearance *joint)
     return (joint->half_square_rate - joint->deltadot * joint->deltadot) / joint->e;
 }
 
+/* List the closed rigid contacts in `joint`. Returns their number. */
 static int list_closed(const DiscreteState *discrete, int *joint)
 {
     int n = 0;
@@ -45,7 +47,7 @@ static int list_closed(const DiscreteState *discrete, int *joint)
     return n;
 }
 
-/* A force that bodies of these masses notice beside such accelerations, N: what is added is not lost in rounding. */
+/* Return a force, N, whose effect on the accelerations of these bodies is not lost in rounding. */
 static double unit_force(const Delassus *contacts, const Parameters *p)
 {
     double m[N_Q], mass = 0.0, most = 1.0;
@@ -57,11 +59,14 @@ static double unit_force(const Delassus *contacts, const Parameters *p)
     return mass * most;
 }
 
-/* Fills the answer of the listed contacts, which `discrete` has closed; their forces are 0 then. */
+/*
+ * Compute r, D and `way` of the listed contacts, which `discrete` has closed, by n + 1 right-hand sides. Their forces
+ * in `discrete` are 0 afterwards. Returns a status.
+ */
 static int compute_delassus(RatesOf *rates_of, int size, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, Delassus *contacts)
 {
-    double base[MOST_RATES], pushed[MOST_RATES];
+    double base[MAX_RATES], pushed[MAX_RATES];
     RhsOutputs rhs;
     for (int k = 0; k < contacts->n; k++)
         discrete->contact[contacts->joint[k]].force = 0.0;
@@ -83,9 +88,9 @@ static int compute_delassus(RatesOf *rates_of, int size, double t, const double 
 }
 
 /*
- * D x = r in the contacts that take part (NULL: all), x = 0 in the others and in those that depend on what was solved
- * before (Gauss's elimination, the largest diagonal first). Returns whether a pivot is negative beside rounding:
- * with friction only, for without it D is symmetric.
+ * Solve D x = r in the contacts with part[i] (NULL: all) by Gaussian elimination with diagonal pivoting. x = 0 in the
+ * others and in dependent contacts. Returns whether a pivot is negative beyond rounding; that needs friction, because D
+ * is symmetric without it.
  */
 static int solve_part(const Delassus *contacts, const unsigned char *part, const double *r, double *x)
 {
@@ -128,9 +133,9 @@ static int solve_part(const Delassus *contacts, const unsigned char *part, const
 }
 
 /*
- * x of the complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0: contacts are turned round one by one, the
- * least number first, until none pulls and none is violated (K. G. Murty, Linear Algebra Appl. 9 (1974) 65-108).
- * Contacts that wedge together (FRICTION_INCONSISTENT, if nothing else is found) are none that push together.
+ * Solve the linear complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0 by Murty's least-index pivoting (K. G.
+ * Murty, Linear Algebra Appl. 9 (1974) 65-108). Sets of contacts that jam by friction are excluded. Returns 0,
+ * FRICTION_INCONSISTENT if all other sets fail, or CHATTERING.
  */
 static inline int complementary(const Delassus *contacts, const double *r, double *x)
 {
@@ -159,8 +164,8 @@ static inline int complementary(const Delassus *contacts, const double *r, doubl
 
 #if N_RUBBED
 /*
- * A closed contact in which a normal force, by the friction that goes with it, brings the surfaces nearer (P. Painleve,
- * 1895); `needed`: only where it is needed. Without friction no diagonal is negative.
+ * Return whether a normal force in some closed contact, with its friction, brings the surfaces nearer (P. Painleve,
+ * 1895). needed: consider only contacts that need a force.
  */
 static int is_frictionally_inconsistent(const Delassus *contacts, int needed, const Parameters *p)
 {
@@ -174,13 +179,17 @@ static int is_frictionally_inconsistent(const Delassus *contacts, int needed, co
     return 0;
 }
 #else
+/* Return 0: without friction no diagonal entry of D is negative. */
 static inline int is_frictionally_inconsistent(const Delassus *contacts, int needed, const Parameters *p)
 {
     return (void)contacts, (void)needed, (void)p, 0;
 }
 #endif
 
-/* The right-hand side with the forces that closed contacts need; they are left in `discrete`. */
+/*
+ * Compute the rates of a state with the forces of its closed contacts, which are stored in `discrete`. Returns a
+ * status.
+ */
 static int rates_in_contact(RatesOf *rates_of, int size, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -194,7 +203,7 @@ static int rates_in_contact(RatesOf *rates_of, int size, double t, const double 
         if (is_frictionally_inconsistent(&contacts, 0, p))
             return FRICTION_INCONSISTENT;
         if (solve_part(&contacts, NULL, contacts.r, force) && RUBS)
-            return FRICTION_INCONSISTENT; /* each of them alone is not, together they wedge */
+            return FRICTION_INCONSISTENT; /* together they are inconsistent */
         for (int k = 0; k < contacts.n; k++)
             discrete->contact[contacts.joint[k]].force = force[k];
     }

@@ -1,12 +1,15 @@
 /*
- * A contour: how much deeper than its circle a bearing is, from depths at equal angles over the circumference, the
- * first at 0. Between neighbours lies the polynomial of degree five that has at both their depths, slopes and second
- * derivatives, these as central differences: periodic, with a continuous second derivative, and its mean is theirs.
+ * The contour of a non-circular bearing: depths beyond its circle, m, given at equal angles, the first at 0. Between
+ * neighbours it is the polynomial of degree five with their depths, slopes and second derivatives, which are central
+ * differences. It is periodic with a continuous second derivative, and keeps the mean.
  */
 #ifndef GUDGEON_CONTOUR_H
 #define GUDGEON_CONTOUR_H
 
-/* A derivative by the angle (rad): order 0, 1 or 2. */
+/*
+ * Return the depth of a contour at an angle (rad), or its first or second derivative by the angle (order 0, 1, 2). NAN
+ * if the angle is not finite.
+ */
 static inline double contour(const double *depth, int count, int order, double angle)
 {
     const double turns = angle / (2.0 * PI), x = count * (turns - floor(turns)), per_angle = count / (2.0 * PI);

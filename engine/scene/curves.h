@@ -1,19 +1,20 @@
 /*
- * Curves through points: cubic splines, whose tables the scene's curves.c holds. Outside its range a curve is no
- * number; so far beyond as arguments may be by rounding, its last piece goes on.
+ * Curves through points: cubic splines, whose tables are in the scene's curves.c, with their derivatives, bounds and
+ * switching points. Outside its range a curve is NaN; within rounding of the range the last piece continues.
  */
 #ifndef GUDGEON_CURVES_H
 #define GUDGEON_CURVES_H
 
+/* A curve of `pieces` cubic polynomials; repeats: whether it is periodic. */
 typedef struct {
     int pieces, repeats;
     const double *x;      /* where they begin, and where the last one ends */
-    const double (*c)[4]; /* of each: y = c0 + h (c1 + h (c2 + h c3)), h from where it begins */
+    const double (*c)[4]; /* of each: y = c0 + h (c1 + h (c2 + h c3)), h from its beginning */
 } Curve;
 
 static const double CURVE_MARGIN = 1e-9; /* of the range */
 
-/* The piece in which x lies, or the outermost one. */
+/* Return the index of the piece that contains x, or of the outermost one. */
 static inline int curve_piece(const Curve *f, double x)
 {
     int low = 0, high = f->pieces;
@@ -27,7 +28,7 @@ static inline int curve_piece(const Curve *f, double x)
     return low;
 }
 
-/* A derivative within a piece. */
+/* Return the derivative of order 0 ... 3 of a piece at h from its beginning. */
 static inline double curve_in_piece(const double *c, int order, double h)
 {
     switch (order) {
@@ -42,19 +43,19 @@ static inline double curve_in_piece(const double *c, int order, double h)
     }
 }
 
-/* Where x is in the range of one that repeats. */
+/* Return x reduced to the range of a periodic curve. */
 static inline double curve_turned(const Curve *f, double x)
 {
     const double first = f->x[0], length = f->x[f->pieces] - first;
     return f->repeats ? x - length * floor((x - first) / length) : x;
 }
 
-/* The side of a piece: neighbours have different ones. */
+/* Return the branch of a piece: alternating 1 and -1. */
 static inline double curve_branch(int piece) { return piece % 2 ? -1.0 : 1.0; }
 
 /*
- * A curve (order 0) or its first, second or third derivative. Where a side is held and x lies in a piece of the other
- * one, beyond a knot, the polynomial from before the knot goes on.
+ * Return a curve (order 0) or its derivative of order 1 to 3 at x. On a frozen branch, a piece of the other branch is
+ * replaced by the polynomial of its nearer neighbour.
  */
 static inline double curve_at(const Curve *f, int order, double x, double branch)
 {
@@ -74,7 +75,10 @@ static inline double curve_at(const Curve *f, int order, double x, double branch
     return curve_in_piece(f->c[k], order, x - from);
 }
 
-/* Zero at the knots between pieces, of the side of each piece in it, with slopes of one over its length. */
+/*
+ * Return a function whose zeros are the knots between pieces; its sign is the branch of the piece, its slope there is 1
+ * over the length.
+ */
 static inline double knots_at(const Curve *f, double x)
 {
     x = curve_turned(f, x);
@@ -88,6 +92,7 @@ static inline double knots_at(const Curve *f, double x)
 #define knots(which, x) knots_at(&curves[which], x)
 
 #ifdef GUDGEON_LANES_H
+/* Return curve_at() of each lane. */
 static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x, Lanes branch)
 {
     Lanes y = {0.0};
@@ -96,6 +101,7 @@ static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x, Lanes bra
     return y;
 }
 
+/* Return knots_at() of each lane. */
 static inline Lanes lanes_knots_at(const Curve *f, Lanes x)
 {
     Lanes y = {0.0};
@@ -110,7 +116,7 @@ static inline Lanes lanes_knots_at(const Curve *f, Lanes x)
 #endif
 
 #ifdef GUDGEON_RANGES_H
-/* Takes in what a derivative is at h. */
+/* Extend the bounds least, most by a derivative of a piece at h. */
 static inline void curve_take(const double *c, int order, double h, double *least, double *most)
 {
     const double y = curve_in_piece(c, order, h);
@@ -118,7 +124,10 @@ static inline void curve_take(const double *c, int order, double h, double *leas
     *most = max_of(*most, y);
 }
 
-/* What a piece is from one place to another, both measured from where it begins: also where its slope vanishes. */
+/*
+ * Extend the bounds by a derivative of a piece between two locations, measured from its beginning, and its extrema
+ * between.
+ */
 static inline void curve_bounds_in(const double *c, int order, double from, double to, double *least, double *most)
 {
     double turns[2] = {from, from};
@@ -136,7 +145,10 @@ static inline void curve_bounds_in(const double *c, int order, double from, doub
             curve_take(c, order, turns[i], least, most);
 }
 
-/* From lo to hi within the range; of a held side its pieces alone, each to half of its neighbours. */
+/*
+ * Extend the bounds by a curve from lo to hi within its range. On a frozen branch only its pieces count, each up to
+ * half of its neighbours.
+ */
 static inline void curve_bounds(
     const Curve *f, int order, double branch, double lo, double hi, double *least, double *most)
 {
@@ -158,7 +170,7 @@ static inline void curve_bounds(
     }
 }
 
-/* The same of a range that may go round; more than a turn is all of it. */
+/* Compute the bounds of a curve from lo to hi, which may exceed a period. */
 static inline void curve_span(
     const Curve *f, int order, double branch, double lo, double hi, double *least, double *most)
 {
@@ -177,7 +189,7 @@ static inline void curve_span(
     }
 }
 
-/* What is left of a range within that of a curve; empty: nothing. */
+/* Return the part of x within the range of a curve; empty if there is none. */
 static inline Range curve_range(const Curve *f, Range x)
 {
     const double first = f->x[0], last = f->x[f->pieces], allowance = CURVE_MARGIN * (last - first);
@@ -191,6 +203,7 @@ static inline Range curve_range(const Curve *f, Range x)
     return x;
 }
 
+/* Return bounds of curve_at() and of its slope. */
 static inline Range range_curve_at(const Curve *f, int order, Range x, Range branch)
 {
     const double held = branch.lo == branch.hi ? branch.lo : 0.0;
@@ -206,7 +219,7 @@ static inline Range range_curve_at(const Curve *f, int order, Range x, Range bra
     return lo <= hi ? apply_chain_rule(x, lo, hi, least, most) : range_curve_at(f, order, x, only(0.0));
 }
 
-/* Of knots_at: a parabola in each piece, whose slopes are at most one over its length. */
+/* Return bounds of knots_at(), a parabola in each piece. */
 static inline Range range_knots_at(const Curve *f, Range x)
 {
     const double first = f->x[0], last = f->x[f->pieces];

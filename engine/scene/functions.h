@@ -1,12 +1,12 @@
 /*
- * sin, cos, asin, exp, log and pow of our own: a C library rounds them as it likes, and what is compiled by gcc, by
- * clang or for a page is to give the same bits. No fused multiply-add is in them, nor may a compiler put one there.
- * exp, log and pow are within 0.56 units in the last place, the others within 0.8 (fdlibm's polynomials, Sun
- * Microsystems, 1993; angles as in trigonometry.h); what is beyond their ranges goes to the library.
+ * Own implementations of sin, cos, asin, exp, log and pow. C libraries round them differently, but results must be the
+ * same bits from gcc, clang and for web pages. No fused multiply-add is used or allowed. exp, log and pow are within
+ * 0.56 units in the last place, the others within 0.8 (fdlibm's polynomials, Sun Microsystems, 1993; angles as in
+ * trigonometry.h). Arguments outside their ranges go to the library.
  *
- * exp, log, pow: x = 2^k z with z from 0.6895 on, z c = 1 + r for a short c of a table, log x = k log 2 - log c +
- * log(1 + r) in two parts; exp x = 2^(k + j/128) e^r (P. T. P. Tang, ACM Trans. Math. Softw. 15 (1989) 144-157 and 16
- * (1990) 378-400; how r is split without fused operations: S. Nagy, ARM Optimized Routines, 2018).
+ * exp, log, pow: x = 2^k z with z from 0.6895 on, z c = 1 + r for a short c of a table, log x = k log 2 - log c + log(1
+ * + r) in two parts; exp x = 2^(k + j/128) e^r (P. T. P. Tang, ACM Trans. Math. Softw. 15 (1989) 144-157 and 16 (1990)
+ * 378-400; splitting of r without fused operations: S. Nagy, ARM Optimized Routines, 2018).
  */
 #ifndef GUDGEON_FUNCTIONS_H
 #define GUDGEON_FUNCTIONS_H
@@ -14,8 +14,9 @@
 #include <string.h>
 #include "powers.h"
 
-static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions, which take all care */
+static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions */
 
+/* Return the bits of a number. */
 static inline uint64_t bits_of(double x)
 {
     uint64_t bits;
@@ -23,6 +24,7 @@ static inline uint64_t bits_of(double x)
     return bits;
 }
 
+/* Return the number of given bits. */
 static inline double of_bits(uint64_t bits)
 {
     double x;
@@ -42,6 +44,7 @@ static inline double of_bits(uint64_t bits)
 #undef PARTS_POWER
 #undef PARTS_ENTRY
 
+/* Return sin x. */
 static inline double sine_of(double x)
 {
     if (!(fabs(x) < TURN_LIMIT))
@@ -52,6 +55,7 @@ static inline double sine_of(double x)
     return k & 2 ? -found : found;
 }
 
+/* Return cos x. */
 static inline double cosine_of(double x)
 {
     if (!(fabs(x) < TURN_LIMIT))
@@ -62,19 +66,23 @@ static inline double cosine_of(double x)
     return (k + 1) & 2 ? -found : found;
 }
 
+/* Return whether x is positive, finite and not subnormal. */
 static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
 
-/* Powers 3/2 and 1/2, those of Hertz's force and of its slope, take a root alone. */
+/* Return whether x^y is computed by a square root: powers 3/2 and 1/2, as in Hertz's force and its slope. */
 static inline int is_of_root(double x, double y) { return x > 1e-150 && x < 1e150 && (y == 1.5 || y == 0.5); }
 
+/* Return exp x. */
 static inline double exp_of(double x) { return fabs(x) < 700.0 ? exp_of_parts(x, 0.0) : exp(x); }
 
+/* Return ln x. */
 static inline double log_of(double x)
 {
     double rest;
     return is_normal(x) ? log_in_parts(x, &rest) : log(x);
 }
 
+/* Return x^y. */
 static inline double power_of(double x, double y)
 {
     if (is_of_root(x, y))
@@ -89,7 +97,7 @@ static inline double power_of(double x, double y)
     return pow(x, y);
 }
 
-/* (asin(x) - x) / x of x^2 up to a quarter. */
+/* Return (asin(x) - x) / x from z = x^2 up to 1/4. */
 static inline double asin_share(double z)
 {
     const double p = z * (1.66666666666666657415e-01 + z * (-3.25565818622400915405e-01
@@ -99,10 +107,11 @@ static inline double asin_share(double z)
         + z * (-6.88283971605453293030e-01 + z * 7.70381505559019352791e-02))));
 }
 
+/* Return arcsin x. */
 static inline double asine_of(double x)
 {
     const double right = 1.57079632679489655800e+00, right_low = 6.12323399573676603587e-17, a = fabs(x);
-    const double shift = 50331648.0; /* what is added and taken away again is rounded to a multiple of 2^-27 */
+    const double shift = 50331648.0; /* adding and subtracting it rounds to a multiple of 2^-27 */
     if (!(a < 1.0))
         return asin(x);
     if (a < 0.5)

@@ -1,6 +1,8 @@
+/* Exact Jacobian of the state equation, from the linearized equations of motion. */
+
 /*
- * x = -column of the residuals R by what is integrated (columns 0 ... N_Y - 1) or by t (N_Y); 0 if all are zero, as by
- * the works, on which nothing depends.
+ * Compute x = -column of the derivative of the residuals by the integrated state (columns 0 ... N_Y - 1) or by t (N_Y).
+ * Returns 0 if all entries are zero, as for the works.
  */
 static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
 {
@@ -30,8 +32,8 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
 }
 
 /*
- * The column of the Jacobian that follows from x, the change of accelerations, multipliers and rates of inner states;
- * `out` has a stride.
+ * Compute a column of the Jacobian from x, the change of accelerations, multipliers and rates of inner states. stride:
+ * distance of entries in `out`.
  */
 static void jacobian_column(const Linear *lin, int column, const double *x, double *out, long stride)
 {
@@ -58,7 +60,10 @@ static void jacobian_column(const Linear *lin, int column, const double *x, doub
     }
 }
 
-/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
+/*
+ * Linearize a state and factorize Newton's matrix. Returns 0, the number of a pivot of dynamics(), or -1 - the node of
+ * newton_factor().
+ */
 static int linearized(double t, const double *y, const double *discrete, const Parameters *p, double eta, Linear *lin)
 {
     DiscreteState now = {0};
@@ -66,7 +71,7 @@ static int linearized(double t, const double *y, const double *discrete, const P
     double dy[N_Y];
     read_discrete_state(discrete, &now);
 #if N_CHAIN
-    seat_chains(t, y + FIRST_STATE, &now, p); /* what lies behind the works is where to look for them */
+    seat_chains(t, y + FIRST_STATE, &now, p); /* the guess follows the works */
 #endif
     int status = motion(t, y, &now, p, dy, &rhs);
     if (!status)
@@ -75,8 +80,9 @@ static int linearized(double t, const double *y, const double *discrete, const P
 }
 
 /*
- * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
- * KKT matrix. Contacts, corners and modes of friction stay as they are. Inner states are read from `discrete` alone.
+ * Compute J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve per column, with the factors
+ * of the KKT matrix. Contacts, branches and modes of friction are frozen. Inner states are read from `discrete` only.
+ * Returns a status.
  */
 int gudgeon_jacobian(double t, const double *y, const double *discrete, const double *p, double *J, double *f_t)
 {
@@ -94,7 +100,7 @@ int gudgeon_jacobian(double t, const double *y, const double *discrete, const do
     return 0;
 }
 
-/* (1/eta - J) u = r + s f_t at a state. */
+/* Solve (1/eta - J) u = r + s f_t at a state. Returns a status. */
 int gudgeon_newton(double t, const double *y, const double *discrete, const double *p, double eta, double s,
     const double *r, double *u)
 {

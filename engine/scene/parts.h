@@ -1,5 +1,8 @@
-/* Text of functions: sine, logarithm, exponential in parts (functions.h), of a number or of several side by side. */
-/* x = k pi/2 + r + rest: as sines.h does it, with what r is rounded by; the last bits of k. */
+/*
+ * Text of sine, logarithm, exponential and powers in parts (functions.h), compiled for one number or for a vector of
+ * several.
+ */
+/* Reduce x = k pi/2 + r + rest, where `rest` is the rounding error of r. Returns the last two bits of k. */
 static inline PARTS_BITS PARTS_NAMED(quarters)(PARTS_OF x, PARTS_OF *r, PARTS_OF *rest)
 {
     const double shift = 6755399441055744.0;
@@ -11,6 +14,7 @@ static inline PARTS_BITS PARTS_NAMED(quarters)(PARTS_OF x, PARTS_OF *r, PARTS_OF
     return PARTS_NAMED(bits_of)(shifted) & 3;
 }
 
+/* Return sin(r + rest) for |r| <= pi/4 (fdlibm's polynomial). */
 static inline PARTS_OF PARTS_NAMED(sine_near)(PARTS_OF r, PARTS_OF rest)
 {
     const PARTS_OF z = r * r, cube = z * r;
@@ -19,6 +23,7 @@ static inline PARTS_OF PARTS_NAMED(sine_near)(PARTS_OF r, PARTS_OF rest)
     return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
 }
 
+/* Return cos(r + rest) for |r| <= pi/4 (fdlibm's polynomial). */
 static inline PARTS_OF PARTS_NAMED(cosine_near)(PARTS_OF r, PARTS_OF rest)
 {
     const PARTS_OF z = r * r, half = 0.5 * z, less = 1.0 - half;
@@ -28,13 +33,13 @@ static inline PARTS_OF PARTS_NAMED(cosine_near)(PARTS_OF r, PARTS_OF rest)
     return less + (1.0 - less - half + (z * high - r * rest));
 }
 
-/* x rounded to 26 bits: products of two such numbers are exact, and what is left of 1 - e is as small as e. */
+/* Return x rounded to 26 bits: products of two such numbers are exact. */
 static inline PARTS_OF PARTS_NAMED(upper_half)(PARTS_OF x)
 {
     return PARTS_NAMED(of_bits)((PARTS_NAMED(bits_of)(x) + 0x4000000u) & 0xfffffffff8000000u);
 }
 
-/* x^(3/2), s being the root of x: with what that and the product are rounded by. */
+/* Return x^(3/2) from x and its square root s, with a correction of the rounding errors of root and product. */
 static inline PARTS_OF PARTS_NAMED(three_halves)(PARTS_OF x, PARTS_OF s)
 {
     const PARTS_OF x_high = PARTS_NAMED(upper_half)(x), x_low = x - x_high, product = x * s;
@@ -43,7 +48,7 @@ static inline PARTS_OF PARTS_NAMED(three_halves)(PARTS_OF x, PARTS_OF s)
     return product + (x_high * s_high - product + x_high * s_low + x_low * s_high + x_low * s_low + 0.5 * s * left);
 }
 
-/* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
+/* Return ln x of a normal positive x; rest: its rounding error. */
 static inline PARTS_OF PARTS_NAMED(log_in_parts)(PARTS_OF x, PARTS_OF *rest)
 {
     const PARTS_BITS own = PARTS_NAMED(bits_of)(x), bits = own - 0x3fe6100000000000u;
@@ -65,7 +70,7 @@ static inline PARTS_OF PARTS_NAMED(log_in_parts)(PARTS_OF x, PARTS_OF *rest)
     return high + low;
 }
 
-/* e^(x + rest) for |x| < 700 and a small rest. */
+/* Return exp(x + rest) for |x| < 700 and a small rest. */
 static inline PARTS_OF PARTS_NAMED(exp_of_parts)(PARTS_OF x, PARTS_OF rest)
 {
     const double shift = 6755399441055744.0;
@@ -78,7 +83,7 @@ static inline PARTS_OF PARTS_NAMED(exp_of_parts)(PARTS_OF x, PARTS_OF rest)
     return power + power * less;
 }
 
-/* log2 x of a positive number and 2^x to 1e-4, for what decides how long a step is. */
+/* Return log2 x of a positive number to 1e-4, for step-size control. */
 static inline PARTS_OF PARTS_NAMED(rough_log2)(PARTS_OF x)
 {
     const PARTS_BITS own = PARTS_NAMED(bits_of)(x), bits = own - 0x3fe6a09e00000000u; /* z from 1/sqrt 2 to sqrt 2 */
@@ -86,6 +91,7 @@ static inline PARTS_OF PARTS_NAMED(rough_log2)(PARTS_OF x)
     return PARTS_POWER(bits) + s * (2.8853900817779268 + s * s * 0.9617966939259756);
 }
 
+/* Return 2^x to 1e-4, for step-size control. */
 static inline PARTS_OF PARTS_NAMED(rough_exp2)(PARTS_OF x)
 {
     const double shift = 6755399441055744.0;

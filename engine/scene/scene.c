@@ -1,6 +1,7 @@
 /*
- * What is compiled together with the functions that were derived for a scene: scene.c includes it behind them, whole or
- * in parts (PART) that are compiled side by side: 1 the functions in all coordinates, 2 those in few, 3 the methods'.
+ * List of the engine files that are compiled with the functions derived for a scene. A scene's scene.c includes it
+ * last, as a whole or in parts (PART): 1 functions in absolute coordinates, 2 in tree coordinates, 3 those of the
+ * methods.
  */
 #include "calls.h"
 #if !PART || PART == 1

@@ -1,11 +1,11 @@
 /*
- * Steps that close linearized rows: the shortest one, by the normal matrix of rows that meet a few coordinates
- * each, and the one that leaves the least. Where anything is not 0 is known from the entries of Phi_q.
+ * Steps that close linearized constraint equations: the smallest such step, by the normal matrix of the equations, and
+ * the least-squares step. The sparsity follows from the pattern of Phi_q.
  */
 #include "../run/cancellation.h"
 #include "calls.h"
 
-#ifndef N_APART /* few starts say where journals are: Phi of these joints is -e, behind set, its rate behind rates */
+#ifndef N_APART /* starts that set eccentricities e: Phi = -e is stored after `set`, its rate after `rates` */
 #define N_APART 0
 static const int apart_row[] = {0};
 #endif
@@ -15,16 +15,16 @@ enum {
     N_NORMAL = N_START_ROWS > N_Q ? N_START_ROWS : N_Q
 };
 
-/* Rows that are solved together, those of the normal matrix: which of them meet a coordinate, where its factor is not
- * 0. Of the first step coordinates take their place. */
+/* The pattern of a normal matrix: its equations, those with an entry for each coordinate, the nonzeros of its factor.
+ * For the least-squares step coordinates take the place of equations. */
 typedef struct {
     int n;
     short row[N_NORMAL + 1], meets[N_Q][N_START_ROWS + 1], n_meets[N_Q];
     short filled[N_NORMAL + 1][N_NORMAL + 1], n_filled[N_NORMAL + 1];
 } System;
 
-/* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix, its upper
- * half, and the reciprocals of its factor's diagonal. */
+/* Workspace of a start: linearized equations with residuals (columns divided by weights), a normal matrix (upper half)
+ * and the reciprocal diagonal of its factor, guess and set values, patterns. */
 typedef struct {
     double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
     double first[N_Q], beyond[N_Q], other[N_Q];
@@ -33,12 +33,15 @@ typedef struct {
     double normal[N_NORMAL + 1][N_NORMAL + 1], over_pivot[N_NORMAL + 1], right[N_NORMAL + 1];
     unsigned char has[N_NORMAL + 1][N_NORMAL + 1];
     System first_step, all, some;
-    double nearest; /* what is as far as this from the guess, squared, is not looked for */
-    int dependent;  /* rows that depend on others are left out: they close with them, or the rest says so */
+    double nearest; /* squared distance from the guess that a configuration must improve on */
+    int dependent;  /* whether dependent equations are left out: the residuals show if they do not close */
     Cancellation *cancellation;
 } Closing;
 
-/* Where row r has something: a row of joints and drives meets a few coordinates of many, one of `set` its own. */
+/*
+ * List the coordinates with an entry in equation r: a few for joints and drives; the set coordinate own[] for the
+ * equations after these. Returns their number.
+ */
 static int places_of(int r, const int *own, int *place)
 {
     int n = 0;
@@ -50,7 +53,7 @@ static int places_of(int r, const int *own, int *place)
     return n;
 }
 
-/* Where the factor of a normal matrix is not 0, from where the matrix is not: `has`, above its diagonal. */
+/* Compute the nonzeros of the factor of a normal matrix from its pattern w->has (upper half). */
 SELDOM static void fill(Closing *w, System *of)
 {
     for (int k = 0; k < of->n; k++) {
@@ -66,6 +69,7 @@ SELDOM static void fill(Closing *w, System *of)
     }
 }
 
+/* Clear the pattern of an n x n matrix (upper half). */
 static void clear_pattern(Closing *w, int n)
 {
     for (int i = 0; i < n; i++)
@@ -73,7 +77,7 @@ static void clear_pattern(Closing *w, int n)
             w->has[i][j] = 0;
 }
 
-/* Which rows meet where: only those with a coordinate in common have a product. `own`: of the rows behind all. */
+/* Compute the pattern of the normal matrix row row^T: equations with a common coordinate. own: set coordinates. */
 SELDOM static void find_meetings(Closing *w, System *of, const int *own)
 {
     int place[N_Q];
@@ -92,7 +96,7 @@ SELDOM static void find_meetings(Closing *w, System *of, const int *own)
     fill(w, of);
 }
 
-/* Rows 0 ... n - 1. */
+/* Set a system to equations 0 ... n - 1 and compute its pattern. */
 static void rows_together(Closing *w, System *of, int n, const int *own)
 {
     of->n = n;
@@ -101,7 +105,7 @@ static void rows_together(Closing *w, System *of, int n, const int *own)
     find_meetings(w, of, own);
 }
 
-/* A normal matrix without entries. */
+/* Set the normal matrix to zero. */
 static void clear_normal(Closing *w, const System *of)
 {
     for (int k = 0; k < of->n; k++) {
@@ -112,8 +116,8 @@ static void clear_normal(Closing *w, const System *of)
 }
 
 /*
- * normal = U^T U by Cholesky's method, row by row, of its upper half, in place; 1 where a pivot has (nearly) vanished,
- * or nobody wants it.
+ * Factorize the normal matrix U^T U by Cholesky's method, by rows of its upper half, in place. Returns 1 if a pivot
+ * nearly vanishes, or on cancellation.
  */
 SELDOM static int factor_normal(Closing *w, const System *of)
 {
@@ -128,7 +132,7 @@ SELDOM static int factor_normal(Closing *w, const System *of)
             return 1;
         if (!isfinite(whole[k]) || (!stands && !w->dependent))
             return 1;
-        const double over = stands ? 1.0 / sqrt(u[k]) : 0.0; /* 0: so is its x */
+        const double over = stands ? 1.0 / sqrt(u[k]) : 0.0; /* 0: its unknown is 0 */
         w->over_pivot[k] = over;
         for (int a = 0; a < many; a++)
             u[place[a]] *= over;
@@ -142,7 +146,7 @@ SELDOM static int factor_normal(Closing *w, const System *of)
     return 0;
 }
 
-/* normal x = right from its factor, x in `right`. */
+/* Solve the factorized normal system; w->right: right-hand side on entry, solution on return. */
 static void solve_normal(Closing *w, const System *of)
 {
     for (int k = 0; k < of->n; k++) {
@@ -158,7 +162,7 @@ static void solve_normal(Closing *w, const System *of)
     }
 }
 
-/* row row^T and its factor. */
+/* Compute and factorize the normal matrix row row^T. Returns 1 if a pivot nearly vanishes. */
 static int factor_rows(Closing *w, const System *of)
 {
     double entry[N_START_ROWS + 1];
@@ -175,7 +179,7 @@ static int factor_rows(Closing *w, const System *of)
     return factor_normal(w, of);
 }
 
-/* The shortest step with row step = rest, of rows whose factor is there: step = row^T x, row row^T x = rest. */
+/* Compute the smallest step with row step = rest from the factorized equations: step = row^T x, row row^T x = rest. */
 static void step_of_rows(Closing *w, const System *of)
 {
     for (int i = 0; i < of->n; i++)
@@ -188,7 +192,7 @@ static void step_of_rows(Closing *w, const System *of)
     }
 }
 
-/* Which coordinates meet in a row: only those have an entry of row^T row. */
+/* Compute the pattern of row^T row: coordinates with a common equation. */
 static void find_pairs(Closing *w, System *of)
 {
     int place[N_Q];
@@ -203,7 +207,7 @@ static void find_pairs(Closing *w, System *of)
     fill(w, of);
 }
 
-/* row^T row, of places alone. */
+/* Compute row^T row for positions only, without angles. */
 static void add_rows(Closing *w, const System *of)
 {
     int place[N_Q];
@@ -217,7 +221,7 @@ static void add_rows(Closing *w, const System *of)
     }
 }
 
-/* row^T (rest - row step) - damping step in `right`, of places alone. */
+/* Compute row^T (rest - row step) - damping step in w->right, for positions only. */
 static void add_rest(Closing *w, double damping)
 {
     int place[N_Q];
@@ -235,8 +239,8 @@ static void add_rest(Closing *w, double damping)
 }
 
 /*
- * The step that leaves the least of `rest`, damped a little: where Newton begins, no more. Of places alone. It is
- * refined once: along directions that no row resists the factor of the damped matrix has lost all but six digits.
+ * Compute the slightly damped least-squares step of positions, with which Newton's method begins. It is refined once:
+ * along directions without equations the damped matrix has six digits only. Returns 1 on failure.
  */
 static int nearest_step(Closing *w)
 {

@@ -1,6 +1,6 @@
 /*
- * Text of a function: sine, cosine of `angle` (SINES_OF, a number or a vector), `small` where they hold. SINES_BITS:
- * whole numbers that are as long; BITS_OF and OF_BITS take the same bits for the other.
+ * Text of a function body: sine and cosine of `angle` (SINES_OF: a number or a vector); small: where they are valid.
+ * SINES_BITS: integers of the same length; BITS_OF, OF_BITS: reinterpret bits.
  */
     const double shift = 6755399441055744.0;
     const double half_1 = 1.57079632673412561417, half_2 = 6.07710050630396597660e-11;

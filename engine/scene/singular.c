@@ -1,34 +1,34 @@
 /*
- * The same system where a pivot (nearly) vanishes: at a singular position (links in one line) rows of
- * Phi_q depend on each other for a moment, and beside it any drift would be blown up. Gram-Schmidt with
- * pivoting on the rows of Phi_q M^(-1/2), twice over, keeps the independent ones; the others must agree
- * with them. If they do not, only what is dependent to rounding is left out; if that does not agree
- * either, the constraints contradict each other and the pivot's number is returned. Rare, dense, and
- * out of the way of the fast path.
+ * Accelerations and multipliers where a pivot nearly vanishes. At a singular position (links in line) rows of Phi_q
+ * depend on each other, and near it drift is amplified. A Gram-Schmidt orthogonalization with pivoting on the rows of
+ * Phi_q M^(-1/2), applied twice, selects independent equations; the others must agree with them. If they do not, only
+ * equations dependent to rounding are left out. If these disagree as well, the constraints are contradictory and the
+ * pivot's number is returned. This path is rare and uses dense matrices.
  *
- * Of a body whose moment of inertia is small beside m s^2, or 0, or whose mass is small beside another's, M is no
- * measure: another one stands for it. What the rows leave free then follows from M along an orthonormal basis Z of it:
- * Z^T M Z z = Z^T (g - M a) of the a so far.
+ * M is replaced by another norm for bodies with a small or zero moment of inertia (relative to m s^2) or a small mass.
+ * The free motion then follows from M along an orthonormal basis Z of the null space: Z^T M Z z = Z^T (g - M a), with
+ * the accelerations a so far.
  */
-#define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: the least that an inertia counts in the measure */
-#define LEAST_MASS 1e-4    /* of the heaviest body: the same of a mass */
+#define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: least moment of inertia in the norm */
+#define LEAST_MASS 1e-4    /* of the heaviest body: least mass in the norm */
 
-enum { N_BESIDE = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* rows side by side, in whole vectors of the processor */
+enum { N_BESIDE = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* number of equations, rounded up to whole vectors */
 
+/* Workspace of the orthogonalization. */
 typedef struct {
-    double basis[N_Q][N_Q];                   /* orthonormal rows found so far, then what they leave free */
-    double left[N_Q][N_BESIDE];               /* (Phi_q M^(-1/2))^T: of each row what the basis does not give */
+    double basis[N_Q][N_Q];                   /* orthonormal basis of the rows so far, then of the null space */
+    double left[N_Q][N_BESIDE];               /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
     double lower[AT_LEAST_ONE(N_ROWS)][N_BESIDE]; /* row i = sum over k of lower[k][i] basis[k] */
     double unused[N_BESIDE];                  /* 1 of a row that is not in the basis, 0 of others */
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
-    /* M over the measure, M^(-1/2) g, Z^T M Z and its solution */
+    /* M over the norm, its root^-1 g, Z^T M Z and its solution */
     double fraction[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q];
     int order[AT_LEAST_ONE(N_ROWS)], light;
     Cancellation *cancellation;
 } Workspace;
 
-/* Three sums, of x, y and theta, for an addition waits for the one before it. */
+/* Return the scalar product of two vectors (N_Q), by three independent sums. */
 static double dot(const double *a, const double *b)
 {
     double x = 0.0, y = 0.0, theta = 0.0;
@@ -40,7 +40,7 @@ static double dot(const double *a, const double *b)
     return x + y + theta;
 }
 
-/* Products of all rows with a vector, side by side; their squares. Each sum is in the order of coordinates. */
+/* Compute the products of all rows with a vector: sum[N_BESIDE]. */
 static void dot_rows(double (*restrict rows)[N_BESIDE], const double *vector, double *restrict sum)
 {
     for (int i = 0; i < N_BESIDE; i++)
@@ -52,6 +52,7 @@ static void dot_rows(double (*restrict rows)[N_BESIDE], const double *vector, do
     }
 }
 
+/* Compute the squared norms of all rows: sum[N_BESIDE]. */
 static void square_rows(double (*restrict rows)[N_BESIDE], double *restrict sum)
 {
     for (int i = 0; i < N_BESIDE; i++)
@@ -61,7 +62,7 @@ static void square_rows(double (*restrict rows)[N_BESIDE], double *restrict sum)
             sum[i] += rows[k][i] * rows[k][i];
 }
 
-/* Takes from all rows what `along` has of a vector. */
+/* Subtract along[i] times a vector from each row i. */
 static void subtract_from_rows(double (*restrict rows)[N_BESIDE], const double *vector, const double *restrict along)
 {
     for (int k = 0; k < N_Q; k++) {
@@ -71,7 +72,7 @@ static void subtract_from_rows(double (*restrict rows)[N_BESIDE], const double *
     }
 }
 
-/* Takes the component along the newest basis vector from every row not yet used, twice for its rounding. */
+/* Remove the component along the newest basis vector from every row not yet used, twice because of rounding. */
 static void remove_component(Workspace *w, int rank)
 {
     const double *basis = w->basis[rank];
@@ -86,7 +87,10 @@ static void remove_component(Workspace *w, int rank)
     }
 }
 
-/* Orders the rows, the largest remainder first; returns how many are independent, -1: it is no longer wanted. */
+/*
+ * Select independent rows, the largest remainder first, into w->order. least: squared relative remainder of a dependent
+ * row. Returns their number, or -1 on cancellation.
+ */
 static int independent_rows(Workspace *w, double least)
 {
     int rank = 0;
@@ -118,8 +122,8 @@ static int independent_rows(Workspace *w, double least)
     return rank;
 }
 
-/* The measure instead of M in `root`, where masses or moments of inertia are small; `light`: there are such. */
-static void measure(Workspace *w)
+/* Compute the norm that replaces M where masses or moments of inertia are small; `light`: whether any is. */
+static void compute_norm(Workspace *w)
 {
     double heaviest = 0.0;
     for (int k = 0; k < N_Q; k++)
@@ -141,14 +145,14 @@ static void measure(Workspace *w)
         w->root[k] = sqrt(w->free[0][k]);
 }
 
-/* Rows scaled by M^(-1/2), and what each must still give: rhs - Phi_q M^-1 g. */
+/* Fill the workspace: rows scaled by the norm, and their right-hand sides rhs - Phi_q M^-1 g. */
 static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force,
     const double *rhs)
 {
     *w = (Workspace){0};
     mass_matrix(p, w->root);
     jacobian(t, q, p, &w->all[0][0]);
-    measure(w);
+    compute_norm(w);
     for (int k = 0; k < N_Q; k++) {
         w->force[k] = force[k] / w->root[k];
         w->y[k] = w->light ? 0.0 : w->force[k];
@@ -165,7 +169,7 @@ static void fill_workspace(Workspace *w, double t, const double *q, const Parame
     }
 }
 
-/* Basis vectors beyond `rank`: what is left of the coordinate of which most is left, one after the other. */
+/* Complete the orthonormal basis beyond `rank`: each time from the coordinate with the largest remainder. */
 static void complete_basis(Workspace *w, int rank)
 {
     for (; rank < N_Q; rank++) {
@@ -194,7 +198,10 @@ static void complete_basis(Workspace *w, int rank)
     }
 }
 
-/* y with what the rows leave free, and what the multipliers follow from; 0 where M is singular there. */
+/*
+ * Add the motion in the null space of the constraints to y, and compute the right-hand sides of the multipliers.
+ * Returns 0 if M is singular there.
+ */
 static int add_free_motion(Workspace *w, int rank)
 {
     complete_basis(w, rank);
@@ -236,7 +243,10 @@ static int add_free_motion(Workspace *w, int rank)
     return 1;
 }
 
-/* y and lambda by the rows that are independent to `least`; 1 if the others agree to `tolerance`, else 0 or STOPPED. */
+/*
+ * Compute y and lambda by the equations that are independent to `least`. Returns 1 if the others agree to `tolerance`,
+ * 0 if not, or STOPPED.
+ */
 static int solve_independent(Workspace *w, double least, double tolerance, double *lambda)
 {
     const int rank = independent_rows(w, least);
@@ -269,7 +279,11 @@ static int solve_independent(Workspace *w, double least, double tolerance, doubl
     return agree;
 }
 
-/* a and lambda; `rhs` holds gamma - 2 alpha Phi_dot - beta^2 Phi, `force` is g. */
+/*
+ * Compute accelerations a and multipliers lambda where a pivot nearly vanishes. force: g; rhs: gamma - 2 alpha Phi_dot
+ * - beta^2 Phi. Returns 0, NEAR if the motion is to be continued, STOPPED, or `pivot` if the constraints are
+ * contradictory.
+ */
 int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete)
 {

@@ -1,18 +1,18 @@
 /*
- * The start nearest the guess, as the runtime seeks it: a closed configuration (closing.c), then velocities least in
- * the metric of M. This is the ordinary case only: where Newton leads far away or nowhere, 1 is returned and the
- * search in Python decides.
+ * The start nearest to a guess: a closed configuration (closing.c), then the velocities that are least in the norm of
+ * M. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the search in Python
+ * decides.
  */
 #include "closing.c"
 #include "start.h"
 
-#define FAR 0.5      /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
-#define APART 0.2    /* the same of a guessed place, as a share of the size (followed.py) */
-#define MIRRORED 0.1 /* of both: where a guess is further off, what lies on its other side is looked at */
-#define SMALL_INERTIA 1e-9 /* of m size^2: a moment of inertia below it counts as much (sizes.py) */
-#define NEARER 1e-5  /* by so much of its distance, at least, is another one nearer */
+#define FAR 0.5      /* rad: a larger change of a guessed angle needs the search in Python (closure.py) */
+#define APART 0.2    /* the same of a guessed position, as a fraction of the size (followed.py) */
+#define MIRRORED 0.1 /* of both: for larger changes the mirrored configuration is tried */
+#define SMALL_INERTIA 1e-9 /* of m size^2: least moment of inertia in the norm (sizes.py) */
+#define NEARER 1e-5  /* least relative difference of distances for a nearer configuration */
 
-/* How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least. */
+/* Return the largest distance from the origin, m, that drives, set coordinates and guess require; at least the size. */
 static double farthest_place(Closing *w, double t, const Parameters *p, const double *q)
 {
     double reach = w->size;
@@ -26,7 +26,7 @@ static double farthest_place(Closing *w, double t, const Parameters *p, const do
     return reach;
 }
 
-/* Numbers of the start; coordinates weigh as in the runtime. */
+/* Initialize the workspace: values of the start, weights of coordinates and scales of equations as in Python. */
 static void begin_start(Closing *w, const Parameters *p)
 {
     start_values(p, w->guess, w->set, w->rates);
@@ -43,7 +43,7 @@ static void begin_start(Closing *w, const Parameters *p)
     w->nearest = INFINITY;
 }
 
-/* The guess, and what rows in angles alone make of it. */
+/* Set q to the guess, with the angles that equations without lengths determine. Returns 1 on failure. */
 static int first_guess(Closing *w, double t, const Parameters *p, double *q)
 {
     begin_start(w, p);
@@ -61,7 +61,10 @@ static int first_guess(Closing *w, double t, const Parameters *p, double *q)
     return 0;
 }
 
-/* How far the worst guessed angle or place is off, as a share of how far it may be without a longer search. */
+/*
+ * Return the largest change of a guessed angle or position, relative to the limit beyond which the search in Python
+ * decides.
+ */
 static double strayed(const Closing *w, const double *q)
 {
     double worst = 0.0, off[N_Q] = {0.0};
@@ -74,7 +77,7 @@ static double strayed(const Closing *w, const double *q)
     return worst;
 }
 
-/* Not run off to where parallel lines meet. */
+/* Return whether all positions are within 1000 times the reach: the iteration has not diverged. */
 static int is_near(const Closing *w, const double *q)
 {
     int near = 1;
@@ -83,7 +86,7 @@ static int is_near(const Closing *w, const double *q)
     return near;
 }
 
-/* Angles within half a turn of the guess; 1 where a row counts turns. */
+/* Reduce angles to within half a turn of the guess. Returns 1 if equations depend on the number of turns. */
 static int unwind(Closing *w, double t, const Parameters *p, double *q)
 {
     int wound = 0;
@@ -96,8 +99,8 @@ static int unwind(Closing *w, double t, const Parameters *p, double *q)
 }
 
 /*
- * Where Newton ended beside the guess, a closed configuration beyond it may be nearer, with what is not guessed as it
- * is, or beyond it too: the nearest of the three.
+ * Replace q by the nearest of three closed configurations: q, the one beyond the guess with guessed coordinates
+ * mirrored, and the one with all coordinates mirrored.
  */
 static void nearer(Closing *w, double t, const Parameters *p, double *q)
 {
@@ -123,7 +126,7 @@ static void nearer(Closing *w, double t, const Parameters *p, double *q)
     }
 }
 
-/* One over the root of the metric: of M, with moments of inertia that are not too small. */
+/* Compute the reciprocal square roots of the norm's diagonal: M with a least moment of inertia. */
 static void over_root_of_metric(const Closing *w, const Parameters *p, double *over_root)
 {
     double m[N_Q];
@@ -134,28 +137,31 @@ static void over_root_of_metric(const Closing *w, const Parameters *p, double *o
     }
 }
 
-/* Phi_q v = nu and the start's rates, least in the metric of M; refined twice. Steps are of v times the root of M. */
+/*
+ * Compute the velocities that satisfy Phi_q v = nu and the set rates, least in the norm of M, refined twice. Returns 1
+ * on failure.
+ */
 SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, const double *q, double *v)
 {
-    double over_root[N_Q], wanted[N_START_ROWS + 1], most = 0.0, worst = 0.0;
+    double over_root[N_Q], required[N_START_ROWS + 1], most = 0.0, worst = 0.0;
     int place[N_Q];
     over_root_of_metric(w, p, over_root);
     for (int k = 0; k < N_Q; k++)
         v[k] = 0.0;
     rows_together(w, &w->some, N_ALL_ROWS + N_RATES, rate_place);
     jacobian(t, q, p, &w->row[0][0]);
-    velocity_rhs(beyond_jump(t), q, p, wanted);
+    velocity_rhs(beyond_jump(t), q, p, required);
     for (int k = 0; k < N_APART; k++)
-        wanted[apart_row[k]] -= w->rates[N_RATES + k];
+        required[apart_row[k]] -= w->rates[N_RATES + k];
     for (int i = 0; i < N_RATES; i++) {
-        wanted[N_ALL_ROWS + i] = w->rates[i];
+        required[N_ALL_ROWS + i] = w->rates[i];
         w->row[N_ALL_ROWS + i][rate_place[i]] = 1.0;
     }
     for (int r = 0; r < w->some.n; r++) {
         const int n = places_of(r, rate_place, place);
         for (int i = 0; i < n; i++)
             w->row[r][place[i]] *= over_root[place[i]];
-        most = max_of(most, fabs(wanted[r]));
+        most = max_of(most, fabs(required[r]));
     }
     if (factor_rows(w, &w->some))
         return 1;
@@ -163,7 +169,7 @@ SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, co
         worst = 0.0;
         for (int r = 0; r < w->some.n; r++) {
             const int n = places_of(r, rate_place, place);
-            w->rest[r] = wanted[r];
+            w->rest[r] = required[r];
             for (int i = 0; i < n; i++)
                 w->rest[r] -= w->row[r][place[i]] * v[place[i]];
             worst = max_of(worst, fabs(w->rest[r]));
@@ -179,7 +185,10 @@ SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, co
     return !(worst <= 1e-10 * most + MIN_RESOLVED);
 }
 
-/* `size` of the mechanism (m) scales lengths. 0: q and v are the start, |Phi| at most `residual`; 1: see above. */
+/*
+ * Compute the start q, v nearest to the guess. size: the mechanism's size, m; residual: largest |Phi|. Returns 0, or 1
+ * if the search in Python must decide.
+ */
 int close_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
 {
@@ -204,25 +213,26 @@ int close_start(
     return status;
 }
 
+/* Compute the start q, v as close_start(), without cancellation. */
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
 {
-    Cancellation nobody = {0};
-    return close_start(t, parameters, size, q, v, residual, &nobody);
+    Cancellation no_cancellation = {0};
+    return close_start(t, parameters, size, q, v, residual, &no_cancellation);
 }
 
 /*
- * The start that a closed one with other numbers leads to: from its q by Newton's steps, then v. Rows may depend on
- * each other. 1: it does not close from there, 2: it does and has no velocities. Whoever calls sees that q stays near.
+ * Continue a closed start q to other parameters: Newton's method from q, then velocities v. Equations may depend on
+ * each other. Returns 0, 1 if it does not close, or 2 if it has no velocities. The caller checks that q remains near.
  */
 int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v)
 {
     const Parameters *p = (const Parameters *)parameters;
-    Cancellation nobody = {0};
+    Cancellation no_cancellation = {0};
     Closing *w = calloc(1, sizeof(Closing));
     if (!w)
         return 1;
     w->size = size;
-    w->cancellation = &nobody;
+    w->cancellation = &no_cancellation;
     w->dependent = 1;
     begin_start(w, p);
     w->reach = farthest_place(w, t, p, q);

@@ -1,4 +1,4 @@
-/* The start in C, for those who begin runs by themselves (start.c tells what it returns). */
+/* Declaration of the start in C (start.c), for functions that begin runs without Python. */
 #ifndef GUDGEON_START_H
 #define GUDGEON_START_H
 

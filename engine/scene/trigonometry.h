@@ -9,7 +9,8 @@
 typedef double Four __attribute__((vector_size(32)));
 typedef long long FourBits __attribute__((vector_size(32)));
 
-static void turned_by_library(const Four *angle, Four *sine, Four *cosine)
+/* Compute sines and cosines of four angles by the C library. */
+static void compute_by_library(const Four *angle, Four *sine, Four *cosine)
 {
     for (int k = 0; k < 4; k++) {
         (*sine)[k] = sin((*angle)[k]);
@@ -17,6 +18,7 @@ static void turned_by_library(const Four *angle, Four *sine, Four *cosine)
     }
 }
 
+/* Compute sines and cosines of four angles; large angles use the C library. */
 static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     const Four angle = *angles;
@@ -30,12 +32,13 @@ static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosin
 #undef BITS_OF
 #undef OF_BITS
     if (!(small[0] & small[1] & small[2] & small[3]))
-        turned_by_library(angles, sine, cosine);
+        compute_by_library(angles, sine, cosine);
 }
 
 #else
 typedef double Four[4];
 
+/* Compute sine and cosine of an angle; large angles use the C library. */
 static void sine_and_cosine(double angle, double *sine, double *cosine)
 {
 #define SINES_OF double
@@ -53,6 +56,7 @@ static void sine_and_cosine(double angle, double *sine, double *cosine)
     }
 }
 
+/* Compute sines and cosines of four angles, one after the other. */
 static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     for (int k = 0; k < 4; k++)
@@ -60,7 +64,7 @@ static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 }
 #endif
 
-/* Of n groups. */
+/* Compute sines and cosines of n groups of four angles. */
 static inline void many_sines_and_cosines(int n, const Four *angle, Four *sine, Four *cosine)
 {
     for (int k = 0; k < n; k++)

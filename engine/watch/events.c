@@ -81,8 +81,8 @@ static double stage_of_minimum(const Step *step, int k)
 }
 
 /*
- * Return the node of the first stage with a negative event function k, if a later stage or the end is not negative, so
- * that it may cross zero more than once. Otherwise return 1.
+ * Return the node of the first stage with a negative event function k if a later stage or the end is not negative: it
+ * may cross zero more than once. Otherwise return 1.
  */
 static double first_negative_stage(const Step *step, int k, double end)
 {
@@ -311,6 +311,7 @@ static int is_pole(Integrator *run, const Step *step, double fraction, int i, co
     return isinf(rhs.event[i]);
 }
 #else
+/* Return 0: the scene has no user events. */
 static inline int is_pole(Integrator *run, const Step *step, double fraction, int i, const Parameters *p)
 {
     return (void)run, (void)step, (void)fraction, (void)i, (void)p, 0;

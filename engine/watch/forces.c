@@ -4,10 +4,10 @@
  *
  * They follow from the right-hand side and have no bounds, and they may change within a step whose motion is at rest.
  * The dense output is sampled and bisected. On each part the event function is the parabola through both ends and the
- * middle within an error. That error is UNSURE times the largest by which the parabola of the whole part missed the
+ * middle within an error. It is UNSURE times the largest by which the parabola of the whole part missed the
  * samples of its halves, and at least a fourth of the whole part's error. In theory the halves have an eighth of it.
  */
-enum { MAX_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that bound a force between them */ };
+enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that bound a force between them */ };
 #define UNSURE 4.0
 #define COARSE 0.25 /* of a step: longer parts do not show the error of a parabola */
 #define MAX_TERM_EXCESS 0.05 /* of the range of a time term over a step: allowed excess over a parabola */
@@ -84,9 +84,8 @@ static int values_of_stages(const Step *step, Place begin, Place end, StageValue
 
 #if N_TERMS
 /*
- * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part. It may if
- * its slope exceeds that of the parabola through them, by bounds, so that it may leave it by MAX_TERM_EXCESS of its
- * range.
+ * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part. By its
+ * bounds, it may then leave the parabola through them by more than MAX_TERM_EXCESS of its range.
  */
 static int may_oscillate_between(Step *step, double a, double b, const Parameters *p)
 {
@@ -216,7 +215,7 @@ static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *
         rest = from.f > rest ? 0.0 : rest;
         const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
         const int crosses = now.middle.f < -rest || now.end.f < -rest;
-        const int small = w < close || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES;
+        const int small = w < close || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES;
         largest = max_of(largest, max_of(fabs(now.middle.f), fabs(now.end.f)));
         if (crosses && (small || steepest + 4.0 * now.error / w < 0.0)) {
             *low = from;

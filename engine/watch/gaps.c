@@ -8,8 +8,8 @@
  * both ends within an error. That error is the one measured in the middle of the part before the bisection; in theory
  * its halves have a sixteenth of it.
  *
- * Guarantee: no zero of the dense output is missed, and none before the located one, as long as the error of a half
- * does not exceed the measured error of the whole, on parts of at most a quarter of the step.
+ * Guarantee: no zero of the dense output is missed, and none before the located one. It assumes that the error of a
+ * half does not exceed the measured error of the whole, on parts of at most a quarter of the step.
  */
 enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint in a step */ };
 
@@ -182,7 +182,8 @@ static double error_of_cubic(Place a, Place middle, Place b)
  * that is within the first half of the step.
  */
 static int first_zero(
-    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low, Place *high)
+    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low,
+    Place *high)
 {
     const double least = penetration_rounding(p, k), close = 4.0 * event_time_tolerance(run, step);
     PartOfStep part[MAX_BISECTIONS + 1] = {{bracket_end(run, step, k), INFINITY}};

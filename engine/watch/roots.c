@@ -227,8 +227,8 @@ static double max_overshoot_of_contact(const Integrator *run, int k)
 }
 
 /*
- * Return the tolerance to which event function k is located. The rates of the branches of a switching point differ in
- * proportion to its function, so that the error of the frozen branch grows with the square of the distance. It is
+ * Return the tolerance to which event function k is located. At a switching point, the rates of both branches differ in
+ * proportion to its function. The error of the frozen branch thus grows with the square of the distance. It is
  * step->harm tolerances at the end of the step.
  */
 static ZeroTolerance event_function_tolerance(const Integrator *run, const Step *step, int k)

@@ -108,14 +108,14 @@ static inline double hermite_zero(Place low, Place high, Place third)
 
 /*
  * Return the estimated location of the zero of a bracket: by a Hermite polynomial if slopes are known, else by inverse
- * interpolation through at most `places` samples.
+ * interpolation through at most `n_points` samples.
  */
-static inline double guess_zero(const Bracket *of, int places)
+static inline double guess_zero(const Bracket *of, int n_points)
 {
     const Place low = of->at[0], high = of->at[1];
     if (isfinite(low.f + low.slope + high.f + high.slope))
         return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Place){NAN, NAN, NAN});
-    return inverse_zero(of->at, of->n < places ? of->n : places);
+    return inverse_zero(of->at, of->n < n_points ? of->n : n_points);
 }
 
 /* Return a guess of the zero if it lies within the bracket, else the middle of the bracket. */
@@ -140,17 +140,17 @@ static inline double distance_beyond(const Bracket *of, const ZeroTolerance *nea
 
 /*
  * Locate the zero of a bracket to a tolerance, by zeros of interpolants, and by bisection if they do not halve the
- * bracket. guess: the first location to evaluate; NAN: the middle. places: number of samples for inverse interpolation;
- * 2 for a function of which only the sign is known. `of` is narrowed; its upper end, with f < 0, is the location.
- * Returns a status.
+ * bracket. guess: the first location to evaluate; NAN: the middle. n_points: number of samples for inverse
+ * interpolation; 2 for a function of which only the sign is known. `of` is narrowed; its upper end, with f < 0, is the
+ * location. Returns a status.
  */
-static inline int locate_zero(EvaluatePlace *evaluate, void *context, const ZeroTolerance *near, int places,
+static inline int locate_zero(EvaluatePlace *evaluate, void *context, const ZeroTolerance *near, int n_points,
     double guess, Bracket *of)
 {
     double width = INFINITY, before = INFINITY;
     for (int i = 0;; i++) {
         const double from = of->at[0].s, to = of->at[1].s;
-        double s = i ? guess_zero(of, places) : guess;
+        double s = i ? guess_zero(of, n_points) : guess;
         const double distance = distance_beyond(of, near, s), close = max_of(distance, near->width);
         if (!(to - from > close))
             return 0;

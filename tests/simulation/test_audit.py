@@ -192,7 +192,7 @@ def test_film_forces_between_the_ends_of_steps(tmp_path: Path) -> None:
         right,
         tmp_path,
         ("engine/methods/radau.c", "i < N_X && !has_films()", "i < N_X"),
-        ("engine/both/radau_step.h", "& (falls * apart <= run->newton.force_found * (1.0 - falls))", ""),
+        ("engine/both/radau_step.h", "& (falls * force_change <= run->newton.force_found * (1.0 - falls))", ""),
         NO_FILM_ERROR,
     )
     assert "check force" in reported(wrong, 0.05, method="radau5")
