@@ -1,4 +1,4 @@
-"""Write what declarations say: tables of docs/format.md, docs/laws.md, docs/map.md, a header of C (`make tables`)."""
+"""Write tables from declarations: docs/format.md, docs/laws.md, docs/map.md and a C header (`make tables`)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MARK = "<!-- Below: `make tables`. -->\n"
 
 
 def page(text: str, below: str, name: str = "") -> str:
-    """The page with what is below the mark as it is now; what stands above stays."""
+    """Return a page with the text below its mark replaced. Raises SystemExit if it has no mark."""
     above, mark, _ = text.partition(MARK)
     if not mark:
         raise SystemExit(f"{name} has no line {MARK.strip()}: what is written stands below it")

@@ -59,17 +59,7 @@ CHECK_rate: Final = 9
 CHECK_step: Final = 10
 N_CHECKS: Final = 11
 AUDIT_CHECK_NAMES = (
-    "defect",
-    "gap",
-    "free",
-    "position",
-    "velocity",
-    "acceleration",
-    "branch",
-    "event",
-    "force",
-    "rate",
-    "step",
+    "defect", "gap", "free", "position", "velocity", "acceleration", "branch", "event", "force", "rate", "step",
 )
 
 # enum FrictionMode
@@ -89,14 +79,7 @@ COUNT_jacobians: Final = 6
 COUNT_stiff_steps: Final = 7
 N_COUNTS: Final = 8
 COUNT_NAMES = (
-    "steps",
-    "right_hand_sides",
-    "onsets",
-    "ratio_outside",
-    "switches",
-    "rejected",
-    "jacobians",
-    "stiff_steps",
+    "steps", "right_hand_sides", "onsets", "ratio_outside", "switches", "rejected", "jacobians", "stiff_steps",
 )
 
 # enum Residual
@@ -106,10 +89,7 @@ RESIDUAL_ratio_min: Final = 2
 RESIDUAL_ratio_max: Final = 3
 N_RESIDUALS: Final = 4
 RESIDUAL_NAMES = (
-    "phi_max",
-    "phi_dot_max",
-    "ratio_min",
-    "ratio_max",
+    "phi_max", "phi_dot_max", "ratio_min", "ratio_max",
 )
 
 # enum Peak
@@ -118,9 +98,7 @@ PEAK_t: Final = 1
 PEAK_e_max: Final = 2
 N_PEAK: Final = 3
 PEAK_NAMES = (
-    "F",
-    "t",
-    "e_max",
+    "F", "t", "e_max",
 )
 
 # enum StepEnd
@@ -130,10 +108,7 @@ END_FRICTION: Final = 2
 END_EVENT: Final = 3
 N_STEP_ENDS: Final = 4
 STEP_END_NAMES = (
-    "CONTACT",
-    "SWITCH",
-    "FRICTION",
-    "EVENT",
+    "CONTACT", "SWITCH", "FRICTION", "EVENT",
 )
 
 # enum ImpactColumn
@@ -144,11 +119,7 @@ IMPACT_F_peak: Final = 3
 IMPACT_t_peak: Final = 4
 N_IMPACT_COLUMNS: Final = 5
 IMPACT_COLUMN_NAMES = (
-    "t_on",
-    "t_off",
-    "deltadot",
-    "F_peak",
-    "t_peak",
+    "t_on", "t_off", "deltadot", "F_peak", "t_peak",
 )
 
 # enum TapeColumn
@@ -156,8 +127,7 @@ TAPE_JUMPED: Final = 0
 TAPE_T: Final = 1
 N_TAPE_HEAD: Final = 2
 TAPE_COLUMN_NAMES = (
-    "JUMPED",
-    "T",
+    "JUMPED", "T",
 )
 
 # enum TraceColumn
@@ -172,15 +142,7 @@ TRACE_ex: Final = 7
 TRACE_ey: Final = 8
 N_TRACE_COLUMNS: Final = 9
 TRACE_COLUMN_NAMES = (
-    "F_low",
-    "t_F_low",
-    "F_high",
-    "t_F_high",
-    "ex_out",
-    "ey_out",
-    "t_out",
-    "ex",
-    "ey",
+    "F_low", "t_F_low", "F_high", "t_F_high", "ex_out", "ey_out", "t_out", "ex", "ey",
 )
 
 # enum Work
@@ -189,9 +151,7 @@ WORK_forces: Final = 1
 WORK_clearances: Final = 2
 N_WORK: Final = 3
 WORK_NAMES = (
-    "drives",
-    "forces",
-    "clearances",
+    "drives", "forces", "clearances",
 )
 
 # enum ReactionColumn
@@ -200,9 +160,7 @@ REACTION_Fy: Final = 1
 REACTION_M: Final = 2
 N_REACTION_COLUMNS: Final = 3
 REACTION_COLUMN_NAMES = (
-    "Fx",
-    "Fy",
-    "M",
+    "Fx", "Fy", "M",
 )
 
 # enum ClearanceColumn
@@ -218,16 +176,7 @@ CLEARANCE_vt: Final = 8
 CLEARANCE_delta: Final = 9
 N_CLEARANCE_COLUMNS: Final = 10
 CLEARANCE_COLUMN_NAMES = (
-    "Fx",
-    "Fy",
-    "Fn",
-    "Ft",
-    "ex",
-    "ey",
-    "e",
-    "deltadot",
-    "vt",
-    "delta",
+    "Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt", "delta",
 )
 
 # enum FrictionColumn
@@ -235,8 +184,7 @@ FRICTION_force: Final = 0
 FRICTION_slip: Final = 1
 N_FRICTION_COLUMNS: Final = 2
 FRICTION_COLUMN_NAMES = (
-    "force",
-    "slip",
+    "force", "slip",
 )
 
 # enum Energy
@@ -244,8 +192,7 @@ ENERGY_kinetic: Final = 0
 ENERGY_potential: Final = 1
 N_ENERGY: Final = 2
 ENERGY_NAMES = (
-    "kinetic",
-    "potential",
+    "kinetic", "potential",
 )
 
 # enum Drift
@@ -253,8 +200,7 @@ DRIFT_phi: Final = 0
 DRIFT_phi_dot: Final = 1
 N_DRIFT: Final = 2
 DRIFT_NAMES = (
-    "phi",
-    "phi_dot",
+    "phi", "phi_dot",
 )
 
 # enum ValueReference

@@ -194,5 +194,7 @@ ffi = FFI(
             b"\x00\x01J\x11ending",
         ),
     ),
-    _typenames=(b"\x00\x00\x01HBatch",),
+    _typenames=(
+        b"\x00\x00\x01HBatch",
+    ),
 )
