@@ -1,4 +1,4 @@
-"""Equations of codes that draw what they find and print no numbers, written out from what they say, for beside.py.
+"""Implement the equations of codes that draw results without printing numbers, for comparison in beside.py.
 
 Each is a function y' = f(t, y) with y = positions, then velocities; numbers are those codes' own, in kg, m, s but for
 the rotor in its stator (kg, mm, ms). Where they were read is in README.md.
@@ -129,10 +129,14 @@ def mobility(load: Callable[[float], float], share: float) -> Rates:
 
 
 def stator(beside: bool) -> Rates:
-    """The rotor's middle. beside: the force has the direction of a point e beside it, away from the heavy side."""
+    """Return the equations of the rotor's centre in its stator.
+
+    beside: the direction of the force is that from a point at the distance e, away from the heavy side.
+    """
     m, e, speed, k, d, k_c, gap = 10.0, 0.18, 3.1, 1.0, 0.05, 50.0, 1.0
 
     def rates(t: float, y: np.ndarray) -> np.ndarray:
+        """Return y'."""
         heavy = e * np.array([math.cos(speed * t), math.sin(speed * t)])
         line = y[:2] - heavy if beside else y[:2]
         deep = max(float(np.hypot(*y[:2])) - gap, 0.0)
@@ -144,7 +148,9 @@ def stator(beside: bool) -> Rates:
 
 @dataclass(frozen=True)
 class Collar:
-    """Lobo's third section with one torsional freedom: y = r, θ (of its middle), φ (its turn), and their rates."""
+    """Lobo's third section with one torsional degree of freedom: y = r, θ (of its centre), φ (its rotation), and their
+    rates.
+    """
 
     v0: float  # m/s, of friction
     gap: float = (0.216 - 0.171) / 2.0
@@ -152,13 +158,13 @@ class Collar:
 
     @property
     def mass(self) -> tuple[float, float]:
-        """Of the steel, and with the mud that goes along."""
+        """Return the mass of the steel, and that with the moving mud, in kg."""
         steel = math.pi * 7800.0 * (0.171**2 - 0.071**2) * 8.55 / 8.0
         return steel, steel + math.pi * 1500.0 * (0.071**2 + 1.7 * 0.171**2) * 8.55 / 8.0
 
     @property
     def stiffness(self) -> float:
-        """Of bending, less the load in the middle of the section."""
+        """Return the bending stiffness in N/m, reduced by the load in the middle of the section."""
         length, above = 8.55, 19.25 + 8.55 / 2.0
         axial = 135e3 - 7800.0 * 9.81 * math.pi * (0.171**2 - 0.071**2) / 4.0 * above
         second = math.pi * (0.171**4 - 0.071**4) / 64.0
@@ -166,7 +172,7 @@ class Collar:
 
     @property
     def torsion(self) -> tuple[float, float, float]:
-        """Inertia, stiffness and damping of the string."""
+        """Return inertia, stiffness and damping of the string."""
         polar = {d: math.pi * (d[0] ** 4 - d[1] ** 4) / 32.0 for d in ((0.14, 0.119), (0.14, 0.076), (0.171, 0.071))}
         pipes, first, others = polar.values()
         inertia = 7800.0 * (pipes * 4733.6 / 3.0 + first * 171.3 + others * (267.1 + 8.55 + 19.25))
@@ -174,16 +180,17 @@ class Collar:
         return inertia, k, 0.35 * inertia + 0.06 * k
 
     def start(self) -> np.ndarray:
-        """At rest, where its weight bends it to: the string is 1e-7 rad off the vertical."""
+        """Return the state at rest under its weight; the string is 1e-7 rad off the vertical."""
         return np.array([self.mass[0] * 9.81 * 1e-7 / self.stiffness, *[0.0] * 5])
 
     def rates(self, touches: bool) -> Rates:
-        """While it touches the wall, and while it does not."""
+        """Return the equations with or without contact of the wall."""
         (_, m), (inertia, k_t, c_t), k, table = self.mass, self.torsion, self.stiffness, 105.0 * math.pi / 30.0
         drag, softer = 2.0 * 1500.0 * 0.171 * 8.55 / (3.0 * math.pi), math.pi**3 / (2.0 * 8.55**2)
         e, radius = self.e, 0.171 / 2.0
 
         def of(t: float, y: np.ndarray) -> np.ndarray:
+            """Return y'."""
             r, theta, phi, v, whirl, turns = (float(x) for x in y)
             c, s = math.cos(phi - theta), math.sin(phi - theta)
             rock = 135e3 * 0.0239 * (math.tanh(1.91 * turns) + 8.5 * turns / (1.0 + 5.47 * turns**2))
