@@ -143,6 +143,7 @@ def timers(work: Work) -> list[Callable[[], float]]:
     reduced = tuple(map(model.pointer, (*work.tree, work.memory, p)))
 
     def seconds(function: Callable[..., float], pointers: tuple[object, ...]) -> float:
+        """Return the seconds of one call."""
         before = perf_counter()
         function(BATCH, work.t, *pointers)
         return (perf_counter() - before) / BATCH
@@ -179,6 +180,7 @@ def calls(work: Work) -> list[callgrind.Call | None]:
 
 
 def _dense(peer: Press, work: Work) -> callgrind.Call:
+    """Return the call of the dense C for callgrind."""
     arrays = {"press": press_dense.numbers(peer), "y": work.state[:-N_WORK]}
     call = f"0.0 * press_seconds_per_rhs(press, {work.t.hex()}, y, (int)count, 1)"
     files = {press_dense.SOURCE.name: press_dense.SOURCE.read_text(encoding="utf-8")}
@@ -188,7 +190,7 @@ def _dense(peer: Press, work: Work) -> callgrind.Call:
 
 
 def machine() -> str:
-    """The processor as it names itself, how many cores there are and its widest vectors; no names of hosts."""
+    """Return the processor's name, its number of cores and its widest SIMD instruction set, as far as known."""
     model, vectors = platform.processor() or platform.machine(), ""
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():

@@ -4,7 +4,7 @@
 
 The commit is checked out and installed in a folder of its own, with the extras that are installed here. A cold start is
 a process with an empty cache and an edited copy of the file, from its begin to its first result, wall; a batch
-(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The least of --repeats is told. Both sides
+(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The least of --repeats is printed. Both sides
 are measured by the same short programs, of calls that both have.
 """
 
@@ -85,9 +85,9 @@ def cold(place: Path, name: str, scene: str) -> float:
             stderr=subprocess.DEVNULL,
             text=True,
         ) as process:
-            told = process.stdout.readline() if process.stdout else ""
+            output = process.stdout.readline() if process.stdout else ""
             took = perf_counter() - begin
-        if told != "done\n":
+        if output != "done\n":
             raise SystemExit(f"{name}, {scene}: no result in {place}")
         return took
 
@@ -125,7 +125,7 @@ def main() -> None:
                 for side, place in places.items():
                     took = cold(place, name, scene)
                     least[side] = min(least[side], took) if k else math.inf
-            told(f"cold start, {name}, {scene}, s", least)
+            print_row(f"cold start, {name}, {scene}, s", least)
         for of in presses():
             least = dict.fromkeys(places, math.inf)
             for side, place in places.items():
@@ -134,11 +134,11 @@ def main() -> None:
             for _ in range(options.repeats):
                 for side, place in places.items():
                     least[side] = min(least[side], batch(place, of, f"{caches}/{side}"))
-            told(f"{of.title}, ms", least)
+            print_row(f"{of.title}, ms", least)
 
 
-def told(title: str, least: Mapping[str, float]) -> None:
-    """A line of the table."""
+def print_row(title: str, least: Mapping[str, float]) -> None:
+    """Print a line of the table."""
     ratio = least["now"] / least["before"]
     print(f"  {title:<44}{least['before']:9.3f}{least['now']:9.3f}{ratio:9.2f}", flush=True)
 

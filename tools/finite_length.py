@@ -63,7 +63,11 @@ def least(numbers: np.ndarray) -> np.ndarray:
 
 
 def weights(force: np.ndarray) -> np.ndarray:
-    """Mostly over the largest force at that ε, and for rotation over its own; less outside of the law's range."""
+    """Return the weights of force differences (ratio, ε, motion).
+
+    They are mostly relative to the largest force at an ε, for rotation to the force itself, and smaller outside of the
+    law's range.
+    """
     size = np.hypot(force[..., 0], force[..., 1])
     within = np.where(WITHIN, 1.0, 0.3)[:, None, None]
     found = size**-0.2 * size.max(axis=2, keepdims=True) ** -0.8 * within * np.where(EPS < 0.955, 1.0, 0.5)[:, None]

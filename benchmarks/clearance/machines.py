@@ -169,14 +169,17 @@ def landing_gear() -> tuple[Second, list[float]]:
 
 
 def corners(pq: float, qr: float, pr: float, side: int) -> tuple[list[tuple[float, float]], float]:
-    """P, Q, R from the centroid, Q on the x axis from P, R on its left (1) or right (−1); the sum of squared sides."""
+    """Return the corners of a triangle with sides pq, qr, pr from its centroid, and the sum of their squares.
+
+    side: 1 or −1, the side of pq on which the third corner is.
+    """
     along = (pq**2 + pr**2 - qr**2) / (2.0 * pq)
     raw = np.array([[0.0, 0.0], [pq, 0.0], [along, side * math.sqrt(pr**2 - along**2)]])
     return [(float(x), float(y)) for x, y in raw - raw.mean(axis=0)], pq**2 + qr**2 + pr**2
 
 
 def jansen(pins: int) -> tuple[Second, list[float]]:
-    """m, j, k, upper, c, f, lower; play in one or both pins of the crank: m to j (X1) and m to k (X2)."""
+    """Return Jansen's leg with play in one or two pins of the crank, and a guess."""
     length = {0: 0.15, 1: 0.5, 2: 0.619, 4: 0.393, 5: 0.394}
     links = Chain(length)
     upper, of_upper = corners(0.415, 0.558, 0.401, 1)
@@ -210,14 +213,17 @@ def _jansen_guess(
     """Return the coordinates at θ = 0 of the crank, by intersections of circles on the branch of the file's guess."""
 
     def meet(one: np.ndarray, first: float, two: np.ndarray, second: float, side: int) -> np.ndarray:
+        """Return an intersection of two circles, on one side of the line of their centres."""
         d = two - one
         along = (d @ d + first**2 - second**2) / (2.0 * d @ d)
         return one + along * d + side * math.sqrt(first**2 / (d @ d) - along**2) * np.array([-d[1], d[0]])
 
     def angle(start: np.ndarray, end: np.ndarray) -> float:
+        """Return the direction from start to end in rad."""
         return math.atan2(*(end - start)[::-1])
 
     def triangle(at: np.ndarray, turned: float, own: Sequence[tuple[float, float]]) -> list[float]:
+        """Return x, y and angle of a triangle from the position of its first corner and its angle."""
         a = np.array([[math.cos(turned), -math.sin(turned)], [math.sin(turned), math.cos(turned)]])
         return [*(at - a @ np.array(own[0])), turned]
 

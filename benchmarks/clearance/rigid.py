@@ -175,7 +175,7 @@ class Rigid(Second):
         return x[:n], normal, np.array([stopping.get(k, (along.get(k) or 0.0) * normal[i]) for i, k in enumerate(held)])
 
     def settle(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> None:
-        """Of what touches and does not part that is closed which has to push: λ ≥ 0, δ̈ ≤ 0."""
+        """Set the closed contacts among the touching ones, so that λ ≥ 0 and δ̈ ≤ 0. Raises ValueError."""
         resting = [k for k in touching if abs(self.gaps(q, v)[k].rate) < RESTING]
         for held in subsets(resting):
             a, pressed = self.accelerations(t, q, v, held)
@@ -188,22 +188,27 @@ class Rigid(Second):
         raise ValueError("no forces fit")
 
     def _events(self, n: int) -> Iterator[tuple[Any, Callable[[float, np.ndarray, np.ndarray], None]]]:
+        """Yield each event function with the change of contacts after its zero."""
         for k, joint in enumerate(self.joints):
             if k in self.closed:
 
-                def used_up(t: float, y: np.ndarray, k: int = k) -> float:
+                def contact_force(t: float, y: np.ndarray, k: int = k) -> float:
+                    """Return the contact force λ of joint k."""
                     return float(self.accelerations(t, y[:n], y[n:], sorted(self.closed))[1][k])
 
-                def opens(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+                def open_contact(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+                    """Open joint k."""
                     self.settle(t, q, v, sorted(self.closed - {k}))
 
-                yield ending(used_up, -1.0), opens
+                yield ending(contact_force, -1.0), open_contact
                 continue
 
             def delta(t: float, y: np.ndarray, joint: Joint = joint) -> float:
+                """Return the penetration of a joint."""
                 return self.gap(joint, y[:n], y[n:]).delta
 
-            def meets(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+            def apply_impact(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+                """Apply the impact of all touching joints, and store the onsets."""
                 known, near = set(self.closed), [-TOUCHING * one.law.clearance for one in self.joints]
                 touching = [i for i, gap in enumerate(self.gaps(q, v)) if i in known or gap.delta >= near[i]]
                 while any(self.gaps(q, v)[i].rate > RESTING for i in touching):  # friction may bring others to meet
@@ -212,9 +217,9 @@ class Rigid(Second):
                 for i in sorted(self.closed - known):
                     self.onsets[i].append(t)
 
-            yield ending(delta, 1.0), meets
+            yield ending(delta, 1.0), apply_impact
 
 
 def subsets(of: list[int]) -> Iterator[tuple[int, ...]]:
-    """All, the largest first."""
+    """Yield all subsets, the largest first."""
     return chain.from_iterable(combinations(of, size) for size in range(len(of), -1, -1))

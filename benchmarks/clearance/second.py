@@ -194,9 +194,11 @@ class Second:
             touches = joint.stored > 0.0
 
             def gap(t: float, y: np.ndarray, joint: Joint = joint) -> float:
+                """Return the penetration of a joint."""
                 return joint.gap(y[:n], y[n:])[0]
 
             def change(t: float, q: np.ndarray, v: np.ndarray, k: int = k, joint: Joint = joint) -> None:
+                """Begin or end the contact of a joint."""
                 if joint.stored:
                     joint.stored = 0.0
                     return
@@ -212,6 +214,7 @@ class Second:
                     continue
 
                 def slip(t: float, y: np.ndarray, joint: Joint = joint, corner: float = corner) -> float:
+                    """Return the slip's distance from a switching point."""
                     return joint.slip(y[:n], y[n:]) - corner
 
                 def cross(
@@ -222,6 +225,7 @@ class Second:
                     corner: float = corner,
                     direction: float = direction,
                 ) -> None:
+                    """Change the sector of a joint's slip."""
                     corners = [-math.inf, -joint.law.v1, -joint.law.v0, joint.law.v0, joint.law.v1, math.inf]
                     at = corners.index(corner)
                     joint.sector = (corner, corners[at + 1]) if direction > 0.0 else (corners[at - 1], corner)
