@@ -4,7 +4,7 @@
 
 The commit is checked out and installed in a folder of its own, with the extras that are installed here. A cold start is
 a process with an empty cache and an edited copy of the file, from its begin to its first result, wall; a batch
-(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The least of --repeats is printed. Both sides
+(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The smallest counts. Both sides
 are measured by the same short programs, of calls that both have.
 """
 

@@ -61,8 +61,8 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
         found = run_plans(plans, Path(folder), threads)
         wall, cpu = perf_counter() - wall, process_time() - cpu
         runs, failed = found.runs, found.failed
-    told = {"runs": runs, "failed": failed, "wall": wall, "cpu": cpu, "alone": alone, "before": before}
-    return told | {"most": peak_memory()}
+    document = {"runs": runs, "failed": failed, "wall": wall, "cpu": cpu, "alone": alone, "before": before}
+    return document | {"most": peak_memory()}
 
 
 def draw_clearances(runs: int) -> np.ndarray:
@@ -154,8 +154,8 @@ def main() -> None:
     for of, threads in [(TENTH, 1), (TENTH, 2)] * options.repeats + [(WHOLE, 1), (WHOLE, 2)]:
         found = run_separately(of, threads)
         each = [1e3 * found[name] / found["runs"] for name in ("wall", "cpu", "alone")]
-        told = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"
-        print(f"  {threads:7d}{found['runs']:8.0f}{found['failed']:8.0f}{told}", flush=True)
+        text = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"
+        print(f"  {threads:7d}{found['runs']:8.0f}{found['failed']:8.0f}{text}", flush=True)
         least[of][threads] = min(least[of][threads], found["wall"])
     times = " and ".join(f"{least[of][1] / least[of][2]:.2f}" for of in (TENTH, WHOLE))
     print(f"  two threads are {times} times as fast as one (a tenth, the whole); two that only hash: {machine(10):.2f}")

@@ -132,8 +132,14 @@ def told_beside(case: Case, simulation: Any) -> str:
     kinds: dict[str, list[np.ndarray]] = {}
     for name, off in beside(case, simulation).items():
         kind = name.rpartition(".")[2]
-        told = {"ex": "e {} c", "ey": "e {} c", "eps": "e {} c", "Fn": "Fn {} of itself", "omega": f"{name} {{}} rad/s"}
-        kinds.setdefault(told.get(kind, f"{name} {{}} rad"), []).append(off)
+        formats = {
+            "ex": "e {} c",
+            "ey": "e {} c",
+            "eps": "e {} c",
+            "Fn": "Fn {} of itself",
+            "omega": f"{name} {{}} rad/s",
+        }
+        kinds.setdefault(formats.get(kind, f"{name} {{}} rad"), []).append(off)
     parts = (text.format(f"{np.median(off):.0e} ({np.max(off):.0e})") for text, off in kinds.items())
     return f"off by, median (most): {', '.join(parts)}"
 
