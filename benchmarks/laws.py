@@ -2,7 +2,7 @@
 
     python -m benchmarks.laws [NAME ...]    # from the repository's root, with gudgeon installed
 
-Each law is compiled in a scene of one journal, with the flags of a run and the numbers with which it is plotted
+Each law is compiled in a scene of one journal, with the flags of a run and the values with which it is plotted
 (`gudgeon laws NAME --plot`), and called at 256 random states in turn; the smallest time of some rounds counts. It
 includes reading the states and adding up the results; the column "nothing" has the time of these alone.
 """

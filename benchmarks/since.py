@@ -121,7 +121,7 @@ def main() -> None:
         print(f"  {'':<44}{'before':>9}{'now':>9}{'ratio':>9}")
         for name, scene in COLD:
             least = dict.fromkeys(places, math.inf)
-            for k in range(options.repeats + 1):  # the first leaves Python's compiled modules behind
+            for k in range(options.repeats + 1):  # the first writes Python's compiled modules
                 for side, place in places.items():
                     took = cold(place, name, scene)
                     least[side] = min(least[side], took) if k else math.inf

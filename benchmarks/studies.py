@@ -2,15 +2,15 @@
 
     python -m benchmarks.studies [--repeats 3] [--batches | --large]
 
-studies/lubricated_10000.yaml, and a tenth of it (fewer viscosities), each in a process of its own: the tenth by one
-thread and by two in turns, the least of each is told, beside two threads that only hash; the whole by both. `alone` is
-the processor time of the same runs as one batch without samples; the rest is all that the study adds, series, measures
-and files. On a machine that does other things too, look at that ratio and at processor times. Memory is the most that a
-process had in all.
+studies/lubricated_10000.yaml and a tenth of it (fewer viscosities) run in separate processes. The tenth runs by one and
+by two threads in turns, and the smallest times are printed with the speedup of two independent threads. The whole study
+runs by one and by two threads. `alone` is the processor time of the same runs as one batch without samples; the rest is
+the cost of the study: series, measures and files. On a loaded machine, compare that ratio and processor times. Memory
+is the maximum of a process.
 
---batches: batches without a study, one thread, processor time a run of whole calls, the least of --repeats: dry presses
-of .05 s at one speed, c = .3 mm within 1 %, and over clearance x speed; lubricated ones of .4 s. Side by side in vector
-registers and one after the other, in turns.
+--batches: batches without a study in one thread; the smallest processor time of --repeats, per run of whole calls. Dry
+presses of 0.05 s at one speed with c = 0.3 mm within 1 %, and over clearance x speed; lubricated ones of 0.4 s. Runs in
+SIMD lanes and single runs take turns.
 
 --large: 100,000 presses in a batch on two threads, wall time of the whole call: dry ones of .05 s, lubricated ones of
 .4 s, each --repeats times.

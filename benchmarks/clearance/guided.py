@@ -75,7 +75,9 @@ class Guided(Rigid):
         )
         ratio = {k: abs(self.friction(k, float(gaps[k].slip_row @ smooth))) for k in pressed}
         for way in product((0.0, *SLIDES), repeat=len(pressed)):  # 0: it sticks
-            if way.count(0.0) > 1:  # corners of one slider slip alike: that more than one sticks is no other motion
+            if (
+                way.count(0.0) > 1
+            ):  # corners of one slider have equal slip: sticking of more than one gives the same motion
                 continue
             w, normal, along = self._bounce(
                 t,

@@ -288,7 +288,7 @@ class Led:
         j = [self.mass * length**2 / 12.0 for length in (l1, l2, l3)]  # about the middle, a quarter of that at an end
         p, cross = 0.5 * self.mass * l1 * l2, math.cos(alpha - theta)
         inertia = 4.0 * (j[0] + j[1] * a**2 + j[2] * b**2) + self.mass * l1**2 + 2.0 * p * cross * a
-        curving = 4.0 * j[1] * a * da + 2.0 * j[2] * b * db  # of the rocker half of what it is, as in the source
+        curving = 4.0 * j[1] * a * da + 2.0 * j[2] * b * db  # half of the rocker's term, as in the source
         curving += p * (cross * da + a * (1.0 - a) * math.sin(alpha - theta))
         angle, w = self.pace * t, self.pace
         e, rate = theta - self.reach * math.sin(angle), omega - self.reach * w * math.cos(angle)

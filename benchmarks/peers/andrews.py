@@ -40,7 +40,7 @@ ZT, TA, TB, U, UA, UB, ZF, FA = 0.04, 0.02308, 0.00916, 0.04, 0.01228, 0.00449, 
 C0, L0, TORQUE = 4530.0, 0.07785, 0.033
 
 Error = float
-Measured = tuple[Error, float, int]  # error, seconds of integration only, right-hand sides (−1: not told)
+Measured = tuple[Error, float, int]  # error, seconds of integration only, right-hand sides (−1: unknown)
 ATOL = 1e-2  # of rtol
 
 

@@ -34,7 +34,7 @@ T_END = {2: 3.0, 6: 1.5}
 M, L, J, G = 1.0, 1.0, 0.1, 9.81
 STEPS = 200  # of the reference
 RUNS, SPREAD = 64, 1e-3  # of a batch; rad
-Measured = tuple[float, float, int]  # error, seconds of integration only, right-hand sides (-1: not told)
+Measured = tuple[float, float, int]  # error, seconds of integration only, right-hand sides (-1: unknown)
 
 
 def starts(n: int, runs: int = 1) -> np.ndarray:

@@ -69,7 +69,7 @@ def run(rtol: float) -> andrews.Measured:
     atol = np.where(free, FREE, ATOL * rtol)
     torque = np.array([andrews.TORQUE])
     begin = perf_counter()
-    s = solve_ivp(  # PyDy answers in one array, over and over, and solve_ivp keeps what it is given: hence the copy
+    s = solve_ivp(  # PyDy returns the same array each time, and solve_ivp stores it: hence the copy
         lambda t, y: f(y, t, torque).copy(),
         (0.0, andrews.T_END),
         y0,

@@ -50,7 +50,7 @@ class Found:
 
     errors: dict[str, float]
     seconds: float
-    right_hand_sides: int  # −1: not told
+    right_hand_sides: int  # −1: unknown
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Entry:
     controls: tuple[float, ...]
     needs: tuple[str, ...] = ()  # modules
     method: str = ""  # gudgeon's own; "" for a peer
-    runs: int = 1  # that `seconds` is one share of
+    runs: int = 1  # number of runs over which `seconds` is averaged
 
     @property
     def missing(self) -> str:

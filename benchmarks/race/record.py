@@ -38,7 +38,7 @@ class Row:
     own: bool  # gudgeon's
     control: float
     seconds: float
-    right_hand_sides: int  # −1: not told
+    right_hand_sides: int  # −1: unknown
     errors: dict[str, float]
 
 
