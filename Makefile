@@ -1,10 +1,10 @@
-# Each of these does its own set-up (tools/setup) and is quick when there is nothing left to do.
+# Each target runs tools/setup first, which does nothing if the environment is complete.
 GUDGEON := .venv/bin/gudgeon
 ARGS ?=
-# a file's tests share what they derive: one worker has them all; their order is that of tests/conftest.py
+# tests of a file share derived equations: one worker runs them all; tests/conftest.py sets their order
 PYTEST := bin/pytest -n 2 --dist loadfile --no-loadscope-reorder -q
 MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
-# compiled modules are kept, or each start would compile numpy and sympy anew
+# Python's compiled modules are stored: otherwise each start would compile numpy and sympy again
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
@@ -17,7 +17,7 @@ help:  ## this list
 run: setup  ## the nine-bar press in three scenes: a table, and a picture under out/
 	@$(GUDGEON) run nine_bar_press $(ARGS)
 
-study: setup  ## Chen, Gao and Wang's paper (studies/chen_2022.yaml): its runs, numbers and trends, under out/
+study: setup  ## Chen, Gao and Wang's paper (studies/chen_2022.yaml): its runs, values and trends, under out/
 	@$(GUDGEON) study studies/chen_2022.yaml --out out/chen_2022.study $(ARGS)
 	@$(GUDGEON) study report out/chen_2022.study
 
@@ -25,14 +25,14 @@ study-jansen: setup  ## trends of a paper on a Jansen leg with play (studies/jan
 	@$(GUDGEON) study studies/jansen_wear.yaml --out out/jansen_wear.study $(ARGS)
 	@$(GUDGEON) study report out/jansen_wear.study
 
-checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
+checks: setup-test  ## measure and write the table of checks (docs/checks.md)
 	@.venv/bin/python -m tests.checks
 
-quick: setup-test  ## the inner loop: an example test of each folder, invalid files, house rules; ARGS="tests/FOLDER" for more
+quick: setup-test  ## quick tests: an example test of each folder, invalid files, house rules; ARGS="tests/FOLDER" for more
 	@.venv/bin/ruff check .
 	@.venv/$(PYTEST) tests/*/test_example.py tests/reader/test_mistakes.py tests/test_house.py $(ARGS)
 
-test: lint  ## ruff, mypy and the tests; mypy beside them, on one core, and what it says at the end
+test: lint  ## ruff, mypy and the tests; mypy runs at the same time on one core, with its messages at the end
 	@types=$$(mktemp); trap 'rm -f "$$types"' EXIT; \
 	($(MYPY)) >"$$types" 2>&1 & typing=$$!; \
 	.venv/$(PYTEST) $(ARGS); tested=$$?; \
@@ -67,7 +67,7 @@ docs:  ## the documentation as a site under build/site: references from docstrin
 	@sh tools/setup all,web,site
 	@.venv/bin/python -m sphinx -W --keep-going -q -b html docs build/site && echo "wrote build/site/index.html"
 
-links:  ## every link of the documentation that leads elsewhere is asked for; those within are seen to by make docs
+links:  ## check all external links of the documentation; make docs checks the internal ones
 	@sh tools/setup all,web,site
 	@.venv/bin/python -m sphinx -q -b linkcheck -t text docs build/links && echo "every link leads somewhere"
 
@@ -82,15 +82,15 @@ packages: setup-test  ## the wheel and the sdist, installed and run outside this
 mutate: setup-test  ## mutants of equations, laws, reduction and methods: do their tests notice? ARGS="--count 40"
 	@.venv/bin/python -m tests.mutate $(ARGS)
 
-coverage:  ## which lines the default tests run, those of the processes that they begin too. A half longer than make test
+coverage:  ## lines that the default tests run, child processes included. Takes 1.5 times as long as make test
 	@sh tools/setup all,test,cover
 	@.venv/$(PYTEST) --cov --cov-report=term:skip-covered $(ARGS)
 
-bench: setup  ## run time against error; one right-hand side beside the hand-written C
+bench: setup  ## run time against error; one right-hand side compared with hand-written C
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
 	@.venv/bin/python -m benchmarks.rhs
 
-race:  ## time to reach an error, gudgeon beside its peers; writes docs/race.md. A few minutes, on a quiet machine
+race:  ## time to reach an error, gudgeon and reference solvers; writes docs/race.md. A few minutes, on an idle machine
 	@sh tools/setup all,bench
 	@.venv/bin/python -m benchmarks.race --write $(ARGS)
 
@@ -102,11 +102,11 @@ stress: map
 peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` includes them
 	@.venv/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt scikit-sundae
 
-generated: setup  ## derive and write generated/ anew for every shipped mechanism; what Python knows of calls.h
+generated: setup  ## derive and write generated/ for every shipped mechanism; declarations of calls.h for Python
 	@.venv/bin/python tools/declared.py
 	@.venv/bin/python tools/regenerate.py
 
-deviations: setup  ## docs/film_deviation.png and its table, each film law beside the solver of Reynolds' equation
+deviations: setup  ## docs/film_deviation.png and its table: each film law compared with the solver of Reynolds' equation
 	@.venv/bin/python tools/deviations.py
 
 tables: setup  ## from declarations: tables of docs/format.md, docs/laws.md, docs/map.md, engine/scene/function_table.h

@@ -1,14 +1,14 @@
-"""The press over a box of parameters: no point may fail.
+"""Run the press at points of a box of parameters; no point may fail.
 
     python -m benchmarks.box                      # all corners and 1000 Sobol points, dry and lubricated: an hour
     python -m benchmarks.box --sobol 64           # a sample
     python -m benchmarks.box --point 17           # this one again, with all its numbers
 
-Clearance, stiffness, viscosity, speed, restitution, and both conventions of the contact's geometry; two
-periods of the cranks a point, method auto at its usual tolerance. What counts as failed is in
-`gudgeon.measure.cells`; a run that needs more than a minute a period fails too. Every point's verdict is
-appended to a table (--out); points that are in it are not run again, so that a broken run goes on. A verdict
-belongs to the code that gave it: those of other generators or templates are left alone and not counted.
+The parameters are clearance, stiffness, viscosity, speed, restitution, and the convention of the contact's geometry.
+Each point is run for two periods of the cranks, by method auto at its default tolerance. gudgeon/studies/verdicts.py
+defines which runs fail; a run that needs more than a minute per period fails too. The verdict of every point is
+appended to a table (--out). Points in the table are not run again, so that an interrupted benchmark can be resumed.
+Verdicts of other versions of generator and templates stay in the table and are not counted.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ HEAD = (
 
 @dataclass(frozen=True)
 class Point:
-    """One cell to be judged; `index` is its place in the scene's list."""
+    """A point of the box; `index` is its position in the list of its scene."""
 
     scene: str
     index: int
@@ -61,12 +61,12 @@ class Point:
 
     @property
     def t_end(self) -> float:
-        """Two turns of the cranks, s."""
+        """Return two periods of the cranks in s."""
         return PERIODS * 2 * math.pi / self.parameters["omega"]
 
     @property
     def python(self) -> str:
-        """Python that runs it again."""
+        """Return Python code that runs the point again."""
         contact = f'{{"contacts.dry.normal.geometry": "{self.geometry}"}}'
         return (
             f'gudgeon.load("{MECHANISM}", scene="{self.scene}", overrides={contact}).simulate('
@@ -75,7 +75,7 @@ class Point:
 
 
 def ranges(scene: str) -> list[Range]:
-    """The box, and the convention as a number: 1 external, 2 internal."""
+    """Return the edges of the box; the geometry is a number: 1 external, 2 internal."""
     edges = [
         Range("c", 0.05e-3, 1e-3),
         Range("materials.aluminium.E", 1e9, 400e9),
@@ -87,7 +87,7 @@ def ranges(scene: str) -> list[Range]:
 
 
 def points(scene: str, count: int) -> list[Point]:
-    """Corners, then Sobol points."""
+    """Return the corners of the box, then Sobol points."""
     edges = ranges(scene)
     found = []
     for index, point in enumerate([*corners(edges), *sobol(edges, count)]):
@@ -96,8 +96,8 @@ def points(scene: str, count: int) -> list[Point]:
     return found
 
 
-def loaded(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
-    """Every scene with each convention."""
+def load_scenes(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
+    """Load every scene with each convention of the geometry."""
     return {
         (scene, geometry): gudgeon.load(
             MECHANISM,
@@ -111,25 +111,26 @@ def loaded(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
 
 
 @cache
-def code() -> str:
-    """What the verdicts belong to: generator and templates. (A trajectory's last digits decide what a step meets.)"""
+def code_digest() -> str:
+    """Return the digest of generator and templates to which verdicts belong."""
     return generator_hash()[:12]
 
 
 def row(point: Point, cell: Cell) -> dict[str, object]:
-    """The table's line."""
+    """Return the line of the table for a point."""
     e = cell.error
     numbers = (cell.seconds, cell.energy, cell.penetration, e.motion, e.path, e.force)
     told = " ".join(f"{name}={value!r}" for name, value in point.parameters.items())
-    first = (code(), point.scene, point.geometry, point.index, cell.status.value, cell.reason)
+    first = (code_digest(), point.scene, point.geometry, point.index, cell.status.value, cell.reason)
     return dict(zip(HEAD, (*first, *(f"{x:.3g}" for x in numbers), told), strict=True))
 
 
-def judged(todo: list[Point], threads: int, rtol: float) -> Iterator[tuple[Point, Cell]]:
-    """As they are done; Ctrl-C leaves what is running."""
-    simulations = loaded(sorted({point.scene for point in todo}))
+def judge_points(todo: list[Point], threads: int, rtol: float) -> Iterator[tuple[Point, Cell]]:
+    """Yield points with their verdicts as they are finished; after Ctrl-C the active runs are finished."""
+    simulations = load_scenes(sorted({point.scene for point in todo}))
 
     def one(point: Point) -> Cell:
+        """Run and classify one point."""
         simulation = simulations[point.scene, point.geometry]
         return judge_point(simulation, point.parameters, point.t_end, Setting("auto", rtol), limit=PATIENCE * PERIODS)
 
@@ -142,8 +143,8 @@ def judged(todo: list[Point], threads: int, rtol: float) -> Iterator[tuple[Point
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def tell(rows: list[dict[str, str]]) -> None:
-    """Counts by scene, times, and every failure."""
+def print_summary(rows: list[dict[str, str]]) -> None:
+    """Print counts by scene, times, and all failed points."""
     for scene in CONTACT:
         own = [r for r in rows if r["scene"] == scene]
         if not own:
@@ -162,7 +163,7 @@ def tell(rows: list[dict[str, str]]) -> None:
 
 
 def main() -> None:
-    """Judge what the table does not have, then print it."""
+    """Run the points that the table does not contain, then print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scene", choices=list(CONTACT), action="append")
     parser.add_argument("--sobol", type=int, default=1000)
@@ -170,29 +171,29 @@ def main() -> None:
     parser.add_argument("--rtol", type=float, default=1e-8)
     parser.add_argument("--point", type=int, help="one index, with the Python that runs it again; not stored")
     parser.add_argument("--out", type=Path, default=Path("out/box.csv"))
-    asked = parser.parse_args()
-    todo = [p for scene in asked.scene or CONTACT for p in points(scene, asked.sobol)]
-    if asked.point is not None:
-        for point, cell in judged([p for p in todo if p.index == asked.point], 1, asked.rtol):
+    options = parser.parse_args()
+    todo = [p for scene in options.scene or CONTACT for p in points(scene, options.sobol)]
+    if options.point is not None:
+        for point, cell in judge_points([p for p in todo if p.index == options.point], 1, options.rtol):
             print(point.python, *(f"  {k} {v}" for k, v in row(point, cell).items()), sep="\n")
         return
-    asked.out.parent.mkdir(parents=True, exist_ok=True)
-    old = list(csv.DictReader(asked.out.open(encoding="utf-8"))) if asked.out.exists() else []
-    rows = [r for r in old if r["code"] == code()]
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    old = list(csv.DictReader(options.out.open(encoding="utf-8"))) if options.out.exists() else []
+    rows = [r for r in old if r["code"] == code_digest()]
     have = {(r["scene"], int(r["index"])) for r in rows}
     todo = [point for point in todo if (point.scene, point.index) not in have]
-    with asked.out.open("a", encoding="utf-8", newline="") as file:
+    with options.out.open("a", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, HEAD, lineterminator="\n")
         if not old:
             writer.writeheader()
-        for done, (point, cell) in enumerate(judged(todo, asked.threads, asked.rtol) if todo else (), 1):
+        for done, (point, cell) in enumerate(judge_points(todo, options.threads, options.rtol) if todo else (), 1):
             found = {key: str(value) for key, value in row(point, cell).items()}
             rows.append(found)
             writer.writerow(found)
             file.flush()
             if cell.failed or done % 100 == 0:
                 print(f"{done}/{len(todo)} {point.scene} {point.index}: {cell.status.value} {cell.reason}", flush=True)
-    tell(rows)
+    print_summary(rows)
 
 
 if __name__ == "__main__":

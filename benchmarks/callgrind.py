@@ -1,10 +1,9 @@
-"""Instructions of one call, counted by callgrind: figures that do not depend on the machine or on who else uses it.
+"""Count the instructions of one call by callgrind, independent of the machine and its load.
 
-A small C driver makes `count` calls. It is run with two counts under valgrind; their difference over that of the
-counts is one call, and the start of the process, the loader and `atol` cancel. Numbers reach the driver in
-hexadecimal and live in a file of their own, so that the compiler cannot compute with them beforehand. Valgrind does
-not know every instruction of every processor: on x86 all is compiled for x86-64-v3 (AVX2), which also makes machines
-comparable.
+A small C driver makes `count` calls. It is run with two counts under valgrind. The difference of instructions over the
+difference of counts is one call, since the start of the process, the loader and `atol` cancel. Values are written in
+hexadecimal. Valgrind does not support every instruction of every processor: on x86 all is compiled for x86-64-v3
+(AVX2), which also makes machines comparable.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ from gudgeon.loading.engine import UNIT, declarations, include_flags
 
 COUNTS = (100, 1100)
 PORTABLE = ("-march=x86-64-v3",) if os.uname().machine == "x86_64" else ()
-FLAGS = (*compiler.FLAGS, *PORTABLE)  # a scene's own, for that processor
+FLAGS = (*compiler.FLAGS, *PORTABLE)  # flags of a scene, for that processor
 DRIVER = """\
 #include <stddef.h>
 #include <stdlib.h>
@@ -45,7 +44,7 @@ int main(int argc, char **argv)
 
 @dataclass(frozen=True)
 class Call:
-    """`call` is an expression of type double that makes `count` calls, on `arrays` of doubles by name."""
+    """A C expression `call` of type double that makes `count` calls, with named `arrays` of doubles."""
 
     files: Mapping[str, str]
     units: tuple[str, ...]
@@ -56,17 +55,20 @@ class Call:
 
 
 def of_scene(source: KernelSource, call: str, arrays: Mapping[str, np.ndarray]) -> Call:
-    """A call of a scene's library."""
+    """Return a call of a function in a scene's library."""
     return Call(source.files, (source.main, str(UNIT)), declarations(source), call, arrays, (*FLAGS, *include_flags()))
 
 
 def available() -> bool:
-    """Whether valgrind is installed."""
+    """Return whether valgrind is installed."""
     return shutil.which("valgrind") is not None
 
 
 def instructions(call: Call, counts: tuple[int, int] = COUNTS) -> float:
-    """Of one call. Raises RuntimeError without valgrind, or where something cannot be compiled or run."""
+    """Return the number of instructions of one call.
+
+    Raises RuntimeError without valgrind, or if something cannot be compiled or run.
+    """
     if not available():
         raise RuntimeError("instructions are counted by valgrind, which is not installed (apt-get install valgrind)")
     with tempfile.TemporaryDirectory() as name:
@@ -83,21 +85,22 @@ def instructions(call: Call, counts: tuple[int, int] = COUNTS) -> float:
 
 
 def _array(name: str, values: np.ndarray) -> str:
-    """Exact: hexadecimal; NaN and infinity by their usual expressions. No array of C is empty."""
+    """Return a C array with exact values: hexadecimal; it has at least one element."""
     words = [_word(float(x)) for x in np.ravel(values)] or ["0.0"]
     return f"static double {name}[] = {{{', '.join(words)}}};"
 
 
 def _word(x: float) -> str:
+    """Return a C expression for a double, with NaN and infinity."""
     if math.isnan(x):
         return "0.0/0.0"
     return x.hex() if math.isfinite(x) else f"{'-' if x < 0 else ''}1.0/0.0"
 
 
 def _total(folder: Path, count: int) -> int:
-    """Instructions of the whole process."""
+    """Return the number of instructions of the whole process."""
     report = folder / f"count_{count}.out"
-    digits = f"{count:09d}"  # as many, or `atol` would not cancel
+    digits = f"{count:09d}"  # a fixed number of digits, so that `atol` cancels
     _run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={report}", "./driver", digits], folder)
     found = re.search(r"^(?:summary|totals): (\d+)", report.read_text(), re.MULTILINE)
     if found is None:
@@ -106,6 +109,7 @@ def _total(folder: Path, count: int) -> int:
 
 
 def _run(command: list[str], folder: Path) -> None:
+    """Run a command. Raises RuntimeError if it fails."""
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace")
     if done.returncode:
         raise RuntimeError(f"{command[0]} failed: {done.stderr.strip()[-400:]}")

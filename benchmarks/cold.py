@@ -1,15 +1,18 @@
-"""Cold and warm starts: what a scene costs from nothing to its first result, by stage.
+"""Measure cold and warm starts: the time from the start of a process to the first result of a scene, by stage.
 
     python -m benchmarks.cold [--repeats 3]
 
-Each start is a process of its own. A cold one has an empty cache: it reads, derives, emits and compiles one scene of a
-copy of a shipped file, whose engine is foreseen (`Ahead.foresee`), but for the first one, of which no C is kept. One
-after an edit has the cache of the start before it, as a designer has who changes a file: it derives and compiles anew,
-but what scenes share is there (loading/ahead.py). A warm one finds equations and library. `all` is from the start of
-the process to its first result, `optimized` to when the optimized library is there, which another process makes
-behind the first result (loading/behind.py; with GUDGEON_QUICK=0 it is waited for). The least wall time of a few is
-told, and the processor time of Python and of the compiler up to the first result; before, one start is thrown away: it
-leaves Python's compiled modules behind, which an installed gudgeon has.
+Each start is a process of its own.
+
+- A cold start has an empty cache: it reads, derives, emits and compiles one scene of a copy of a shipped file. The
+  engine is compiled before it is needed.
+- A start after an edit has the cache of the start before: it derives and compiles anew, but finds what scenes share.
+- A warm start finds equations and library.
+
+`all` is the time from the start of the process to the first result. `optimized` is the time until the optimized library
+exists, which another process compiles in the background (with GUDGEON_QUICK=0 the start waits for it). The table has
+the smallest wall time of some starts, and the processor times of Python and of the compiler until the first result.
+One start before is not counted: it writes Python's compiled modules, which an installed gudgeon has.
 """
 
 from __future__ import annotations
@@ -26,7 +29,7 @@ from time import perf_counter
 from benchmarks.rhs import machine
 from gudgeon.loading.shipped import shipped_file
 
-# (scene, seconds that are asked for)
+# (mechanism, scene, required time in s)
 SCENES = (
     ("jansen_leg", "ideal", 3.0),
     ("andrews_squeezer", "ideal", 3.0),
@@ -35,7 +38,7 @@ SCENES = (
     ("nine_bar_press", "dry", 1.5),
     ("nine_bar_press", "lubricated", 1.5),
 )
-WARM = 0.3  # s
+WARM = 0.3  # required time of a warm start in s
 KINDS = ("cold", "edited", "warm")
 START = """
 import json, resource, sys
@@ -54,10 +57,10 @@ COLUMNS = ("source", "compile", "all", "optimized", "asked", "python", "compiler
 
 
 def start(name: str, scene: str, kind: str, folder: str) -> dict[str, float]:
-    """One process: its stages, "all" from before its start to its first result, "optimized" to its end (s)."""
+    """Run one start; return its stages, "all" until the first result, "optimized" until the process ends, in s."""
     cache = tempfile.mkdtemp(dir=folder) if kind == "cold" else folder
     if kind != "warm":
-        name = _edited(name, folder)
+        name = _copy_edited(name, folder)
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"} | {"GUDGEON_CACHE": cache}
     begin = perf_counter()
     with subprocess.Popen(
@@ -71,8 +74,8 @@ def start(name: str, scene: str, kind: str, folder: str) -> dict[str, float]:
     return {**json.loads(told), "all": first, "optimized": perf_counter() - begin}
 
 
-def _edited(name: str, folder: str) -> str:
-    """A copy of a shipped mechanism's file with a title that no other start has seen."""
+def _copy_edited(name: str, folder: str) -> str:
+    """Return a copy of a shipped mechanism's file with a title that no other start has used."""
     file = Path(tempfile.mkdtemp(dir=folder), f"{name}.yaml")
     text = shipped_file(name).read_text(encoding="utf-8")
     file.write_text(text.replace("title: ", f"title: {file.parent.name} ", 1), encoding="utf-8")
@@ -80,14 +83,14 @@ def _edited(name: str, folder: str) -> str:
 
 
 def least(name: str, scene: str, kind: str, repeats: int) -> dict[str, float]:
-    """The fastest of some, after one that is thrown away."""
+    """Return the fastest of some starts, after one that is not counted."""
     with tempfile.TemporaryDirectory() as folder:
         found = [start(name, scene, kind, folder) for _ in range(repeats + 1)]
     return min(found[1:], key=lambda found: found["all"])
 
 
 def main() -> None:
-    """Command line."""
+    """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--repeats", type=int, default=3)
     repeats = parser.parse_args().repeats

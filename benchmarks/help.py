@@ -1,4 +1,4 @@
-"""Processor time of `--help` of each command beyond that of Python's own start, least of some starts.
+"""Measure the processor time of `--help` of each command beyond that of Python's own start.
 
 python -m benchmarks.help [--starts 7]
 """
@@ -17,8 +17,8 @@ from gudgeon.cli import app
 START = "from gudgeon.entry import main; main()"
 
 
-def spent(starts: int, *line: str) -> float:
-    """s, of user and system."""
+def start_seconds(starts: int, *line: str) -> float:
+    """Return the smallest processor time (user and system, s) of some starts of Python with these arguments."""
     found = []
     for _ in range(starts):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -29,14 +29,14 @@ def spent(starts: int, *line: str) -> float:
 
 
 def main() -> None:
-    """A line for each command."""
+    """Print a line for each command."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--starts", type=int, default=7)
     starts = parser.parse_args().starts
-    alone = spent(starts, "-c", "pass")
+    alone = start_seconds(starts, "-c", "pass")
     print(f"{'Python alone':>14} {alone:.3f} s")
     for name in ("", *getattr(typer.main.get_command(app), "commands", {})):
-        took = spent(starts, "-c", START, *name.split(), "--help") - alone
+        took = start_seconds(starts, "-c", START, *name.split(), "--help") - alone
         print(f"{name or 'gudgeon':>14} {took:.3f} s", flush=True)
 
 

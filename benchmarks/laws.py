@@ -1,10 +1,10 @@
-"""What each law of force costs by itself: nanoseconds an evaluation of its function in C, as scenes call it.
+"""Measure the time of one evaluation of each force law in C, in ns, as scenes call it.
 
     python -m benchmarks.laws [NAME ...]    # from the repository's root, with gudgeon installed
 
-Each law is compiled in a scene of one journal, with the flags of a run and the numbers with which it is plotted
-(`gudgeon laws NAME --plot`), and called at 256 random states in turn; the least of some rounds. What reading the
-states and adding the results up takes is in each figure: the line "nothing" has it alone.
+Each law is compiled in a scene of one journal, with the flags of a run and the values with which it is plotted
+(`gudgeon laws NAME --plot`), and called at 256 random states in turn; the smallest time of some rounds counts. It
+includes reading the states and adding up the results; the column "nothing" has the time of these alone.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ bearings: {{pin: {{radius: 10 mm, clearance: 0.1 mm, length: 20 mm, bearing_mate
 contacts: {{it: {{{contact}}}}}
 scenes: {{alone: {{play: {{A: {{bearing: pin, contact: it}}}}}}}}
 """
-# Between which values each variable is drawn, SI; states of laws as z.
+# Ranges of the random variables in SI; inner states of laws as z.
 DRAWN = {
     "delta": (0.0, 5e-6),
     "ratio": (-1.0, 1.0),
@@ -95,7 +95,7 @@ int main(void)
 
 
 def contact(law: Law) -> str:
-    """A contact that has the law; friction rubs under a contact of Hertz's, which a share blends with an oil film."""
+    """Return the YAML text of a contact with the law; friction and mixed laws get the other laws that they need."""
     keys = "".join(f", {name}: {value!r}" for name, value in chosen_numbers(law).items())
     below = "normal: {law: hertz, stiffness: 1e9}, " if law.role in ("friction", "mixed") else ""
     below += "film: {law: ocvirk, viscosity: 0.1}, " if law.role == "mixed" else ""
@@ -103,12 +103,12 @@ def contact(law: Law) -> str:
 
 
 def scene(law: Law) -> bytes:
-    """A journal in its bearing, as a file."""
+    """Return a mechanism file of a journal in its bearing, with the law."""
     return SCENE.format(contact=contact(law)).encode()
 
 
 def call_of(program: Program, law: Law) -> tuple[str, list[str]]:
-    """The call in C, of `at`, and the variables that stand there; a share is lines within its joint's function."""
+    """Return the call in C with arguments from `at`, and the names of these variables."""
     pin = program.pins[0]
     if law.role == "mixed":
         return f"const double delta = at[0];\n{statements(pin.share)}\nout[0] = share;", ["delta"]
@@ -119,7 +119,7 @@ def call_of(program: Program, law: Law) -> tuple[str, list[str]]:
 
 
 def harness(call: str, names: list[str], results: int, slots: int) -> str:
-    """The program that times a call and prints nanoseconds, then the sum of what it computed."""
+    """Return the C program that times a call and prints ns, then the sum of its results."""
     low, high = (", ".join(repr(DRAWN.get(name, DRAWN["z"])[k]) for name in names) for k in (0, 1))
     return HARNESS % {
         "low": low,
@@ -135,7 +135,7 @@ def harness(call: str, names: list[str], results: int, slots: int) -> str:
 
 
 def timed(law: Law, folder: Path) -> tuple[float, float]:
-    """ns an evaluation, and of nothing but the loop."""
+    """Return the ns of one evaluation, and of the loop without it. Raises RuntimeError for non-finite results."""
     model = derive(scene(law), f"{law.name}.yaml", "alone")
     source, program = in_c(model), make_program(model)
     for name, text in source.files.items():
@@ -155,12 +155,12 @@ def timed(law: Law, folder: Path) -> tuple[float, float]:
 
 
 def has_a_function(law: Law) -> bool:
-    """Surfaces that do not give have no force law: their force costs a right-hand side more for each closed contact."""
+    """Return whether the law has a function: rigid contacts have none."""
     return not law.rigid
 
 
 def lines(names: list[str]) -> Iterator[str]:
-    """A line a law, by role."""
+    """Yield the lines of the table by role."""
     yield f"  {'role':<9}{'law':<24}{'ns':>7}{'nothing':>9}"
     some = [law for law in house().values() if (not names or law.name in names) and has_a_function(law)]
     for law in sorted(some, key=lambda one: ([*RESULTS].index(one.role), one.name)):

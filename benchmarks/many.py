@@ -1,18 +1,19 @@
-"""200 lubricated runs, clearance x speed: time a run and core, what a second thread brings, and a vector to rk4.
+"""Measure ensembles of 200 lubricated runs over clearance and speed: threads, SIMD lanes, series.
 
     python -m benchmarks.many [--clearances 10] [--speeds 20] [--beside | --outside | --series]
 
-The press of the race (l5 = .25 m, no gravity), c = .3 ... .8 mm, omega = pi ... 8 pi, .4 s each, 201 outputs. The
-loosest tolerance of a list whose worst slider error over all runs is at most 1e-6 of the ideal stroke is timed, the
-reference being the stiff method at 1e-10; at the race's clearance and speed it is compared with the race's reference,
-which owes nothing to gudgeon. Times are of whole batches: starts assembled, runs, arrays.
+The press of the race (l5 = 0.25 m, no gravity) is run with c = 0.3 ... 0.8 mm and omega = pi ... 8 pi for 0.4 s, with
+201 outputs. The loosest tolerance whose worst slider error over all runs is at most 1e-6 of the ideal stroke is timed.
+The reference is the stiff method at 1e-10. At the race's clearance and speed it is compared with the race's reference,
+which is independent of gudgeon. Times are those of whole batches: assembly of starts, runs, arrays.
 
-Then rk4 with one step for all, in one thread: runs side by side in vector registers against the same one after the
-other, which gives the same bits. Then whole calls of `simulate` in two threads of the caller's (a ThreadPool) against
-one after the other, beside `simulate_many` with two threads against one; what a call does besides, reactions and energy
-balance among it, is its processor time less that of a run of the batch; `waiting` is the share of its time in the pool
-in which it neither runs nor waits for a core, but for Python's lock. Last a series of 1,000 runs of 201 samples,
-against one taken from each run's whole result.
+Further tables:
+
+- rk4 with one step for all runs in one thread: runs in SIMD lanes against single runs, with equal bits.
+- Whole calls of `simulate` in two threads of the caller (a ThreadPool) against calls one after the other, and
+  `simulate_many` with two threads against one. `besides` is the processor time of a call less that of a run of the
+  batch. `waiting` is the fraction of time in the pool in which a call waits for Python's lock.
+- A series of 1,000 runs of 201 samples, against series taken from each run's result.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
-BATCH = 64  # runs side by side
+BATCH = 64  # runs in SIMD lanes
 RUNS_OUTSIDE = 24
 # mechanism, scene, columns (address, from, to), end and step in s
 BESIDE: tuple[tuple[str, str, dict[str, tuple[float, float]], float, float], ...] = (
@@ -45,18 +46,18 @@ BESIDE: tuple[tuple[str, str, dict[str, tuple[float, float]], float, float], ...
     ("slider_crank_spring", "ideal", {"forces.coil.stiffness": (100.0, 5000.0)}, 0.5, 1e-4),
 )
 TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6)
-WANTED = 1e-6  # of the stroke
+REQUIRED_ERROR = 1e-6  # required accuracy, over the stroke
 SLIDER = "S9.y"
 
 
 def grid(clearances: int, speeds: int) -> dict[str, float | np.ndarray]:
-    """Columns of clearance x speed."""
+    """Return the parameter columns of all pairs of clearance and speed."""
     c, omega = np.meshgrid(np.linspace(0.3e-3, 0.8e-3, clearances), np.pi * np.linspace(1.0, 8.0, speeds))
     return {"l5": 0.25, "gravity.y": 0.0, "c": c.ravel(), "omega": omega.ravel()}
 
 
 def run(simulation: Simulation, parameters: dict[str, float | np.ndarray], **options: object) -> Batch:
-    """One batch over the race's output times."""
+    """Run one batch with the race's output times. Raises SystemExit if a run fails."""
     work = press.work("lubricated")
     batch = simulation.simulate_many(parameters, output=work.times, **options)  # type: ignore[arg-type]
     if batch.failures:
@@ -65,20 +66,20 @@ def run(simulation: Simulation, parameters: dict[str, float | np.ndarray], **opt
 
 
 def worst(batch: Batch, reference: Batch) -> float:
-    """The largest slider error of any run, as a share of the ideal stroke."""
+    """Return the largest slider error of all runs, over the ideal stroke."""
     column = batch.source.coordinates.index(SLIDER)
     return float(np.abs(batch.q[:, :, column] - reference.q[:, :, column]).max() / press.work("lubricated").stroke)
 
 
 def confirm(simulation: Simulation) -> float:
-    """How far the method of the reference is from the race's reference, as a share of the stroke."""
+    """Return the difference of the reference method from the race's reference, over the stroke."""
     work = press.work("lubricated")
     own = run(simulation, dict(work.parameters), method="rodas5p", rtol=1e-10).q[0]
     return press.errors(work, press.Samples(own, (np.zeros(0), np.zeros(0))), press.reference("lubricated")).slider
 
 
 def least(simulation: Simulation, parameters: dict[str, float | np.ndarray], rtol: float, repeats: int) -> list[float]:
-    """Least wall time of a batch with one thread and with two, taken in turns, and CPU time of the same, s."""
+    """Return the smallest wall times of a batch with one and two threads, then the processor times, in s."""
     found = [math.inf] * 4
     for _ in range(repeats):
         for k in (0, 1):
@@ -89,7 +90,7 @@ def least(simulation: Simulation, parameters: dict[str, float | np.ndarray], rto
 
 
 def machine(repeats: int) -> float:
-    """How many times as fast two threads that share nothing are: what other work leaves of the second core."""
+    """Return the speedup of two independent threads on this machine, limited by other work on the second core."""
     data, found = bytes(1 << 25), [math.inf, math.inf]
     for _ in range(repeats):
         for k in (0, 1):
@@ -104,7 +105,7 @@ def machine(repeats: int) -> float:
 
 
 def side_by_side(repeats: int) -> None:
-    """Prints the time of a step and run of rk4, alone and beside others, taken in turns."""
+    """Print the time of a step and run of rk4, for single runs and in SIMD lanes."""
     print("\n  rk4, one thread                 us a step and run: alone  side by side  ratio")
     for name, scene, columns, t_end, step in BESIDE:
         simulation = gudgeon.load(name, scene=scene, quick=False)
@@ -123,7 +124,7 @@ def side_by_side(repeats: int) -> None:
 
 
 def in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, float]:
-    """Least wall time of each, s."""
+    """Return the smallest wall time of each work in s; the works take turns."""
     found = dict.fromkeys(works, math.inf)
     for _ in range(repeats):
         for name, work in works.items():
@@ -133,17 +134,19 @@ def in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, 
     return found
 
 
-def waited(work: Callable[[float], object], values: list[float], threads: int) -> float:
-    """Share of a call's wall time in which its thread neither ran nor waited for a core: for a lock. NaN: not Linux.
+def waiting_fraction(work: Callable[[float], object], values: list[float], threads: int) -> float:
+    """Return the fraction of a call's wall time in which its thread waits for a lock; NaN if not on Linux.
 
-    Other work on the machine makes that larger, for who has the lock waits for a core too, but not by itself.
+    Other work on the machine increases it, because the holder of the lock waits for a core.
     """
 
     def clocks() -> tuple[float, float]:
+        """Return wall time, and running plus runnable time of the thread, in s."""
         ran, ready, _ = map(int, Path("/proc/thread-self/schedstat").read_text().split())
         return perf_counter(), 1e-9 * (ran + ready)
 
     def one(value: float) -> tuple[float, float]:
+        """Return wall time and busy time of one call."""
         before = clocks()
         work(value)
         (wall, busy), (wall_0, busy_0) = clocks(), before
@@ -158,23 +161,27 @@ def waited(work: Callable[[float], object], values: list[float], threads: int) -
 
 
 def outside(repeats: int) -> None:
-    """Prints how whole calls in threads of the caller's scale, beside the batch's own threads."""
+    """Print how whole calls in threads of the caller scale, compared with the batch's own threads."""
     print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash  waiting")
     for scene, t_end in (("lubricated", 1.0), ("dry", 0.2)):
-        _outside(gudgeon.load("nine_bar_press", scene=scene, quick=False), t_end, repeats)
+        _measure_outside(gudgeon.load("nine_bar_press", scene=scene, quick=False), t_end, repeats)
 
 
-def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
+def _measure_outside(simulation: Simulation, t_end: float, repeats: int) -> None:
+    """Print the scaling of one scene."""
     clearances = np.linspace(4e-4, 8e-4, RUNS_OUTSIDE).tolist()
 
     def one(c: float) -> Result:
+        """Run one simulation."""
         return simulation.simulate(t_end, output=200, parameters={"c": c})
 
     def pool() -> None:
+        """Run all simulations in two threads."""
         with ThreadPoolExecutor(2) as threads:
             list(threads.map(one, clearances))
 
     def batch(threads: int) -> None:
+        """Run all simulations as a batch."""
         simulation.simulate_many({"c": clearances}, t_end, output=200, threads=threads)
 
     one(4e-4)
@@ -193,13 +200,13 @@ def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
     found = in_turns(works, repeats)
     ratios = found["one"] / found["pool"], found["batch 1"] / found["batch 2"], machine(repeats)
     told = "".join(f"{x:{width}.2f}" for x, width in zip(ratios, (11, 12, 16), strict=True))
-    told += f"{100.0 * waited(one, 4 * clearances, 2):8.1f} %"
+    told += f"{100.0 * waiting_fraction(one, 4 * clearances, 2):8.1f} %"
     ms = 1e3 / RUNS_OUTSIDE
     print(f"  {'nine_bar_press, ' + simulation.source.scene:<36} {ms * in_c:10.2f} {ms * other:8.2f}{told}")
 
 
 def series(repeats: int) -> None:
-    """Prints what a series of many runs takes, in threads from the states, and one by one from whole results."""
+    """Print the time of a series of many runs: from the states in threads, and from whole results one by one."""
     simulation = gudgeon.load("nine_bar_press", scene="dry", quick=False)
     batch = simulation.simulate_many({"c": np.linspace(3e-4, 8e-4, 1000)}, 0.02, output=200)
     print(f"\n  a series of {len(batch)} runs of {len(batch.t)} samples, ms: in threads  run by run   ratio")
@@ -217,7 +224,7 @@ def series(repeats: int) -> None:
 
 
 def main() -> None:
-    """Command line."""
+    """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--clearances", type=int, default=10)
     parser.add_argument("--speeds", type=int, default=20)
@@ -240,7 +247,7 @@ def main() -> None:
     for rtol in TOLERANCES:
         error = worst(run(simulation, parameters, rtol=rtol), reference)
         print(f"  {rtol:<7.0e} {error:.1e}")
-        if error <= WANTED:
+        if error <= REQUIRED_ERROR:
             break
     one, two, cpu_one, cpu_two = least(simulation, parameters, rtol, options.repeats)
     n = len(reference)

@@ -1,12 +1,12 @@
-"""One right-hand side: reduced and full, its time beside its operations, and hand-written code beside both.
+"""Measure one right-hand side: reduced, full and hand-written, with time, operations and results.
 
     python -m benchmarks.rhs                # from the repository's root, with gudgeon installed
     python -m benchmarks.rhs --callgrind    # instructions too, counted by valgrind
 
-Each work is timed at one state of its motion, and what the right-hand side gives there is printed: a checksum, a few
-accelerations, how far Φ and Φ̇ are from 0, and how far reduced, full and hand-written right-hand sides differ. The
-press's peer is the dense C of benchmarks/peers (44 × 44, Gaussian elimination), what a careful user writes by hand;
-Andrews' is jitcode's C, called from Python, where that is installed.
+Each problem is timed at one state of its motion. The results there are printed: a checksum, a few accelerations, |Φ|
+and |Φ̇|, and the differences of reduced, full and hand-written right-hand sides. The reference code for the press is the
+dense C of tests/oracles (44 × 44, Gaussian elimination). For Andrews' squeezer it is jitcode's C, called from Python,
+if that is installed.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from gudgeon.studies.methods import operations
 from tests.oracles import press_dense
 from tests.oracles.press_dense import Press
 
-BAR = 0.15  # µs that a reduced right-hand side may take
-ROUNDS, BATCH = 12, 20_000  # in which all take turns: the least tells the code from whatever else the machine does
+BAR = 0.15  # µs, required time of a reduced right-hand side
+ROUNDS, BATCH = 12, 20_000  # rounds in which all take turns (the smallest time counts), calls in a round
 SHOWN = 3  # accelerations that are printed
 # Widest first, by the flag that Linux has for each
 VECTORS = {"avx512f": "AVX-512", "avx2": "AVX2", "avx": "AVX", "sse2": "SSE2", "sve": "SVE", "asimd": "Neon"}
@@ -42,7 +42,7 @@ DENSE = "double press_seconds_per_rhs(const void *p, double t, const double *y, 
 
 @dataclass(frozen=True)
 class Work:
-    """A state of a run: t (s), q and v (n,), what contacts have stored; `closed` are the joints in contact."""
+    """A state of a run: t (s), q and v (n,), stored contact states; `closed` are the joints in contact."""
 
     name: str
     simulation: Simulation
@@ -55,7 +55,7 @@ class Work:
 
     @cached_property
     def tree(self) -> tuple[np.ndarray, np.ndarray]:
-        """The state in tree coordinates."""
+        """Return the state in tree coordinates: s and its rate."""
         model, n = self.simulation.compiled, len(self.simulation.source.tree)
         s, rate = np.zeros(n + 1), np.zeros(n + 1)
         model.lib.gudgeon_reduce(self.t, *map(model.pointer, (self.q, self.v, self.simulation.p, s, rate)))
@@ -63,31 +63,32 @@ class Work:
 
     @cached_property
     def state(self) -> np.ndarray:
-        """y of the full formulation."""
+        """Return the state y of the full formulation."""
         return np.concatenate([self.q, self.v, np.zeros(N_WORK)])
 
     @property
     def operations(self) -> tuple[int, int]:
-        """Of the full and of the reduced right-hand side on the way that this state takes, force laws included."""
+        """Return the operations of the full and of the reduced right-hand side at this state, with force laws."""
         counts = self.simulation.source.operations
         full = operations(self.simulation, list(self.closed))
         return full, full - counts["dynamics"] + counts["reduced_dynamics"]
 
 
 def works() -> list[Work]:
-    """The press dry (free, and at the first contact's peak), lubricated, and Andrews' squeezer."""
+    """Return the problems: press dry (free, and at the first contact's peak), lubricated, and Andrews' squeezer."""
     dry, oil = (gudgeon.load("nine_bar_press", scene=scene, quick=False) for scene in ("dry", "lubricated"))
     peak = float(dry.simulate(0.01).impacts[0]["t_peak"])
     peer = Press(common_point=True)  # contact forces act where gudgeon's do
     return [
-        _at("press dry, free", dry, 0.005, peer),
-        _at("press dry, contact", dry, peak, peer),
-        _at("press lubricated", oil, 0.1, replace(peer, film=True)),
-        _at("Andrews", gudgeon.load("andrews_squeezer", quick=False), 0.01, None),
+        _work_at("press dry, free", dry, 0.005, peer),
+        _work_at("press dry, contact", dry, peak, peer),
+        _work_at("press lubricated", oil, 0.1, replace(peer, film=True)),
+        _work_at("Andrews", gudgeon.load("andrews_squeezer", quick=False), 0.01, None),
     ]
 
 
-def _at(name: str, simulation: Simulation, t: float, peer: Press | None) -> Work:
+def _work_at(name: str, simulation: Simulation, t: float, peer: Press | None) -> Work:
+    """Return the state of a scene at the time t."""
     run = simulation.simulate(t, output=1, rtol=1e-10)
     joints = simulation.source.clearances
     closed = tuple(j.name for j, code in zip(joints, run.state[-1], strict=True) if code) if joints else ()
@@ -97,7 +98,7 @@ def _at(name: str, simulation: Simulation, t: float, peer: Press | None) -> Work
 
 @dataclass(frozen=True)
 class Result:
-    """What a right-hand side gives: s̈ in tree coordinates; max |Φ|, max |Φ̇|; shares by which others differ."""
+    """Result of a right-hand side: s̈ in tree coordinates; max |Φ|, max |Φ̇|; relative differences from other codes."""
 
     accelerations: np.ndarray
     phi: float
@@ -107,7 +108,7 @@ class Result:
 
 
 def result(work: Work) -> Result:
-    """At the work's state. The full right-hand side is what the peer is compared with."""
+    """Evaluate a problem; the reference code is compared with the full right-hand side. Raises RuntimeError."""
     model, p = work.simulation.compiled, work.simulation.p
     s, rate = work.tree
     n, t = len(s) - 1, work.t
@@ -122,23 +123,27 @@ def result(work: Work) -> Result:
     if work.peer is not None:
         stored = np.nan_to_num(work.memory)
         dense, _, _ = press_dense.rhs(work.peer, t, work.state[:-N_WORK], (float(stored[0]), float(stored[1])))
-        from_peer = _share(dense[len(work.q) :], full)
+        from_peer = _relative_difference(dense[len(work.q) :], full)
     rates = model.phi_q(t, work.q, p) @ work.v - model.nu(t, work.q, p)
     phi = model.phi(t, work.q, p)
-    return Result(a[:n], float(abs(phi).max()), float(abs(rates).max()), _share(a[angles], same), from_peer)
+    return Result(
+        a[:n], float(abs(phi).max()), float(abs(rates).max()), _relative_difference(a[angles], same), from_peer
+    )
 
 
-def _share(got: np.ndarray, want: np.ndarray) -> float:
+def _relative_difference(got: np.ndarray, want: np.ndarray) -> float:
+    """Return the largest difference over the largest value."""
     return float(abs(got - want).max() / abs(want).max())
 
 
 def timers(work: Work) -> list[Callable[[], float]]:
-    """Seconds of one call in C: full, reduced, and the peer's (NaN without one)."""
+    """Return functions that return the seconds of one call in C: full, reduced, reference code (NaN without one)."""
     model, p = work.simulation.compiled, work.simulation.p
     full = tuple(map(model.pointer, (work.state, work.memory, p)))
     reduced = tuple(map(model.pointer, (*work.tree, work.memory, p)))
 
     def seconds(function: Callable[..., float], pointers: tuple[object, ...]) -> float:
+        """Return the seconds of one call."""
         before = perf_counter()
         function(BATCH, work.t, *pointers)
         return (perf_counter() - before) / BATCH
@@ -151,6 +156,7 @@ def timers(work: Work) -> list[Callable[[], float]]:
 
 
 def _peer_seconds(work: Work) -> float:
+    """Return the seconds of one call of the reference code; NaN without one."""
     if work.peer is not None:
         return press_dense.seconds_per_rhs(work.peer, BATCH // 10, 1, work.t, [*work.q, *work.v])
     if find_spec("jitcode") is None:
@@ -161,7 +167,7 @@ def _peer_seconds(work: Work) -> float:
 
 
 def calls(work: Work) -> list[callgrind.Call | None]:
-    """The same three for callgrind; jitcode's has no C of its own to count."""
+    """Return the three calls for callgrind; None without C code, as for jitcode."""
     source, p, t = work.simulation.source, work.simulation.p, work.t.hex()
     s, rate = work.tree
     full = {"y": work.state, "memory": work.memory, "p": p}
@@ -174,6 +180,7 @@ def calls(work: Work) -> list[callgrind.Call | None]:
 
 
 def _dense(peer: Press, work: Work) -> callgrind.Call:
+    """Return the call of the dense C for callgrind."""
     arrays = {"press": press_dense.numbers(peer), "y": work.state[:-N_WORK]}
     call = f"0.0 * press_seconds_per_rhs(press, {work.t.hex()}, y, (int)count, 1)"
     files = {press_dense.SOURCE.name: press_dense.SOURCE.read_text(encoding="utf-8")}
@@ -183,31 +190,33 @@ def _dense(peer: Press, work: Work) -> callgrind.Call:
 
 
 def machine() -> str:
-    """The processor as it names itself, how many cores there are and its widest vectors; no names of hosts."""
+    """Return the processor's name, its number of cores and its widest SIMD instruction set, as far as known."""
     model, vectors = platform.processor() or platform.machine(), ""
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
-        told = dict(_told(line) for line in cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines())
+        told = dict(_split_line(line) for line in cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines())
         model, vectors = told.get("model name", model), widest(told.get("flags", told.get("Features", "")).split())
     return f"{model}, {os.cpu_count()} cores" + f", {vectors}" * bool(vectors)
 
 
-def _told(line: str) -> tuple[str, str]:
+def _split_line(line: str) -> tuple[str, str]:
+    """Return key and value of a line of /proc/cpuinfo."""
     name, _, value = line.partition(":")
     return name.strip(), value.strip()
 
 
 def widest(flags: Sequence[str]) -> str:
-    """The widest vectors among a processor's flags, on which the best order of smooth motion depends; "" if unknown."""
+    """Return the widest SIMD instruction set among a processor's flags; "" if unknown."""
     return next((name for flag, name in VECTORS.items() if flag in flags), "")
 
 
 def _cell(value: float, width: int, digits: int = 0) -> str:
+    """Return a number as a cell; a dash for NaN."""
     return f"{'–':>{width}}" if math.isnan(value) else f"{value:{width},.{digits}f}"
 
 
 def show_times(all_works: list[Work]) -> None:
-    """Times in µs with operations; the ratio is the peer's over the reduced one."""
+    """Print times in µs with operations; the ratio is that of the reference code over the reduced one."""
     print(
         f"{'work':<20}{'full [µs]':>10}{'oper.':>7}{'reduced [µs]':>14}{'oper.':>7}{f'≤ {BAR}':>8}{'peer [µs]':>11}"
         f"{'ratio':>8}"
@@ -226,7 +235,7 @@ def show_times(all_works: list[Work]) -> None:
 
 
 def show_instructions(all_works: list[Work]) -> None:
-    """Instructions of a call, and how many an operation of the reduced one takes."""
+    """Print the instructions of a call, and per operation of the reduced one."""
     print(f"\ninstructions ({' '.join(callgrind.FLAGS)})")
     print(f"{'work':<20}{'full':>10}{'reduced':>10}{'an oper.':>10}{'peer':>10}{'ratio':>8}")
     for work in all_works:
@@ -239,7 +248,7 @@ def show_instructions(all_works: list[Work]) -> None:
 
 
 def show_results(all_works: list[Work]) -> None:
-    """What was computed, so that nobody times a NaN."""
+    """Print what was computed, so that a NaN is not timed unnoticed."""
     print("\nresults: accelerations in tree coordinates; |Φ|, |Φ̇|; reduced off full, full off peer (shares)")
     for work in all_works:
         found, names = result(work), work.simulation.source.tree
@@ -255,11 +264,11 @@ def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.rhs", description="One right-hand side.")
     parser.add_argument("--callgrind", action="store_true", help="count instructions too, by valgrind")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     print(f"{machine()}; least of {ROUNDS} batches, one thread\n")
     all_works = works()
     show_times(all_works)
-    if asked.callgrind:
+    if options.callgrind:
         try:
             show_instructions(all_works)
         except RuntimeError as error:

@@ -1,4 +1,4 @@
-"""How derivation, emitted code, compiling and right-hand side grow with the number of joints: the N-four-bar.
+"""Measure how derivation, emitted code, compilation and right-hand side grow with the number of joints: N-four-bar.
 
     python -m benchmarks.scaling [--largest 64] [--long 40] [--formulation reduced full]
     python -m benchmarks.scaling --largest 0 --long 0 --tight 5 10 20 40
@@ -32,20 +32,20 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
 COLUMNS = ("derive [s]", "emit [s]", "operations", "C [kB]", "compile [s]", "rhs [us]")
-BAR = 1.15  # the largest exponent that is asked for
+BAR = 1.15  # largest allowed exponent
 STEP, STEPS = 1e-3, 200
 GRAVITY, BAR_INERTIA = 9.81, 1.0 / 12.0
 TOLERANCES = (1e-6, 1e-9, 1e-11, 1e-12)
-DRIFT, PARALLEL = 1e-3, 1e-6  # J, rad: asked of the long run
+DRIFT, PARALLEL = 1e-3, 1e-6  # J, rad: limits for the long run
 
 
 def processor_time() -> float:
-    """Of this process and of those that it waited for, s."""
+    """Return the processor time of this process and of its finished children, in s."""
     return time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
 
 
 def least(call: Callable[[], object], repeats: int) -> float:
-    """Processor time of the fastest of some calls; SymPy's cache is emptied, or small systems would be in it whole."""
+    """Return the processor time of the fastest of some calls; SymPy's cache is cleared before each."""
     times = []
     for _ in range(repeats):
         clear_cache()
@@ -56,7 +56,7 @@ def least(call: Callable[[], object], repeats: int) -> float:
 
 
 def measure(n: int, formulation: str, folder: Path) -> tuple[float, ...]:
-    """One row of the table."""
+    """Return one row of the table."""
     data, file = yaml_text(n).encode(), folder / f"n_four_bar_{n}.yaml"
     file.write_bytes(data)
     repeats = 2 if n <= 16 else 1
@@ -72,13 +72,13 @@ def measure(n: int, formulation: str, folder: Path) -> tuple[float, ...]:
 
 
 def rhs_seconds(simulation: Simulation) -> float:
-    """Of a run of rk4, the least of 7, over its right-hand sides."""
+    """Return the time of a run of rk4 over its right-hand sides, the smallest of 7 runs."""
     runs = [simulation.simulate(STEPS * STEP, output=1, method="rk4", step=STEP).diagnostics for _ in range(7)]
     return min(d.seconds / d.right_hand_sides for d in runs)
 
 
 def table(formulation: str, sizes: list[int]) -> None:
-    """Rows and exponents."""
+    """Print the rows and the fitted exponents."""
     print(f"\n{formulation}\n{'N':>9}" + "".join(f"{name:>14}" for name in COLUMNS))
     rows = []
     with tempfile.TemporaryDirectory() as folder:
@@ -94,8 +94,8 @@ def table(formulation: str, sizes: list[int]) -> None:
     print(f"asked: at most {BAR}; beyond it: {', '.join(beyond) or 'none'}")
 
 
-def loaded(n: int, formulation: str) -> Simulation:
-    """N four-bars."""
+def load_chain(n: int, formulation: str) -> Simulation:
+    """Load N four-bars."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / f"n_four_bar_{n}.yaml"
         file.write_text(yaml_text(n), encoding="utf-8")
@@ -103,7 +103,7 @@ def loaded(n: int, formulation: str) -> Simulation:
 
 
 def drifts(run: Result, n: int) -> tuple[float, float]:
-    """The largest change of the energy, J, and angle between two cranks, rad."""
+    """Return the largest change of the energy in J, and the largest angle between two cranks in rad."""
     bars = [f"crank{i}" for i in range(n + 1)] + [f"coupler{i}" for i in range(1, n + 1)]
     energy = sum(
         0.5 * (run[f"{bar}.vx"] ** 2 + run[f"{bar}.vy"] ** 2 + BAR_INERTIA * run[f"{bar}.omega"] ** 2)
@@ -115,9 +115,9 @@ def drifts(run: Result, n: int) -> tuple[float, float]:
 
 
 def tight_runs(formulation: str, sizes: list[int]) -> None:
-    """20 s by tolerance: processor time of the thread that computes, the least of 3."""
+    """Print runs of 20 s by tolerance, with the smallest processor time of 3 runs."""
     print(f"\n{formulation}, 20 s\n{'rtol':>9}{'N':>5}{'s':>10}{'s/N':>12}{'steps':>9}{'rhs':>9}{'energy [J]':>12}")
-    simulations = {n: loaded(n, formulation) for n in sizes}
+    simulations = {n: load_chain(n, formulation) for n in sizes}
     for rtol in TOLERANCES:
         for n, simulation in simulations.items():
             times = []
@@ -131,8 +131,8 @@ def tight_runs(formulation: str, sizes: list[int]) -> None:
 
 
 def long_run(n: int) -> None:
-    """20 s: the energy's drift and how parallel the cranks stay, through every singular position."""
-    run = loaded(n, "reduced").simulate(20.0, output=2000)
+    """Print the energy drift and the parallelism of the cranks over 20 s with all singular positions."""
+    run = load_chain(n, "reduced").simulate(20.0, output=2000)
     drift, apart = drifts(run, n)
     turned = float(np.ptp(run["crank0.theta"]) / (2.0 * np.pi))
     print(f"\nN = {n}, 20 s, {turned:.1f} turns, in {run.diagnostics.seconds:.2f} s: ", end="")
@@ -141,7 +141,7 @@ def long_run(n: int) -> None:
 
 
 def main() -> None:
-    """Command line."""
+    """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--largest", type=int, default=64)
     parser.add_argument("--long", type=int, default=40, help="0: leave it out")

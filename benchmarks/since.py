@@ -1,10 +1,10 @@
-"""This checkout beside an earlier commit, in turns: cold starts and batches. Ratios hold on any machine.
+"""Compare this checkout with an earlier commit: cold starts and batches. Ratios hold on any machine.
 
     python -m benchmarks.since COMMIT [--repeats 3]
 
 The commit is checked out and installed in a folder of its own, with the extras that are installed here. A cold start is
 a process with an empty cache and an edited copy of the file, from its begin to its first result, wall; a batch
-(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The least of --repeats is told. Both sides
+(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The smallest counts. Both sides
 are measured by the same short programs, of calls that both have.
 """
 
@@ -52,55 +52,55 @@ print(1e3 * took / len(columns["c"]))
 
 @contextmanager
 def checked_out(commit: str) -> Iterator[Path]:
-    """The commit, installed with the extras that this checkout has, in a folder that goes again."""
+    """Check out a commit in a temporary folder, installed with the extras of this checkout; yield the folder."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "gudgeon"
         subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(place), commit], cwd=ROOT, check=True)
         try:
             here = {stamp.name.removeprefix("gudgeon-") for stamp in (ROOT / ".venv").glob("gudgeon-all*")}
-            for extras in sorted({"all,test"} | here):  # by the packages about them starts differ too
+            for extras in sorted({"all,test"} | here):  # installed packages change the time of a start too
                 subprocess.run(["sh", "tools/setup", extras], cwd=place, check=True, stdout=subprocess.DEVNULL)
             yield place
         finally:
             subprocess.run(["git", "worktree", "remove", "--force", str(place)], cwd=ROOT, check=True)
 
 
-def around(cache: str) -> Mapping[str, str]:
-    """The environment of a measured process."""
+def process_environment(cache: str) -> Mapping[str, str]:
+    """Return the environment of a measured process."""
     kept = {k: v for k, v in os.environ.items() if k not in ("PYTHONDONTWRITEBYTECODE", "PYTHONPATH", "GUDGEON_CACHE")}
     return {**kept, "GUDGEON_CACHE": cache}
 
 
 def cold(place: Path, name: str, scene: str) -> float:
-    """From the start of a process to its first result, s."""
+    """Return the wall time from the start of a process to its first result in s. Raises SystemExit."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         file = Path(folder) / f"{name}.yaml"
         file.write_text((place / "mechanisms" / f"{name}.yaml").read_text(encoding="utf-8") + "\n# edited\n", "utf-8")
         begin = perf_counter()
         with subprocess.Popen(
             [str(place / ".venv/bin/python"), "-c", START, str(file), scene],
-            env=around(f"{folder}/cache"),
+            env=process_environment(f"{folder}/cache"),
             cwd=place,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
         ) as process:
-            told = process.stdout.readline() if process.stdout else ""
+            output = process.stdout.readline() if process.stdout else ""
             took = perf_counter() - begin
-        if told != "done\n":
+        if output != "done\n":
             raise SystemExit(f"{name}, {scene}: no result in {place}")
         return took
 
 
 def batch(place: Path, of: Presses, cache: str) -> float:
-    """Processor time of a run, ms."""
+    """Return the processor time of a run in a batch in ms."""
     file = Path(cache) / "columns.npz"
     file.parent.mkdir(exist_ok=True)
     runs = len(of.columns["c"])
     np.savez(file, **{name: np.broadcast_to(value, runs) for name, value in (PRESS | of.columns).items()})
     done = subprocess.run(
         [str(place / ".venv/bin/python"), "-c", BATCH, str(file), of.scene, str(of.t_end)],
-        env=around(cache),
+        env=process_environment(cache),
         cwd=place,
         check=True,
         capture_output=True,
@@ -110,7 +110,7 @@ def batch(place: Path, of: Presses, cache: str) -> float:
 
 
 def main() -> None:
-    """Command line."""
+    """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("commit")
     parser.add_argument("--repeats", type=int, default=3)
@@ -121,11 +121,11 @@ def main() -> None:
         print(f"  {'':<44}{'before':>9}{'now':>9}{'ratio':>9}")
         for name, scene in COLD:
             least = dict.fromkeys(places, math.inf)
-            for k in range(options.repeats + 1):  # the first leaves Python's compiled modules behind
+            for k in range(options.repeats + 1):  # the first writes Python's compiled modules
                 for side, place in places.items():
                     took = cold(place, name, scene)
                     least[side] = min(least[side], took) if k else math.inf
-            told(f"cold start, {name}, {scene}, s", least)
+            print_row(f"cold start, {name}, {scene}, s", least)
         for of in presses():
             least = dict.fromkeys(places, math.inf)
             for side, place in places.items():
@@ -134,11 +134,11 @@ def main() -> None:
             for _ in range(options.repeats):
                 for side, place in places.items():
                     least[side] = min(least[side], batch(place, of, f"{caches}/{side}"))
-            told(f"{of.title}, ms", least)
+            print_row(f"{of.title}, ms", least)
 
 
-def told(title: str, least: Mapping[str, float]) -> None:
-    """A line of the table."""
+def print_row(title: str, least: Mapping[str, float]) -> None:
+    """Print a line of the table."""
     ratio = least["now"] / least["before"]
     print(f"  {title:<44}{least['before']:9.3f}{least['now']:9.3f}{ratio:9.2f}", flush=True)
 

@@ -1,16 +1,16 @@
-"""10,000 lubricated runs with summaries on disk: time a run and core, what a second core brings, memory.
+"""Measure a study of 10,000 lubricated runs with results on disk: time per run, two threads, memory.
 
     python -m benchmarks.studies [--repeats 3] [--batches | --large]
 
-studies/lubricated_10000.yaml, and a tenth of it (fewer viscosities), each in a process of its own: the tenth by one
-thread and by two in turns, the least of each is told, beside two threads that only hash; the whole by both. `alone` is
-the processor time of the same runs as one batch without samples; the rest is all that the study adds, series, measures
-and files. On a machine that does other things too, look at that ratio and at processor times. Memory is the most that a
-process had in all.
+studies/lubricated_10000.yaml and a tenth of it (fewer viscosities) run in separate processes. The tenth runs by one and
+by two threads in turns, and the smallest times are printed with the speedup of two independent threads. The whole study
+runs by one and by two threads. `alone` is the processor time of the same runs as one batch without samples; the rest is
+the cost of the study: series, measures and files. On a loaded machine, compare that ratio and processor times. Memory
+is the maximum of a process.
 
---batches: batches without a study, one thread, processor time a run of whole calls, the least of --repeats: dry presses
-of .05 s at one speed, c = .3 mm within 1 %, and over clearance x speed; lubricated ones of .4 s. Side by side in vector
-registers and one after the other, in turns.
+--batches: batches without a study in one thread; the smallest processor time of --repeats, per run of whole calls. Dry
+presses of 0.05 s at one speed with c = 0.3 mm within 1 %, and over clearance x speed; lubricated ones of 0.4 s. Runs in
+SIMD lanes and single runs take turns.
 
 --large: 100,000 presses in a batch on two threads, wall time of the whole call: dry ones of .05 s, lubricated ones of
 .4 s, each --repeats times.
@@ -39,12 +39,13 @@ from gudgeon.studies.ensemble.study import plans_of, run_plans
 
 FILE = Path(__file__).parents[1] / "studies" / "lubricated_10000.yaml"
 PRESS = {"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi}  # of all batches
-LARGE = {"dry": (0.05, 15.0), "lubricated": (0.4, 35.0)}  # batches of 100,000: how long a run is, what is asked, s
+LARGE = {"dry": (0.05, 15.0), "lubricated": (0.4, 35.0)}  # batches of 100,000: length of a run, required time, s
 VISCOSITY, TENTH, WHOLE = "contacts.oil.film.viscosity", 2, 20  # how many of them
 
 
 def one(viscosities: int, threads: int) -> dict[str, float]:
-    """A study in this process: runs, failed ones, s of wall, of processor, of its runs alone; MB before and at most."""
+    """Run a study in this process; return runs, failures, times in s (wall, processor, runs alone), and memory in
+    MB."""
     study = YAML(typ="safe").load(FILE)
     study["parameters"][VISCOSITY]["count"] = viscosities
     plans, alone = plans_of(study), math.nan
@@ -54,33 +55,33 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
         before = process_time()
         simulation.simulate_many(dict(columns), study["t_end"], output=1, rtol=study["rtol"], threads=1, keep=[])
         alone = process_time() - before
-    before = most()
+    before = peak_memory()
     with tempfile.TemporaryDirectory() as folder:
         wall, cpu = perf_counter(), process_time()
         found = run_plans(plans, Path(folder), threads)
         wall, cpu = perf_counter() - wall, process_time() - cpu
         runs, failed = found.runs, found.failed
-    told = {"runs": runs, "failed": failed, "wall": wall, "cpu": cpu, "alone": alone, "before": before}
-    return told | {"most": most()}
+    document = {"runs": runs, "failed": failed, "wall": wall, "cpu": cpu, "alone": alone, "before": before}
+    return document | {"most": peak_memory()}
 
 
-def drawn(runs: int) -> np.ndarray:
-    """So many clearances, m: .3 mm within 1 %."""
+def draw_clearances(runs: int) -> np.ndarray:
+    """Return random clearances in m: 0.3 mm within 1 %."""
     return 3e-4 * np.random.default_rng(0).uniform(0.99, 1.01, runs)
 
 
 def large(scene: str) -> float:
-    """Wall time of the whole call of a batch of 100,000 presses, s."""
+    """Return the wall time of a batch of 100,000 presses in s."""
     simulation, t_end = gudgeon.load("nine_bar_press", scene=scene), LARGE[scene][0]
     lanes.WORTH = 0.0  # compiled by the first few
     for runs in (64, 100_000):
         before = perf_counter()
-        simulation.simulate_many({**PRESS, "c": drawn(runs)}, t_end, output=2, rtol=1e-4, threads=2)
+        simulation.simulate_many({**PRESS, "c": draw_clearances(runs)}, t_end, output=2, rtol=1e-4, threads=2)
     return perf_counter() - before
 
 
 class Presses(NamedTuple):
-    """A batch of presses: what it is, its scene, parameters of each run, how long a run is (s)."""
+    """A batch of presses: title, scene, parameters of each run, length of a run (s)."""
 
     title: str
     scene: str
@@ -89,17 +90,17 @@ class Presses(NamedTuple):
 
 
 def presses() -> list[Presses]:
-    """The batches that are measured."""
+    """Return the batches that are measured."""
     c, omega = (x.ravel() for x in np.meshgrid(np.linspace(0.3e-3, 0.8e-3, 50), np.pi * np.linspace(1.0, 8.0, 80)))
     return [
-        Presses("dry, .05 s, c = .3 mm within 1 %", "dry", {"c": drawn(4000)}, 0.05),
+        Presses("dry, .05 s, c = .3 mm within 1 %", "dry", {"c": draw_clearances(4000)}, 0.05),
         Presses("dry, .05 s, clearance x speed", "dry", {"c": c, "omega": omega}, 0.05),
-        Presses("lubricated, .4 s, c = .3 mm within 1 %", "lubricated", {"c": drawn(4000)[:1000]}, 0.4),
+        Presses("lubricated, .4 s, c = .3 mm within 1 %", "lubricated", {"c": draw_clearances(4000)[:1000]}, 0.4),
     ]
 
 
 def batches(repeats: int) -> None:
-    """Prints the processor time of runs in batches."""
+    """Print the processor time of runs in batches."""
     print("  nine_bar_press, rtol 1e-4                   runs   CPU ms a run: beside  alone")
     for told, scene, columns, t_end in presses():
         simulation, n = gudgeon.load("nine_bar_press", scene=scene), len(columns["c"])
@@ -119,28 +120,28 @@ def batches(repeats: int) -> None:
         print(f"  {told:<40} {n:7d}{1e3 * least[True] / n:22.3f}{1e3 * least[False] / n:7.3f}", flush=True)
 
 
-def most() -> float:
-    """Memory of this process so far, MB."""
+def peak_memory() -> float:
+    """Return the largest memory of this process so far in MB."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024 if sys.platform == "linux" else 1 << 20)
 
 
-def apart(viscosities: int, threads: int) -> dict[str, float]:
-    """The same in a process of its own."""
+def run_separately(viscosities: int, threads: int) -> dict[str, float]:
+    """Run a study in a process of its own; return the results of `one`."""
     call = [sys.executable, "-m", "benchmarks.studies", "--one", str(viscosities), str(threads)]
     found: dict[str, float] = json.loads(subprocess.run(call, check=True, capture_output=True, text=True).stdout)
     return found
 
 
 def main() -> None:
-    """Command line."""
+    """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--one", type=int, nargs=2, help=argparse.SUPPRESS)
     parser.add_argument("--batches", action="store_true", help="runs in batches, without a study")
     parser.add_argument("--large", action="store_true", help="batches of 100,000 on two threads")
     options = parser.parse_args()
-    for scene, (t_end, most) in (*LARGE.items(),) * options.repeats if options.large else ():
-        print(f"  100,000 {scene} presses of {t_end} s: {large(scene):.1f} s (asked: at most {most:g})", flush=True)
+    for scene, (t_end, required) in (*LARGE.items(),) * options.repeats if options.large else ():
+        print(f"  100,000 {scene} presses of {t_end} s: {large(scene):.1f} s (asked: at most {required:g})", flush=True)
     if options.batches:
         batches(options.repeats)
     if options.batches or options.large:
@@ -151,10 +152,10 @@ def main() -> None:
     least = {of: {1: math.inf, 2: math.inf} for of in (TENTH, WHOLE)}
     print("  threads    runs  failed   ms a run: wall    CPU  alone    MB: before  most")
     for of, threads in [(TENTH, 1), (TENTH, 2)] * options.repeats + [(WHOLE, 1), (WHOLE, 2)]:
-        found = apart(of, threads)
+        found = run_separately(of, threads)
         each = [1e3 * found[name] / found["runs"] for name in ("wall", "cpu", "alone")]
-        told = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"
-        print(f"  {threads:7d}{found['runs']:8.0f}{found['failed']:8.0f}{told}", flush=True)
+        text = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"
+        print(f"  {threads:7d}{found['runs']:8.0f}{found['failed']:8.0f}{text}", flush=True)
         least[of][threads] = min(least[of][threads], found["wall"])
     times = " and ".join(f"{least[of][1] / least[of][2]:.2f}" for of in (TENTH, WHOLE))
     print(f"  two threads are {times} times as fast as one (a tenth, the whole); two that only hash: {machine(10):.2f}")

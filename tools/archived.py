@@ -9,6 +9,7 @@ from pathlib import Path
 
 
 def main(file: Path) -> None:
+    """Print all texts of an archive, each after a line with its path."""
     archive = json.loads(lzma.decompress(file.read_bytes()))
     descriptions = {f"{scene}/kernel.json": stored["rest"] for scene, stored in archive["scenes"].items()}
     for path, text in sorted({**archive["texts"], **descriptions}.items()):

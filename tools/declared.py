@@ -1,4 +1,4 @@
-"""Write what Python and JavaScript know of the engine's headers (run by `make generated`).
+"""Write the declarations of the engine's headers for Python and JavaScript (run by `make generated`).
 
 - runtime/loading/declared.py: cffi's tables of the functions in engine/scene/calls.h
 - runtime/contract/boundary.py and runtime/web/boundary.js: the names of engine/boundary.h
@@ -18,8 +18,8 @@ from cffi import FFI
 from gudgeon.loading.cache import digest
 from gudgeon.loading.engine import all_declarations
 
-HOUSE = Path(__file__).resolve().parent.parent
-BOUNDARY = HOUSE / "engine" / "boundary.h"
+ROOT = Path(__file__).resolve().parent.parent
+BOUNDARY = ROOT / "engine" / "boundary.h"
 HEAD = '''"""What cffi makes of the engine's declarations: written by tools/declared.py (`make generated`)."""
 
 from _cffi_backend import FFI
@@ -36,10 +36,10 @@ def declared() -> str:
     """Return the text of runtime/loading/declared.py."""
     declarations = all_declarations()
     lines = [HEAD.format(of=digest([declarations]))]
-    for name, value in _arguments(declarations).items():
+    for name, value in _ffi_arguments(declarations).items():
         if isinstance(value, tuple):
-            entries = "".join(f"        {_printed(entry)},\n" for entry in value)
-            whole = f"    {name}=({_printed(value[0])},),\n" if len(value) == 1 else ""
+            entries = "".join(f"        {_format_entry(entry)},\n" for entry in value)
+            whole = f"    {name}=({_format_entry(value[0])},),\n" if len(value) == 1 else ""
             lines.append(whole if 0 < len(whole) <= LINE else f"    {name}=(\n{entries}    ),\n")
         elif isinstance(value, bytes):
             rows = "".join(f'        "{row}"\n' for row in textwrap.wrap(value.hex(), WIDTH - 4))
@@ -77,35 +77,36 @@ def boundary_py() -> str:
     for name, members in enumerations().items():
         lines += ["", f"# enum {name}", *(f"{member}: Final = {value}" for member, value in members.items())]
         if names := columns(members):
-            whole = f"{_names_of(name)} = ({', '.join(f'{one!r}' for one in names)})".replace("'", '"')
-            rows = [f"{_names_of(name)} = (", *(f'    "{one}",' for one in names), ")"]
+            whole = f"{_list_name(name)} = ({', '.join(f'{one!r}' for one in names)})".replace("'", '"')
+            rows = [f"{_list_name(name)} = (", *(f'    "{one}",' for one in names), ")"]
             lines += [whole] if len(names) > 1 and len(whole) <= LINE else rows
     return "\n".join([*lines, ""])
 
 
 def boundary_js() -> str:
-    """Return the text of runtime/web/boundary.js: what its folder's scripts use, of columns also how many there are."""
+    """Return the text of runtime/web/boundary.js with the names that scripts of the folder use, and counts of
+    columns."""
     lines = ["/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */"]
     lines += ["const Boundary = {"]
-    known, web = enumerations(), HOUSE / "runtime" / "web"
+    known, web = enumerations(), ROOT / "runtime" / "web"
     scripts = "".join(file.read_text(encoding="utf-8") for file in sorted(web.glob("*.js")))
     used = set(re.findall(r"\bBoundary\.(\w+)", scripts))
     used.update(*(re.findall(r"\w+", several) for several in re.findall(r"{([^{}]*)} = Boundary\b", scripts)))
     for name in IN_JAVASCRIPT:
         names, told = columns(known[name]), dict[str, object](known[name])
         if names:
-            told = {list(known[name])[-1]: len(names), _names_of(name): names}
+            told = {list(known[name])[-1]: len(names), _list_name(name): names}
         lines += [f"    {member}: {json.dumps(value)}," for member, value in told.items() if member in used]
     return "\n".join([*lines, "};", ""])
 
 
-def _names_of(name: str) -> str:
-    """Return what the list of an enumeration's names is called: IMPACT_COLUMN_NAMES of ImpactColumn."""
+def _list_name(name: str) -> str:
+    """Return the name of the list of an enumeration's names: IMPACT_COLUMN_NAMES for ImpactColumn."""
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).upper() + "_NAMES"
 
 
-def _arguments(declarations: str) -> dict[str, object]:
-    """Return what cffi's own module for these declarations hands to FFI, by keyword."""
+def _ffi_arguments(declarations: str) -> dict[str, object]:
+    """Return the keyword arguments that cffi's generated module for these declarations passes to FFI."""
     ffi = FFI()
     ffi.cdef(declarations)
     ffi.set_source("gudgeon", None, compiler_verbose=0)
@@ -117,8 +118,8 @@ def _arguments(declarations: str) -> dict[str, object]:
     return {str(keyword.arg): ast.literal_eval(keyword.value) for keyword in call.keywords}
 
 
-def _printed(entry: object) -> str:
-    """Return bytes, a number, or a tuple of bytes, in lines of the house's width."""
+def _format_entry(entry: object) -> str:
+    """Return bytes, a number, or a tuple of bytes as Python code in lines of at most WIDTH columns."""
     if not isinstance(entry, tuple):
         return _literal(entry)
     whole = f"({', '.join(map(_literal, entry))},)"
@@ -128,13 +129,14 @@ def _printed(entry: object) -> str:
 
 
 def _literal(value: object) -> str:
+    """Return a value as a Python literal; bytes in double quotes."""
     return repr(value) if not isinstance(value, bytes) else 'b"' + repr(value)[2:-1].replace('"', "\\x22") + '"'
 
 
 FILES = {
-    HOUSE / "runtime" / "loading" / "declared.py": declared,
-    HOUSE / "runtime" / "contract" / "boundary.py": boundary_py,
-    HOUSE / "runtime" / "web" / "boundary.js": boundary_js,
+    ROOT / "runtime" / "loading" / "declared.py": declared,
+    ROOT / "runtime" / "contract" / "boundary.py": boundary_py,
+    ROOT / "runtime" / "web" / "boundary.js": boundary_js,
 }
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""Fits the numbers of the film law `finite_length` to the solver: `python tools/finite_length.py` prints them.
+"""Fit the coefficients of the film law `finite_length` to the solver: `python tools/finite_length.py` prints them.
 
-A table of 1820 states takes about a minute, the fit seconds. What stands in the law is this, rounded to four places.
+A table of 1820 states takes about a minute, the fit seconds. The law contains the coefficients with four decimals.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 from gudgeon.generator.kinds.laws.finite_length import G0, G1, G3, REST, around
 from gudgeon.reynolds import Bearing, table
 
-RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # ratios do not hang on them
+RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # m, m, Pa·s; ratios do not depend on them
 EPS = np.array([0.02, 0.15, 0.3, 0.45, 0.6, 0.7, 0.8, 0.87, 0.92, 0.95, 0.975, 0.99, 0.996, 0.9985])
 MOTION = np.linspace(0.0, np.pi, 13)  # ε̇ = W cos α, ½ ε ω_s = W sin α
 RATIO = np.array([0.1, 0.2, 0.3, 0.45, 0.65, 0.9, 1.2, 1.6, 2.05, 3.0])
@@ -19,12 +19,12 @@ WITHIN = (RATIO > 0.15) & (RATIO < 2.1)
 TURNS = len(MOTION) // 2
 ROOT = np.array([1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.31, 0.25, 0.2, 0.14, 0.1, 0.07, 0.04, 0.0141])  # s
 EVERY = np.array([1e-4, 1e-3, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 100.0])
-MARGIN = 0.002  # of `least`
+MARGIN = 0.002  # smallest value of `least` without a penalty
 CUTS = np.cumsum([len(G0), len(G1), 1])
 
 
-def solved() -> np.ndarray:
-    """(ratio, ε, motion, 2) forces over μ R³ L/c² at W = 1/s."""
+def solve_states() -> np.ndarray:
+    """Return the solver's forces (ratio, ε, motion, 2) over μ R³ L/c² at W = 1/s."""
     found = []
     for ratio in RATIO:
         own = Bearing(RADIUS, 2.0 * RADIUS * float(ratio), CLEARANCE, VISCOSITY)
@@ -35,7 +35,7 @@ def solved() -> np.ndarray:
 
 
 def terms(numbers: np.ndarray, s: np.ndarray, ratio: np.ndarray) -> tuple[np.ndarray, ...]:
-    """a0 … a3, as in the law's `build`, in arrays."""
+    """Return the terms a0 … a3 of the law's potential V; numbers: coefficients, s: √(1 − ε²), ratio: L/D."""
     g0, g1, (g3,), (rest,) = np.split(numbers, CUTS)
     short = ratio**2 / s**3
     a0 = np.pi * short / (s**2 + around(s, ratio, g0) * ratio**2)
@@ -44,8 +44,8 @@ def terms(numbers: np.ndarray, s: np.ndarray, ratio: np.ndarray) -> tuple[np.nda
     return a0, a1, a1 + a3 - (1.0 - rest) * a0, a3
 
 
-def fitted(numbers: np.ndarray) -> np.ndarray:
-    """The law's forces, as `solved`."""
+def law_forces(numbers: np.ndarray) -> np.ndarray:
+    """Return the law's forces (ratio, ε, motion, 2) over μ R³ L/c² at W = 1/s."""
     eps = EPS[:, None]
     w_n, w_t, s = np.cos(MOTION), -np.sin(MOTION), np.sqrt(1.0 - eps**2)
     q = np.hypot(w_n, s * w_t)
@@ -56,14 +56,18 @@ def fitted(numbers: np.ndarray) -> np.ndarray:
 
 
 def least(numbers: np.ndarray) -> np.ndarray:
-    """The least V/(S q² a0) over all motions; to be above 0 for every ε and every L/D."""
+    """Return the smallest V/(S q² a0) over all motions, which must be positive for every ε and L/D."""
     s, x = ROOT[:, None], np.sqrt(1.0 - ROOT[:, None] ** 2) * np.linspace(-1.0, 1.0, 201)
     a0, a1, a2, a3 = terms(numbers, s, EVERY[:, None, None])
     return np.asarray((1.0 + x * (a1 + x * (a2 + x * a3)) / a0).min(axis=-1))
 
 
 def weights(force: np.ndarray) -> np.ndarray:
-    """Mostly over the largest force at that ε, and for rotation over its own; less outside of the law's range."""
+    """Return the weights of force differences (ratio, ε, motion).
+
+    They are mostly relative to the largest force at an ε, for rotation to the force itself, and smaller outside of the
+    law's range.
+    """
     size = np.hypot(force[..., 0], force[..., 1])
     within = np.where(WITHIN, 1.0, 0.3)[:, None, None]
     found = size**-0.2 * size.max(axis=2, keepdims=True) ** -0.8 * within * np.where(EPS < 0.955, 1.0, 0.5)[:, None]
@@ -73,21 +77,23 @@ def weights(force: np.ndarray) -> np.ndarray:
 
 
 def main() -> None:
-    force = solved()
+    """Fit the coefficients, and print them with the deviations."""
+    force = solve_states()
     weight, numbers = weights(force)[..., None], np.array([*G0, *G1, G3, REST])
     for power in (1.0, 2.0):  # of the differences: the second fit lowers the largest ones
 
-        def off(numbers: np.ndarray, power: float = power) -> np.ndarray:
-            each = ((fitted(numbers) - force) * weight).ravel()
+        def residuals(numbers: np.ndarray, power: float = power) -> np.ndarray:
+            """Return the residuals: weighted differences of forces, and a penalty where `least` falls below MARGIN."""
+            each = ((law_forces(numbers) - force) * weight).ravel()
             pulls = 300.0 * np.maximum(MARGIN - least(numbers), 0.0).ravel()
             return np.concatenate([np.sign(each) * np.abs(20.0 * each) ** power, pulls])
 
-        numbers = least_squares(off, numbers, max_nfev=300).x
+        numbers = least_squares(residuals, numbers, max_nfev=300).x
     numbers = np.round(numbers, 4)
     for name, some in zip(("G0", "G1", "G3", "REST"), np.split(numbers, CUTS), strict=True):
         print(name, "=", ", ".join(f"{x:.4f}" for x in some))
     size = np.hypot(force[..., 0], force[..., 1])
-    away = np.hypot(*np.moveaxis(fitted(numbers) - force, -1, 0))
+    away = np.hypot(*np.moveaxis(law_forces(numbers) - force, -1, 0))
     share, turning = away / size.max(axis=2, keepdims=True), (away / size)[:, :, TURNS]
     told = WITHIN[:, None] & (EPS < 0.955)
     for where, rows in (("L/D .2 to 2, eps to .95", told), ("all", np.ones_like(told))):

@@ -1,9 +1,8 @@
-"""The lowest versions that pyproject.toml allows, as constraints for pip: `name==version`, a line for each dependency.
+"""Print the lowest versions that pyproject.toml allows, as constraints for pip: `name==version` in each line.
 
     python tools/minimums.py [EXTRA ...]
 
-`make packages` installs them and runs every command (tests/packages.py): the ranges in pyproject.toml are what that
-proves.
+`make packages` installs these versions and runs every command (tests/packages.py), which verifies the ranges.
 """
 
 from __future__ import annotations
@@ -20,19 +19,21 @@ OWN = re.compile(r"gudgeon\[([^]]+)\]")
 
 
 def lowest(extras: Sequence[str]) -> dict[str, str]:
-    """The lowest version of each dependency by its name, of extras too. Raises ValueError where none is declared."""
+    """Return the lowest version of each dependency by name, with those of extras. Raises ValueError if there is
+    none."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
-    def needed(of: Sequence[str]) -> Iterator[str]:
+    def resolve(of: Sequence[str]) -> Iterator[str]:
+        """Yield the dependencies, with those of gudgeon's own extras resolved."""
         for text in of:
             if own := OWN.fullmatch(text):
                 for extra in own[1].split(","):
-                    yield from needed(project["optional-dependencies"][extra])
+                    yield from resolve(project["optional-dependencies"][extra])
             else:
                 yield text
 
     found = {}
-    for text in (*needed(project["dependencies"]), *needed([f"gudgeon[{extra}]" for extra in extras])):
+    for text in (*resolve(project["dependencies"]), *resolve([f"gudgeon[{extra}]" for extra in extras])):
         if not (declared := LOWEST.fullmatch(text)):
             raise ValueError(f"{text}: expected NAME>=VERSION in pyproject.toml")
         found[declared[1]] = declared[2]

@@ -14,8 +14,11 @@ PAGES = ("docs/reading.md",)
 QUOTE = re.compile(r"(<!-- quote: (\S+) \| (.+?) \| (.+?) -->\n+```\w+\n)(.*?)(^```$)", re.DOTALL | re.MULTILINE)
 
 
-def renewed(page: str) -> str:
-    """Return the page with each quotation as its file has it now. Raises SystemExit where a file has no such lines."""
+def renew_quotes(page: str) -> str:
+    """Return the page with its quotations replaced by the present lines of their files.
+
+    Raises SystemExit if a file has no such lines.
+    """
     return QUOTE.sub(lambda found: f"{found[1]}{quoted(*found.group(2, 3, 4))}{found[6]}", page)
 
 
@@ -34,4 +37,4 @@ def quoted(file: str, start: str, end: str) -> str:
 if __name__ == "__main__":
     for name in PAGES:
         path = ROOT / name
-        path.write_text(renewed(path.read_text(encoding="utf-8")), encoding="utf-8")
+        path.write_text(renew_quotes(path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -37,16 +37,16 @@ def regenerate(mechanisms: Path, generated: Path) -> None:
         sources = [generate(data, file.name, scene, None) for scene in scenes]
         write_scenes(folder, sources, READABLE)
         for source in sources:
-            print(f"generated/{file.stem}/{source.scene}{_changes(before.get(source.scene), source)}")
-        shared += _shared(folder)
+            print(f"generated/{file.stem}/{source.scene}{_list_changes(before.get(source.scene), source)}")
+        shared += _list_shared(folder)
     for folder in generated.glob("*/"):
         if not (mechanisms / f"{folder.name}.yaml").exists() and folder.name != "__pycache__":
             shutil.rmtree(folder)
     (generated / "README.md").write_bytes((README + shared).encode())
 
 
-def _changes(before: KernelSource | None, now: KernelSource) -> str:
-    """Name the texts that differ: differences within the archive are not visible in `git diff`."""
+def _list_changes(before: KernelSource | None, now: KernelSource) -> str:
+    """Return the names of texts that differ, because `git diff` does not show differences within the archive."""
     if before is None or before == now:
         return "" if before else ": new"
     names = sorted({*before.files, *now.files})
@@ -54,7 +54,7 @@ def _changes(before: KernelSource | None, now: KernelSource) -> str:
     return f": changed {', '.join(changed) or 'names and numbers'}"
 
 
-def _shared(folder: Path) -> str:
+def _list_shared(folder: Path) -> str:
     """Return a line for each scene of a mechanism that uses files of another scene."""
     lines = ""
     for scene, stored in unpacked(folder)["scenes"].items():

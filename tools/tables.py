@@ -17,7 +17,7 @@ MARK = "<!-- Below: `make tables`. -->\n"
 
 
 def page(text: str, below: str, name: str = "") -> str:
-    """The page with what is below the mark as it is now; what stands above stays."""
+    """Return a page with the text below its mark replaced. Raises SystemExit if it has no mark."""
     above, mark, _ = text.partition(MARK)
     if not mark:
         raise SystemExit(f"{name} has no line {MARK.strip()}: what is written stands below it")

@@ -1,8 +1,8 @@
-"""Print which functions hand the mass of a body on, from the bytes of its file to the mass matrix.
+"""Print which functions pass on the mass of a body, from the bytes of its file to the mass matrix.
 
 usage: .venv/bin/python tools/way_of_a_mass.py
-A function hands it on if it returns the number as it is known there: text, token, tree, quantity, symbol.
-Functions that only look at it are counted.
+A function passes it on if it returns the value in any form: text, token, tree, quantity, symbol.
+Functions that only read it are counted.
 """
 
 from __future__ import annotations
@@ -45,33 +45,35 @@ def is_mass(value: Any) -> bool:
 
 
 def main() -> None:
-    """Read a scene, derive its equations, and print the way of the mass."""
+    """Read a scene, derive its equations, and print the functions that pass the mass on."""
     file = find_mechanism(FILE)
     data = read_bytes(file).replace(WRITTEN, MARKED.encode(), 1)
-    handed: dict[str, int] = {}
-    looked: set[str] = set()
+    passed: dict[str, int] = {}
+    read: set[str] = set()
 
     def profile(frame: FrameType, event: str, value: Any) -> None:
+        """Record a function that returns the mass or reads it; a callback of sys.setprofile."""
         module, function = frame.f_globals.get("__name__", ""), frame.f_code.co_qualname
         if module.startswith("gudgeon.") and not function.endswith(">"):
             name = f"{module.removeprefix('gudgeon.')}: {function}"
             if event == "return" and is_mass(value):
-                handed[name] = handed.get(name, 0) + 1
+                passed[name] = passed.get(name, 0) + 1
             elif event == "return" and any(map(is_mass, list(frame.f_locals.values()))):
-                looked.add(name)
+                read.add(name)
 
     def derive() -> Any:
+        """Derive the masses of the scene."""
         return make_model(read_scene(data, str(file), "ideal")).masses
 
-    derive()  # imports what is imported late
+    derive()  # completes deferred imports
     sys.setprofile(profile)
     derive()
     sys.setprofile(None)
-    for name, count in handed.items():
+    for name, count in passed.items():
         print(f"{count:3} {name}")
-    packages = {name.partition(":")[0].rpartition(".")[0] for name in handed}
-    print(f"{len(handed)} functions hand it on {sum(handed.values())} times, {len(packages)} packages;", end=" ")
-    print(f"{len(looked - handed.keys())} more look at it")
+    packages = {name.partition(":")[0].rpartition(".")[0] for name in passed}
+    print(f"{len(passed)} functions hand it on {sum(passed.values())} times, {len(packages)} packages;", end=" ")
+    print(f"{len(read - passed.keys())} more look at it")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
-"""Wheels for platforms, which carry the kernels of the shipped mechanisms: with one no compiler is needed to run these.
+"""Build wheels for platforms with compiled kernels of the shipped mechanisms, which then run without a compiler.
 
     python tools/wheels.py dist                       # x86-64 and ARM Linux, and the one for all other machines
     python tools/wheels.py dist --machine aarch64     # one of them
 
-zig (`gudgeon[cc]`) compiles for every machine on any. What is carried runs on every processor of the kind, with glibc
-2.17 or later; where a compiler is found, gudgeon goes on compiling for the processor that it has.
+zig (`gudgeon[cc]`) cross-compiles for every machine. The bundled kernels run on every processor of the architecture,
+with glibc 2.17 or later. If a compiler is found, gudgeon compiles for the present processor in addition.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ from gudgeon.loading.library import CARRIED, file_name, platform
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)
 MACHINES = ("x86_64", "aarch64")
-MADE = ("pyproject.toml", "LICENSE", "README.md")  # beside the packages
+MADE = ("pyproject.toml", "LICENSE", "README.md")  # files next to the packages
 
 
 def sources(generated: Path, mechanism: str = "*") -> list[KernelSource]:
-    """Every scene whose C is kept, of one mechanism or of all."""
+    """Return every scene in `generated`, of one mechanism or of all."""
     return [source for folder in sorted(generated.glob(f"{mechanism}/")) for source in read_scenes(folder)]
 
 
 def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
-    """The libraries of scenes in a folder, for Linux on such machines."""
+    """Compile the libraries of scenes into a folder, for Linux on a machine."""
     target = f"{machine}-linux-gnu.{GLIBC[0]}.{GLIBC[1]}"
     os.environ["CC"] = " ".join([str(compiler.zig()), "cc", *compiler.ZIG, "-s", "-target", target])
     folder.mkdir(parents=True)
@@ -49,10 +49,10 @@ def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
 
 
 def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None = None) -> None:
-    """One wheel: for a machine's Linux with the kernels of these scenes, or for all machines without any."""
+    """Build one wheel: for a machine's Linux with the kernels of these scenes, or for all machines without kernels."""
     with tempfile.TemporaryDirectory() as scratch:
         copy = Path(scratch) / "house"
-        shutil.copytree(ROOT / "src", copy / "src")  # links as what they lead to
+        shutil.copytree(ROOT / "src", copy / "src")  # follows links
         for name in MADE:
             shutil.copy(ROOT / name, copy / name)
         settings = {}
@@ -66,6 +66,7 @@ def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None =
 
 
 def main() -> None:
+    """Build the wheels and print their sizes."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("out", type=Path, help="the folder for the wheels")
     parser.add_argument("--machine", choices=MACHINES, help="this machine's wheel alone")

@@ -1,9 +1,9 @@
-"""Published machines with play, run by two codes that share nothing, to nine digits of the clearance.
+"""Run published machines with play by two independent codes that agree to nine digits of the clearance.
 
     python -m benchmarks.clearance [NAME …] [--write]
 
-For each case a table tells to which time both agree, how well, and what its source prints. `--write` keeps what was
-found: data/NAME.nc, and the table of README.md.
+For each case a table states until when both agree, how well, and what its source prints. `--write` stores the results:
+data/NAME.nc, and the table of README.md.
 """
 
 from __future__ import annotations
@@ -33,14 +33,15 @@ HEAD = f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}\n"
 
 @dataclass(frozen=True)
 class Found:
-    """Both runs of a case, and the sample to which they agree."""
+    """Results of both codes for a case, and the sample up to which they agree."""
 
     case: Case
     data: xr.Dataset
-    peaks: tuple[float, ...]  # N, of the first second by gudgeon, where the paper prints some
-    off: str  # by how much printed rows are others
+    peaks: tuple[float, ...]  # N, of the first second by gudgeon, if the paper prints them
+    off: str  # deviation from printed rows
 
     def row(self, name: str) -> str:
+        """Return the case's row of the table."""
         d = self.data
         printed = ", ".join("–" if peak is None else f"{peak:g} N" for peak in self.case.peaks) or "–"
         ours = self.off or ", ".join(f"{peak:.4g} N" for peak in self.peaks) or "–"
@@ -54,7 +55,7 @@ class Found:
 
 
 def found(case: Case) -> Found:
-    """Run by both."""
+    """Run a case by both codes."""
     simulation = gudgeon.load(case.file, case.scene, quick=False)
     method = "radau9" if case.is_film else "dop853"
     run = simulation.simulate(case.t_end, output=INTERVALS, parameters=case.parameters, method=method, rtol=1e-13)
@@ -96,12 +97,14 @@ def found(case: Case) -> Found:
 
 
 def told(case: Case) -> str:
-    """What is not as the file has it."""
+    """Return the parameters that differ from the file, as text."""
     return ", ".join(f"{name} = {value!r}" for name, value in case.parameters.items())
 
 
 def peaks(case: Case, simulation: Any, method: str) -> tuple[float, ...]:
-    """Of the first second, as the paper has it; of dry contact it is one draw."""
+    """Return the largest forces of the first second, as in the paper; after chaotic contact they are one sample of
+    many.
+    """
     if not case.peaks:
         return ()
     run = simulation.simulate(1.0, output=2, parameters=case.parameters, method=method, rtol=1e-10)
@@ -109,7 +112,7 @@ def peaks(case: Case, simulation: Any, method: str) -> tuple[float, ...]:
 
 
 def beside(case: Case, simulation: Any) -> dict[str, np.ndarray]:
-    """Of each series of the printed rows how far it is off: of forces by their size, of journals by c."""
+    """Return the deviation of each series from the printed rows: forces relative to their size, journals to c."""
     with open(HERE / case.rows, encoding="utf-8", newline="") as file:
         lines = list(csv.DictReader(line for line in file if not line.startswith("#")))
     printed = {name: np.array([float(line[name]) for line in lines]) for name in lines[0]}
@@ -125,18 +128,24 @@ def beside(case: Case, simulation: Any) -> dict[str, np.ndarray]:
 
 
 def told_beside(case: Case, simulation: Any) -> str:
-    """In words: the median and, in brackets, the most by kinds of series."""
+    """Return the deviations as text: median and, in brackets, maximum by kinds of series."""
     kinds: dict[str, list[np.ndarray]] = {}
     for name, off in beside(case, simulation).items():
         kind = name.rpartition(".")[2]
-        told = {"ex": "e {} c", "ey": "e {} c", "eps": "e {} c", "Fn": "Fn {} of itself", "omega": f"{name} {{}} rad/s"}
-        kinds.setdefault(told.get(kind, f"{name} {{}} rad"), []).append(off)
+        formats = {
+            "ex": "e {} c",
+            "ey": "e {} c",
+            "eps": "e {} c",
+            "Fn": "Fn {} of itself",
+            "omega": f"{name} {{}} rad/s",
+        }
+        kinds.setdefault(formats.get(kind, f"{name} {{}} rad"), []).append(off)
     parts = (text.format(f"{np.median(off):.0e} ({np.max(off):.0e})") for text, off in kinds.items())
     return f"off by, median (most): {', '.join(parts)}"
 
 
 def write(rows: dict[str, Found]) -> None:
-    """The data, and the table of those that are not left out."""
+    """Write the data, and the table of all cases of which data exist."""
     for name, one in rows.items():
         (HERE / "data").mkdir(exist_ok=True)
         packed = {key: {"zlib": True} for key in ("e", "force", "difference")}
@@ -149,7 +158,7 @@ def write(rows: dict[str, Found]) -> None:
 
 
 def main() -> int:
-    """Command line."""
+    """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     every = cases()
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(every))

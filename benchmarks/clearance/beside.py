@@ -1,9 +1,9 @@
-"""Codes that draw what they find: what their equations give, beside the data here.
+"""Compare the data here with the equations of codes that only draw their results.
 
     python -m benchmarks.clearance.beside [NAME …]
 
-A line for each figure that README.md tells of them: what is compared, the figure there, the figure now. The equations
-are in drawn.py; it takes a minute or two, and ends with 1 where a figure is another.
+The output has a line for each number in README.md: what is compared, the number there, the number now. The equations
+are in drawn.py. A run takes a minute or two; the exit code is 1 if a number differs.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ from benchmarks.clearance.drawn import Rates
 from benchmarks.clearance.second import ending
 
 HERE = Path(__file__).resolve().parent
-WHIRLS = 0.4  # of the gap, behind 0.3 s, when the rotor has long risen from where it fell to
+WHIRLS = 0.4  # eccentricity over the gap, after 0.3 s, when the rotor has risen from its fall
 LAST_DIGITS = 8  # runs whose viscosities differ by 3e-15 of them
 ITS_OWN = {"method": "BDF", "rtol": 1e-6, "atol": 1e-6}  # how Nowald integrates, m and m/s
 
 
 @dataclass(frozen=True)
 class Figure:
-    """What README tells of a comparison, and what it is now.
+    """A number of a comparison in README.md, and its present value.
 
-    within: by which factor it may be another, where roundings decide it; 1 where all digits that are told must be.
+    within: factor by which it may differ if rounding errors decide it; 1 if all printed digits must agree.
     """
 
     what: str
@@ -46,7 +46,7 @@ class Figure:
 
     @property
     def now_told(self) -> str:
-        """With as many digits."""
+        """Return the present value with as many digits as in README.md."""
         digits = self.told.partition("e")[0].partition(".")[2]
         if self.told == "0":
             return f"{self.now:.0e}" if self.now else "0"
@@ -57,13 +57,14 @@ class Figure:
 
     @property
     def holds(self) -> bool:
+        """Return whether the present value agrees."""
         if self.within == 1.0:
             return self.now_told == self.told
         return 1.0 / self.within < self.now / float(self.told) < self.within
 
 
 def found(rates: Rates, y: Any, times: np.ndarray, **how: Any) -> np.ndarray:
-    """y (N, times); DOP853 at 1e-13 unless something else is asked for."""
+    """Return y (N, times) of equations y' = f(t, y); DOP853 at 1e-13 by default. Raises ValueError."""
     how = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-16} | how
     run = solve_ivp(rates, (0.0, float(times[-1])), y, t_eval=times, **how)
     if run.status < 0:
@@ -72,14 +73,14 @@ def found(rates: Rates, y: Any, times: np.ndarray, **how: Any) -> np.ndarray:
 
 
 def kept(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) and e (m; times, joints, axes) of a case's file, to its horizon."""
+    """Return times (s) and e (m; times, joints, axes) of a case's file, up to its horizon."""
     data = xr.load_dataset(HERE / "data" / f"{name}.nc", engine="h5netcdf")
     there = data.time.values <= data.attrs["horizon"]
     return data.time.values[there], data.e.values[there]
 
 
 def ours(name: str, times: np.ndarray, **parameters: float) -> Any:
-    """A run of gudgeon behind the horizon, or with other numbers."""
+    """Return a run of gudgeon beyond the horizon, or with other parameters."""
     case = cases()[name]
     return gudgeon.load(case.file, case.scene).simulate(
         float(times[-1]), output=times, parameters=parameters, rtol=1e-12, method="radau9" if case.is_film else "dop853"
@@ -87,12 +88,14 @@ def ours(name: str, times: np.ndarray, **parameters: float) -> Any:
 
 
 def far(a: np.ndarray, b: np.ndarray, unit: float) -> np.ndarray:
-    """Distances of points (times, 2)."""
+    """Return the distances of points (times, 2), over `unit`."""
     return np.asarray(np.hypot(*(a - b).T) / unit)
 
 
 def film_apart(eps: float) -> float:
-    """Largest difference of Nowald's film and the quadrature of the second code, of the force, at ε."""
+    """Return the largest relative difference of forces between Nowald's film and the quadrature of the second code, at
+    ε.
+    """
     law, film, turning, most = rotors.rigid_rotor()[0].joints[0].law, drawn.SMALL, 700.0, 0.0
     e = film.gap * eps * np.array([math.cos(0.4), math.sin(0.4)])
     for speed in (0.0, 10.0, 1000.0):
@@ -104,12 +107,13 @@ def film_apart(eps: float) -> float:
 
 
 def whirls_from(film: drawn.Film, times: np.ndarray, **how: Any) -> float:
-    """s."""
+    """Return the time in s at which the rotor begins to whirl."""
     y = found(lambda t, y: drawn.rigid_rotor(t, y, film), np.zeros(4), times, **how)
     return float(times[(times > 0.3) & (np.hypot(y[0], y[1]) > WHIRLS * film.gap)][0])
 
 
 def rotor_rigid() -> Iterator[Figure]:
+    """Yield the comparisons of the rigid rotor."""
     yield Figure(
         "Nowald's film and a quadrature, of the force, ε 0.01 to 0.95",
         "3e-8",
@@ -135,6 +139,7 @@ def rotor_rigid() -> Iterator[Figure]:
 
 
 def rotor_elastic() -> Iterator[Figure]:
+    """Yield the comparison of the elastic rotor."""
     times = np.linspace(0.0, 0.6, 601)
     y, run = found(drawn.elastic_rotor, np.full(8, 1e-10), times, **ITS_OWN), ours("rotor_elastic", times)
     own = np.stack([run["bearings.ex"], run["bearings.ey"]], -1)
@@ -142,6 +147,7 @@ def rotor_elastic() -> Iterator[Figure]:
 
 
 def rotor_floating_ring() -> Iterator[Figure]:
+    """Yield the comparisons of the rotor in floating rings."""
     times, e = kept("rotor_floating_ring")
     y = found(drawn.floating_ring, np.full(13, 1e-10), times, method="Radau", rtol=1e-8, atol=1e-12)
     k, run = int(np.argmin(abs(times - 0.3))), ours("rotor_floating_ring", times)
@@ -152,7 +158,7 @@ def rotor_floating_ring() -> Iterator[Figure]:
 
 
 def carried(load: float) -> float:
-    """By Ocvirk's film where mobility comes to rest under a constant load, as a share of it."""
+    """Return the load that Ocvirk's film carries where mobility comes to rest under a constant load, over that load."""
     speed, length, diameter, gap = 2000.0 / 60.0 * 2.0 * math.pi, 0.0254, 0.0635, 35.56e-6
     y = found(drawn.mobility(lambda t: load, 0.5), [0.1, 0.1], np.array([0.0, 1.0]), method="Radau", rtol=1e-9)
     eps = float(np.hypot(*y[:, -1]))
@@ -161,6 +167,7 @@ def carried(load: float) -> float:
 
 
 def engine_bearing() -> Iterator[Figure]:
+    """Yield the comparisons of the engine's bearing."""
     gas, c, times = rotors.engine_bearing()[0].linkage.loads[0], 35.56e-6, np.linspace(0.0, 0.12, 1201)
     begun, second = 0.1 * np.array([math.cos(1.5), math.sin(1.5)]), times >= 0.06
     orbits = {
@@ -192,6 +199,7 @@ def engine_bearing() -> Iterator[Figure]:
 
 
 def rotor_stator() -> Iterator[Figure]:
+    """Yield the comparisons of the rotor in its stator."""
     times, e = kept("rotor_stator")
     begun, early = [0.01, 0.0, 0.0, 0.0], times <= 20e-3 + 1e-9
     y = found(drawn.stator(False), begun, 1e3 * times[early])
@@ -206,7 +214,10 @@ def rotor_stator() -> Iterator[Figure]:
 
 
 def whirling(collar: drawn.Collar, times: np.ndarray) -> tuple[np.ndarray, float]:
-    """Where the collar's middle is (times, 2), m, and when it touches first, s: pieces end where contacts do."""
+    """Return the positions of the collar's centre (times, 2) in m, and the time of its first contact in s.
+
+    The integration is split where contacts begin and end.
+    """
     y, t, touches, pieces, first = collar.start(), 0.0, False, [], math.inf
     while t < times[-1]:
         event = ending(lambda t, y: y[0] - collar.gap, -1.0 if touches else 1.0)
@@ -231,6 +242,7 @@ def whirling(collar: drawn.Collar, times: np.ndarray) -> tuple[np.ndarray, float
 
 
 def drill_collar() -> Iterator[Figure]:
+    """Yield the comparisons of the drill collar."""
     (times, e), gap, end = kept("drill_collar"), drawn.Collar.gap, 5.6
     times, e = np.append(times[times < end], end), e[times < end, 0]
     own, first = whirling(drawn.Collar(1e-3), times)
@@ -252,7 +264,7 @@ COMPARED: dict[str, Callable[[], Iterator[Figure]]] = {
 
 
 def main() -> int:
-    """Command line."""
+    """Run the comparisons from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(COMPARED))
     options = parser.parse_args()

@@ -1,4 +1,4 @@
-"""The cases: a file for gudgeon, the same machine for the second code, and where its numbers are from."""
+"""List the cases: a file for gudgeon, the same machine for the second code, and the source of its values."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ STUDIES = HERE.parents[1] / "studies"
 
 @dataclass(frozen=True)
 class Case:
-    """A machine at its numbers. `file`, `scene`, `parameters`: as `gudgeon.load` and `simulate` take them.
+    """A machine with its parameter values. `file`, `scene`, `parameters`: as `gudgeon.load` and `simulate` take them.
 
     joints: those with play, as the file calls them. t_end: s, of the samples. peaks: largest forces at the joints that
     the paper prints of the first second, N. rows: a file here of rows that a code prints, journals in mm.
@@ -40,15 +40,17 @@ class Case:
 
     @property
     def clearance(self) -> float:
+        """Return the clearance of the first joint in m."""
         return self.second.joints[0].law.clearance
 
     @property
     def clearances(self) -> np.ndarray:
-        """Of each joint, m."""
+        """Return the clearance of each joint in m."""
         return np.array([joint.law.clearance for joint in self.second.joints])
 
     @property
     def is_film(self) -> bool:
+        """Return whether the joints are lubricated."""
         return self.second.joints[0].law.viscosity > 0.0
 
 
@@ -88,7 +90,7 @@ JANSEN = "arXiv 2606.25208 (2026), doi 10.48550/arXiv.2606.25208"
 
 
 def cases() -> dict[str, Case]:
-    """All of them, by name."""
+    """Return all cases by name."""
     found = {}
     for name, scene, speed, c, young, t_end, peaks in (
         ("press_dry", "dry", 2.0, 0.3e-3, 70e9, 40e-3, (159.3, 79.1)),

@@ -1,4 +1,4 @@
-"""Equations of codes that draw what they find and print no numbers, written out from what they say, for beside.py.
+"""Implement the equations of codes that draw results without printing numbers, for comparison in beside.py.
 
 Each is a function y' = f(t, y) with y = positions, then velocities; numbers are those codes' own, in kg, m, s but for
 the rotor in its stator (kg, mm, ms). Where they were read is in README.md.
@@ -27,11 +27,11 @@ class Film:
     viscosity: float
 
     def force(self, e: np.ndarray, rate: np.ndarray, turning: float) -> np.ndarray:
-        """On the journal; turning: the sum of both surfaces' speeds, rad/s.
+        """Return the force on the journal in N; turning: sum of the speeds of both surfaces, rad/s.
 
-        Seen from a frame with half of that the journal is squeezed with w, at α from its eccentricity. Integrals over
-        the half that is pressed are known in ε and α; in each (1 + ε cos γ)³ is below, above sin and cos of γ to the
-        powers in its name.
+        In a frame that rotates with half of that sum, the journal is squeezed with w at the angle α from its
+        eccentricity. The integrals over the pressed half are closed forms in ε and α. Their names contain the powers of
+        sin γ and cos γ over (1 + ε cos γ)³.
         """
         d, v = e / self.gap, rate / self.gap
         eps = float(np.hypot(*d)) + NEVER_ZERO
@@ -52,14 +52,14 @@ class Film:
         return unit / eps * np.array([along * d[0] - over * d[1], along * d[1] + over * d[0]])
 
     def torque(self, e: np.ndarray, slip: float) -> float:
-        """Of shear, on the body that is faster by `slip`; no more than that."""
+        """Return the torque of shear on the body that is faster by `slip` (rad/s), in N·m."""
         eps = float(np.hypot(*e)) / self.gap + NEVER_ZERO
         unit = math.pi * self.viscosity * self.width * self.diameter**3 / (4.0 * self.gap)
         return -unit * slip / math.sqrt(1.0 - eps * eps)
 
 
 def unbalance(t: float, m_e: float, alpha: float) -> np.ndarray:
-    """Of a rotor that runs up with alpha, whose heavy side points up at first."""
+    """Return the force of an unbalance (N) at the angle alpha t²/2; its heavy side points up at first."""
     angle, speed = 0.5 * alpha * t * t, alpha * t
     c, s = math.cos(angle), math.sin(angle)
     return m_e * np.array([alpha * c - speed**2 * s, alpha * s + speed**2 * c])
@@ -72,14 +72,14 @@ DOWN = np.array([0.0, -WEIGHT])
 
 
 def rigid_rotor(t: float, y: np.ndarray, film: Film = SMALL) -> np.ndarray:
-    """Its middle."""
+    """Return y' of the rigid rotor's centre."""
     m, alpha = 0.1, 2.0 * math.pi * 700.0
     force = 2.0 * film.force(y[:2], y[2:], alpha * t) + unbalance(t, 1e-6 * m, alpha)
     return np.concatenate([y[2:], force / m + DOWN])
 
 
 def elastic_rotor(t: float, y: np.ndarray) -> np.ndarray:
-    """Journal and disc."""
+    """Return y' of journal and disc."""
     m, m_j, k, alpha = 0.1, 1e-5, 1e5, 2.0 * math.pi * 500.0
     journal, disc, v_j, v_d = y.reshape(4, 2)
     shaft = k * (disc - journal) + 1e-2 * math.sqrt(k * m) * (v_d - v_j)
@@ -88,7 +88,7 @@ def elastic_rotor(t: float, y: np.ndarray) -> np.ndarray:
 
 
 def floating_ring(t: float, y: np.ndarray) -> np.ndarray:
-    """Journal, disc and ring, and the ring's speed."""
+    """Return y' of journal, disc and ring, and of the ring's speed."""
     m, m_j, m_r, inertia, k, alpha = 5.0, 1.0, 75e-3, 20e-6, 2e4, 2.0 * math.pi * 300.0
     journal, disc, ring, v_j, v_d, v_r = y[:12].reshape(6, 2)
     speed, turns = alpha * t, float(y[12])
@@ -110,14 +110,15 @@ def floating_ring(t: float, y: np.ndarray) -> np.ndarray:
 
 
 def mobility(load: Callable[[float], float], share: float) -> Rates:
-    """Booker's mobility of a short bearing, y = e/c along the load's line and across.
+    """Return Booker's mobility equations of a short bearing, y = e/c along the load's line and across.
 
-    load: N over s. share: with which part of the crank's speed the oil turns; a half, where the bearing is at rest.
+    load: N over s. share: mean speed of the surfaces over that of the crank; a half if the bearing is at rest.
     """
     viscosity, length, diameter, gap, speed = 4.16e-3, 0.0254, 0.0635, 35.56e-6, 2000.0 / 60.0 * 2.0 * math.pi
     unit = (2.0 * gap / diameter) ** 2 / (viscosity * length * diameter) / (math.pi * (length / diameter) ** 2)
 
     def rates(t: float, y: np.ndarray) -> np.ndarray:
+        """Return y'."""
         force = load(t)
         towards, across = (float(y[0]), float(y[1])) if force > 0.0 else (-float(y[0]), float(y[1]))
         pull = unit * abs(force)
@@ -129,10 +130,14 @@ def mobility(load: Callable[[float], float], share: float) -> Rates:
 
 
 def stator(beside: bool) -> Rates:
-    """The rotor's middle. beside: the force has the direction of a point e beside it, away from the heavy side."""
+    """Return the equations of the rotor's centre in its stator.
+
+    beside: the direction of the force is that from a point at the distance e, away from the heavy side.
+    """
     m, e, speed, k, d, k_c, gap = 10.0, 0.18, 3.1, 1.0, 0.05, 50.0, 1.0
 
     def rates(t: float, y: np.ndarray) -> np.ndarray:
+        """Return y'."""
         heavy = e * np.array([math.cos(speed * t), math.sin(speed * t)])
         line = y[:2] - heavy if beside else y[:2]
         deep = max(float(np.hypot(*y[:2])) - gap, 0.0)
@@ -144,7 +149,9 @@ def stator(beside: bool) -> Rates:
 
 @dataclass(frozen=True)
 class Collar:
-    """Lobo's third section with one torsional freedom: y = r, θ (of its middle), φ (its turn), and their rates."""
+    """Lobo's third section with one torsional degree of freedom: y = r, θ (of its centre), φ (its rotation), and their
+    rates.
+    """
 
     v0: float  # m/s, of friction
     gap: float = (0.216 - 0.171) / 2.0
@@ -152,13 +159,13 @@ class Collar:
 
     @property
     def mass(self) -> tuple[float, float]:
-        """Of the steel, and with the mud that goes along."""
+        """Return the mass of the steel, and that with the moving mud, in kg."""
         steel = math.pi * 7800.0 * (0.171**2 - 0.071**2) * 8.55 / 8.0
         return steel, steel + math.pi * 1500.0 * (0.071**2 + 1.7 * 0.171**2) * 8.55 / 8.0
 
     @property
     def stiffness(self) -> float:
-        """Of bending, less the load in the middle of the section."""
+        """Return the bending stiffness in N/m, reduced by the load in the middle of the section."""
         length, above = 8.55, 19.25 + 8.55 / 2.0
         axial = 135e3 - 7800.0 * 9.81 * math.pi * (0.171**2 - 0.071**2) / 4.0 * above
         second = math.pi * (0.171**4 - 0.071**4) / 64.0
@@ -166,7 +173,7 @@ class Collar:
 
     @property
     def torsion(self) -> tuple[float, float, float]:
-        """Inertia, stiffness and damping of the string."""
+        """Return inertia, stiffness and damping of the string."""
         polar = {d: math.pi * (d[0] ** 4 - d[1] ** 4) / 32.0 for d in ((0.14, 0.119), (0.14, 0.076), (0.171, 0.071))}
         pipes, first, others = polar.values()
         inertia = 7800.0 * (pipes * 4733.6 / 3.0 + first * 171.3 + others * (267.1 + 8.55 + 19.25))
@@ -174,16 +181,17 @@ class Collar:
         return inertia, k, 0.35 * inertia + 0.06 * k
 
     def start(self) -> np.ndarray:
-        """At rest, where its weight bends it to: the string is 1e-7 rad off the vertical."""
+        """Return the state at rest under its weight; the string is 1e-7 rad off the vertical."""
         return np.array([self.mass[0] * 9.81 * 1e-7 / self.stiffness, *[0.0] * 5])
 
     def rates(self, touches: bool) -> Rates:
-        """While it touches the wall, and while it does not."""
+        """Return the equations with or without contact of the wall."""
         (_, m), (inertia, k_t, c_t), k, table = self.mass, self.torsion, self.stiffness, 105.0 * math.pi / 30.0
         drag, softer = 2.0 * 1500.0 * 0.171 * 8.55 / (3.0 * math.pi), math.pi**3 / (2.0 * 8.55**2)
         e, radius = self.e, 0.171 / 2.0
 
         def of(t: float, y: np.ndarray) -> np.ndarray:
+            """Return y'."""
             r, theta, phi, v, whirl, turns = (float(x) for x in y)
             c, s = math.cos(phi - theta), math.sin(phi - theta)
             rock = 135e3 * 0.0239 * (math.tanh(1.91 * turns) + 8.5 * turns / (1.0 + 5.47 * turns**2))

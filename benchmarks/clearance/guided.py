@@ -1,8 +1,8 @@
-"""The second code where a slider has play in a guide on the ground: its sharp corners are rigid and bounce.
+"""Simulate a slider with play in a fixed guide by the second code; its sharp corners are rigid and bounce.
 
-As rigid.py, whose joints with play are corners here: End `second` is the corner, End `first` a point of the guide's
-middle line, n the outward normal of its wall. Where a gap closes at the rate u, a blow leaves −e u of it, none where
-that is below the threshold; what touches else is not to meet.
+It extends rigid.py, whose joints with play are corners here. End `second` is the corner, End `first` a point of the
+guide's middle line, n the outward normal of its wall. If a gap closes at the rate u, the impact leaves the rate −e u,
+or 0 below the threshold. Other touching contacts must not penetrate.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from tests.oracles.numpy_linkage import TURN, mass, place, rows
 
 @dataclass
 class Guided(Rigid):
-    """Corners with a wall each: `upper`, 1 or −1 by joint; `half`: of the slider's height, m; restitution e."""
+    """Corners with one wall each: `upper` is 1 or −1 by joint; `half`: half of the slider's height, m; restitution
+    e."""
 
     upper: tuple[int, ...] = ()
     half: float = 0.0
@@ -27,6 +28,7 @@ class Guided(Rigid):
     threshold: float = 1e-4
 
     def gap(self, joint: Joint, q: np.ndarray, v: np.ndarray) -> Gap:
+        """Return the gap of a corner."""
         normal = self.normal(joint)
         one, two = place(joint.play.first, q, v), place(joint.play.second, q, v)
         row, slip_row = normal @ two.r_q, (TURN @ normal) @ two.r_q
@@ -34,10 +36,12 @@ class Guided(Rigid):
         return Gap(delta, float(row @ v), row, float(normal @ two.quadratic), slip_row, float(slip_row @ v))
 
     def normal(self, joint: Joint) -> np.ndarray:
+        """Return the outward normal of a corner's wall."""
         k = next(i for i, own in enumerate(self.joints) if own is joint)
         return np.array([0.0, float(self.upper[k])])
 
     def _of(self, t: float, q: np.ndarray, v: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Return the eccentricity of each corner and the force on it."""
         pressed = self.accelerations(t, q, v, sorted(self.closed))[1]
         places, on_slider = [], []
         for k, (joint, gap) in enumerate(zip(self.joints, self.gaps(q, v), strict=True)):
@@ -47,7 +51,7 @@ class Guided(Rigid):
         return places, on_slider
 
     def start(self, guess: np.ndarray) -> np.ndarray:
-        """Coordinates, and velocities behind them, as they are."""
+        """Return given coordinates and velocities. Raises ValueError if the linkage is not closed."""
         y = np.array(guess, dtype=float)
         n = y.size // 2
         found = rows(self.linkage, 0.0, y[:n], y[n:])
@@ -56,6 +60,9 @@ class Guided(Rigid):
         return y
 
     def blow(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> np.ndarray:
+        """Return the velocities after an impact of the touching corners. Raises ValueError if no impulses are
+        consistent.
+        """
         gaps = self.gaps(q, v)
         near = [k for k in touching if gaps[k].rate >= -RESTING]  # others part already
         back = {k: self.restitution * gaps[k].rate for k in near}
@@ -68,7 +75,9 @@ class Guided(Rigid):
         )
         ratio = {k: abs(self.friction(k, float(gaps[k].slip_row @ smooth))) for k in pressed}
         for way in product((0.0, *SLIDES), repeat=len(pressed)):  # 0: it sticks
-            if way.count(0.0) > 1:  # corners of one slider slip alike: that more than one sticks is no other motion
+            if (
+                way.count(0.0) > 1
+            ):  # corners of one slider have equal slip: sticking of more than one gives the same motion
                 continue
             w, normal, along = self._bounce(
                 t,
@@ -97,7 +106,7 @@ class Guided(Rigid):
         along: dict[int, float | None],
         left: dict[int, float],
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """As `_jump`, of rates that are left."""
+        """Return velocities and impulses as `_jump`, with the remaining normal rates `left`."""
         r = rows(self.linkage, t, q, v)
         phi_q = np.vstack([r.phi_q, *(gaps[k].row for k in held)])
         push = np.vstack([r.phi_q, *(gaps[k].row - (along.get(k) or 0.0) * gaps[k].slip_row for k in held)])

@@ -1,4 +1,4 @@
-"""The machines of linkages, their numbers written out again for the second code; rotors are in rotors.py."""
+"""Define the linkages for the second code, with independent copies of their values; rotors are in rotors.py."""
 
 from __future__ import annotations
 
@@ -20,30 +20,37 @@ DEGREE = math.pi / 180.0
 
 
 class Chain:
-    """Bars by their index: ends in frames of their middles, and guesses of where they are."""
+    """Bars by index, with ends in frames of their centres, and guesses of their positions."""
 
     def __init__(self, lengths: Mapping[int, float]) -> None:
+        """Store the lengths in m."""
         self.lengths = lengths
 
     def tail(self, k: int) -> End:
+        """Return the tail of a bar."""
         return End(k, (-self.lengths[k] / 2.0, 0.0))
 
     def head(self, k: int) -> End:
+        """Return the head of a bar."""
         return End(k, (self.lengths[k] / 2.0, 0.0))
 
     def middle(self, k: int, tail: tuple[float, float], degrees: float) -> list[float]:
+        """Return x, y and angle of a bar from the position of its tail and its angle in degrees."""
         angle = degrees * DEGREE
         half = self.lengths[k] / 2.0
         return [tail[0] + half * math.cos(angle), tail[1] + half * math.sin(angle), angle]
 
 
 def pin(at: tuple[float, float], end: End) -> Revolute:
-    """To the ground."""
+    """Return a revolute joint with the ground."""
     return Revolute(End(GROUND, at), end)
 
 
 def press(speed: float, clearance: float, young: float, viscosity: float) -> tuple[Second, list[float]]:
-    """L1, L2, L3, L4, L6, L7, L8, S9; play between L1 and L2 (A), and between L4 and L3 (B)."""
+    """Return the press and a guess of its coordinates.
+
+    Bodies: L1, L2, L3, L4, L6, L7, L8, S9; play between L1 and L2 (A), and between L4 and L3 (B).
+    """
     data = Press().at_speed(speed)
     g = data.geometry
     links = Chain(dict(enumerate((g.l1, g.l2, g.l3, g.l4, g.l6, g.l7, g.l8))))
@@ -83,7 +90,7 @@ def press(speed: float, clearance: float, young: float, viscosity: float) -> tup
 def slider_crank(
     masses: Sequence[float], inertias: Sequence[float], law: Pin, drive: Wave, gravity: float = 0.0
 ) -> tuple[Second, list[float]]:
-    """Crank of 50 mm, rod of 120 mm, slider; play between rod and slider."""
+    """Return a slider-crank and a guess: crank of 50 mm, rod of 120 mm; play between rod and slider."""
     links, slider = Chain({0: 0.05, 1: 0.12}), End(2, (0.0, 0.0))
     joints = (
         pin((0.0, 0.0), links.tail(0)),
@@ -107,24 +114,30 @@ def slider_crank(
 
 @dataclass(frozen=True)
 class Cosine:
-    """a + b cos(w t)."""
+    """Function of time a + b cos(w t)."""
 
     a: float
     b: float
     w: float
 
     def value(self, t: float) -> float:
+        """Return the value at t."""
         return self.a + self.b * math.cos(self.w * t)
 
     def rate(self, t: float) -> float:
+        """Return the first derivative at t."""
         return -self.b * self.w * math.sin(self.w * t)
 
     def acceleration(self, t: float) -> float:
+        """Return the second derivative at t."""
         return -self.b * self.w**2 * math.cos(self.w * t)
 
 
 def landing_gear() -> tuple[Second, list[float]]:
-    """Crosshead, link, plate, brace, leg; play between plate and brace (A), and between brace and leg (B)."""
+    """Return a landing gear (crosshead, link, plate, brace, leg) and a guess.
+
+    Play between plate and brace (A), and between brace and leg (B).
+    """
     links = Chain({1: 0.7, 3: 1.08, 4: 1.2})
     crosshead, brace_on_leg = End(0, (0.0, 0.0)), End(4, (0.36 - 0.6, 0.0))
     joints = (
@@ -156,14 +169,17 @@ def landing_gear() -> tuple[Second, list[float]]:
 
 
 def corners(pq: float, qr: float, pr: float, side: int) -> tuple[list[tuple[float, float]], float]:
-    """P, Q, R from the centroid, Q on the x axis from P, R on its left (1) or right (−1); the sum of squared sides."""
+    """Return the corners of a triangle with sides pq, qr, pr from its centroid, and the sum of their squares.
+
+    side: 1 or −1, the side of pq on which the third corner is.
+    """
     along = (pq**2 + pr**2 - qr**2) / (2.0 * pq)
     raw = np.array([[0.0, 0.0], [pq, 0.0], [along, side * math.sqrt(pr**2 - along**2)]])
     return [(float(x), float(y)) for x, y in raw - raw.mean(axis=0)], pq**2 + qr**2 + pr**2
 
 
 def jansen(pins: int) -> tuple[Second, list[float]]:
-    """m, j, k, upper, c, f, lower; play in one or both pins of the crank: m to j (X1) and m to k (X2)."""
+    """Return Jansen's leg with play in one or two pins of the crank, and a guess."""
     length = {0: 0.15, 1: 0.5, 2: 0.619, 4: 0.393, 5: 0.394}
     links = Chain(length)
     upper, of_upper = corners(0.415, 0.558, 0.401, 1)
@@ -194,17 +210,20 @@ def jansen(pins: int) -> tuple[Second, list[float]]:
 def _jansen_guess(
     links: Chain, upper: Sequence[tuple[float, float]], lower: Sequence[tuple[float, float]], y: tuple[float, float]
 ) -> list[float]:
-    """At θ = 0 of the crank: triangles as circles meet, where the file's own guess of angles leads."""
+    """Return the coordinates at θ = 0 of the crank, by intersections of circles on the branch of the file's guess."""
 
     def meet(one: np.ndarray, first: float, two: np.ndarray, second: float, side: int) -> np.ndarray:
+        """Return an intersection of two circles, on one side of the line of their centres."""
         d = two - one
         along = (d @ d + first**2 - second**2) / (2.0 * d @ d)
         return one + along * d + side * math.sqrt(first**2 / (d @ d) - along**2) * np.array([-d[1], d[0]])
 
     def angle(start: np.ndarray, end: np.ndarray) -> float:
+        """Return the direction from start to end in rad."""
         return math.atan2(*(end - start)[::-1])
 
     def triangle(at: np.ndarray, turned: float, own: Sequence[tuple[float, float]]) -> list[float]:
+        """Return x, y and angle of a triangle from the position of its first corner and its angle."""
         a = np.array([[math.cos(turned), -math.sin(turned)], [math.sin(turned), math.cos(turned)]])
         return [*(at - a @ np.array(own[0])), turned]
 
@@ -231,9 +250,10 @@ def _jansen_guess(
 
 @dataclass(frozen=True)
 class Led:
-    """The torque that leads a crank along reach sin(pace t), of body 0, by the ideal four-bar at the crank's angle.
+    """Torque on the crank (body 0) that tracks the angle reach sin(pace t), computed from the ideal four-bar at the
+    crank's angle.
 
-    lengths: ground, crank, coupler, rocker (m), each of `mass` (kg); `rate` (1/s) and `gain` (N m s) of what is left.
+    lengths: ground, crank, coupler, rocker (m), each of `mass` (kg); `rate` (1/s) and `gain` (N m s) of the deviation.
     """
 
     lengths: tuple[float, float, float, float]
@@ -245,10 +265,11 @@ class Led:
     gain: float
 
     def potential(self, q: np.ndarray) -> float:
+        """Return the potential energy, 0."""
         return 0.0
 
     def angles(self, theta: float) -> tuple[float, float]:
-        """Of the coupler (α) and the rocker (φ): by the half of φ's tangent, as textbooks close the loop."""
+        """Return the angles of the coupler (α) and the rocker (φ), by the half-angle tangent of φ."""
         l0, l1, l2, l3 = self.lengths
         k1, k2 = -2.0 * l1 * l3 * math.sin(theta), 2.0 * l3 * (l0 - l1 * math.cos(theta))
         k3 = l0**2 + l1**2 - l2**2 + l3**2 - 2.0 * l0 * l1 * math.cos(theta)
@@ -257,6 +278,7 @@ class Led:
         return math.atan2(up, across), phi
 
     def torque(self, t: float, theta: float, omega: float) -> float:
+        """Return the torque in N·m."""
         _, l1, l2, l3 = self.lengths
         alpha, phi = self.angles(theta)
         sine, cosine = math.sin(alpha - phi), math.cos(alpha - phi)
@@ -266,7 +288,7 @@ class Led:
         j = [self.mass * length**2 / 12.0 for length in (l1, l2, l3)]  # about the middle, a quarter of that at an end
         p, cross = 0.5 * self.mass * l1 * l2, math.cos(alpha - theta)
         inertia = 4.0 * (j[0] + j[1] * a**2 + j[2] * b**2) + self.mass * l1**2 + 2.0 * p * cross * a
-        curving = 4.0 * j[1] * a * da + 2.0 * j[2] * b * db  # of the rocker half of what it is, as in the source
+        curving = 4.0 * j[1] * a * da + 2.0 * j[2] * b * db  # half of the rocker's term, as in the source
         curving += p * (cross * da + a * (1.0 - a) * math.sin(alpha - theta))
         angle, w = self.pace * t, self.pace
         e, rate = theta - self.reach * math.sin(angle), omega - self.reach * w * math.cos(angle)
@@ -279,13 +301,14 @@ class Led:
         )
 
     def forces(self, t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return the generalized forces."""
         g = np.zeros(q.size)
         g[2] = self.torque(t, q[2], v[2])
         return g
 
 
 def four_bar() -> tuple[Rigid, list[float]]:
-    """Crank, coupler, rocker; rigid play between crank and coupler, coupler and rocker, rocker and ground."""
+    """Return a four-bar and its start; rigid play between crank and coupler, coupler and rocker, rocker and ground."""
     lengths = (3.0, 1.0, 4.0, 2.5)
     links = Chain(dict(enumerate(lengths[1:])))
     law = Pin(radius=0.06, clearance=5e-3, mu=0.1, v0=1e-3)
@@ -309,7 +332,7 @@ def four_bar() -> tuple[Rigid, list[float]]:
 
 
 def slider_in_guide() -> tuple[Guided, list[float]]:
-    """Crank, rod, slider; let go at 150 rad/s with all on one line. Corners in gudgeon's order."""
+    """Return a slider-crank with a guide and its start: released at 150 rad/s with all bars in one line."""
     lengths, speed = (0.153, 0.306), 150.0
     links, slider = Chain(dict(enumerate(lengths))), End(2, (0.0, 0.0))
     joints = (pin((0.0, 0.0), links.tail(0)), Revolute(links.head(0), links.tail(1)), Revolute(links.head(1), slider))

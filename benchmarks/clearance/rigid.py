@@ -1,13 +1,13 @@
-"""The second code where surfaces do not give: a closed contact is a row more, a blow is plastic (e = 0).
+"""Simulate rigid surfaces by the second code: a closed contact is a constraint, an impact is plastic (e = 0).
 
 Absolute coordinates and multipliers as in second.py, with Signorini's and Coulomb's laws in each joint with play:
 
     M q̈ + Φ_qᵀ λ_Φ + Σ (δ_q + f s_q)ᵀ λ = g,   Φ_q q̈ = γ,   δ̈ = 0 where closed,   f = μ tanh(s/v0)
 
 with the penetration δ = |e| − c, the slip s of the journal's surface on the bearing's, and the force λ ≥ 0 along the
-normal. A step ends where a gap closes or a λ is used up. A blow has impulses Λ, of all that touches: δ̇⁺ = 0 of what is
-pressed, and along the surfaces P that brings the slip to rest, or is f Λ. Which contacts are pressed, which stick, is
-found by trying all. J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody
+normal. A step ends where a gap closes or a λ vanishes. An impact has impulses Λ of all touching contacts: δ̇⁺ = 0 of the
+pressed ones, and along the surfaces P that stops the slip, or f Λ. All combinations of pressed and sticking contacts
+are tried. J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody
 Dynamics with Unilateral Contacts (1996).
 """
 
@@ -24,14 +24,14 @@ import numpy as np
 from benchmarks.clearance.second import STABLE, Joint, Second, ending
 from tests.oracles.numpy_linkage import GROUND, TURN, forces, mass, place, rows
 
-SLIDES = (1.0, -1.0)  # signs of the slip behind a blow
-TOUCHING = 1e-10  # of the clearance
+SLIDES = (1.0, -1.0)  # signs of the slip after an impact
+TOUCHING = 1e-10  # gap over clearance up to which surfaces touch
 SHORT = 1e-6  # s
 RESTING = 1e-9  # m/s
 
 
 class Gap(NamedTuple):
-    """A joint with play on its way."""
+    """Gap of a joint with play, with its derivatives."""
 
     delta: float  # m
     rate: float  # m/s
@@ -43,11 +43,12 @@ class Gap(NamedTuple):
 
 @dataclass
 class Rigid(Second):
-    """A run of a machine whose journals are rigid and do not spring back. `closed`: joints by number."""
+    """A machine with rigid journals and plastic impacts. `closed`: indices of joints in contact."""
 
     closed: set[int] = field(default_factory=set)
 
     def gap(self, joint: Joint, q: np.ndarray, v: np.ndarray) -> Gap:
+        """Return the gap of a joint."""
         one, two = place(joint.play.first, q, v), place(joint.play.second, q, v)
         e, rate, e_q = two.r - one.r, two.v - one.v, two.r_q - one.r_q
         size = float(np.hypot(*e))
@@ -64,12 +65,12 @@ class Rigid(Second):
         return Gap(size - joint.law.clearance, along, row, gamma, slip_row, float(slip_row @ v))
 
     def friction(self, k: int, slip: float) -> float:
-        """F_t/F_n against the slip."""
+        """Return F_t/F_n, directed against the slip."""
         law = self.joints[k].law
         return law.mu * math.tanh(slip / law.v0)
 
     def accelerations(self, t: float, q: np.ndarray, v: np.ndarray, held: Iterable[int]) -> tuple[np.ndarray, Any]:
-        """q̈ (n,) with these joints closed, and λ of each (N); what is left of Φ and δ dies out."""
+        """Return q̈ (n,) with the joints `held` closed, and λ of each (N); deviations of Φ and δ decay."""
         r, found, held = rows(self.linkage, t, q, v), self.gaps(q, v), list(held)
         gaps = [found[k] for k in held]
         phi_q = np.vstack([r.phi_q, *(gap.row for gap in gaps)])
@@ -84,21 +85,24 @@ class Rigid(Second):
         return x[:n], dict(zip(held, x[n + r.phi.size :], strict=True))
 
     def __call__(self, t: float, y: np.ndarray) -> np.ndarray:
+        """Return y' for the integrator."""
         self.calls += 1
         n = y.size // 2
         return np.concatenate([y[n:], self.accelerations(t, y[:n], y[n:], sorted(self.closed))[0]])
 
     def gaps(self, q: np.ndarray, v: np.ndarray) -> list[Gap]:
+        """Return the gaps of all joints."""
         return [self.gap(joint, q, v) for joint in self.joints]
 
     def start(self, guess: np.ndarray) -> np.ndarray:
-        """At rest at these coordinates, which are closed as they are."""
+        """Return the state at rest at given coordinates. Raises ValueError if the linkage is not closed."""
         q = np.array(guess, dtype=float)
         if abs(rows(self.linkage, 0.0, q, np.zeros(q.size)).phi).max() > 1e-14:
             raise ValueError("the linkage is not closed here")
         return np.concatenate([q, np.zeros(q.size)])
 
     def _of(self, t: float, q: np.ndarray, v: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Return the eccentricity of each joint and the force on its journal."""
         pressed = self.accelerations(t, q, v, sorted(self.closed))[1]
         eccentricities, on_journals = [], []
         for k, (joint, gap) in enumerate(zip(self.joints, self.gaps(q, v), strict=True)):
@@ -109,12 +113,18 @@ class Rigid(Second):
         return eccentricities, on_journals
 
     def _stride(self, y: np.ndarray) -> float:
-        """What parts goes twice as far at most: no step is to lead away from a wall and back into it."""
+        """Return the largest step in s: separating surfaces at most double their distance.
+
+        A step must not lead away from a wall and back into it.
+        """
         free = [gap for i, gap in enumerate(self.gaps(*np.split(y, 2))) if i not in self.closed]
         return max(SHORT, min((gap.delta / gap.rate for gap in free if gap.rate < 0.0), default=math.inf))
 
     def blow(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> np.ndarray:
-        """Velocities behind it: normal impulses without friction first, then what friction changes."""
+        """Return the velocities after an impact: normal impulses without friction first, then the changes by friction.
+
+        Raises ValueError if no impulses are consistent.
+        """
         gaps = self.gaps(q, v)
         pressed, smooth = next(
             (held, w)
@@ -149,7 +159,7 @@ class Rigid(Second):
         held: Iterable[int],
         along: dict[int, float | None],
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """q̇⁺, Λ and P (N s) where δ̇⁺ = 0 of all held; of `along` P is so much of Λ, or stops the slip (None)."""
+        """Return q̇⁺, Λ and P (N s) with δ̇⁺ = 0 of all held joints; `along`: P over Λ, or None if P stops the slip."""
         r, held = rows(self.linkage, t, q, v), list(held)
         phi_q = np.vstack([r.phi_q, *(gaps[k].row for k in held)])
         push = np.vstack([r.phi_q, *(gaps[k].row - (along.get(k) or 0.0) * gaps[k].slip_row for k in held)])
@@ -165,7 +175,7 @@ class Rigid(Second):
         return x[:n], normal, np.array([stopping.get(k, (along.get(k) or 0.0) * normal[i]) for i, k in enumerate(held)])
 
     def settle(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> None:
-        """Of what touches and does not part that is closed which has to push: λ ≥ 0, δ̈ ≤ 0."""
+        """Set the closed contacts among the touching ones, so that λ ≥ 0 and δ̈ ≤ 0. Raises ValueError."""
         resting = [k for k in touching if abs(self.gaps(q, v)[k].rate) < RESTING]
         for held in subsets(resting):
             a, pressed = self.accelerations(t, q, v, held)
@@ -178,22 +188,27 @@ class Rigid(Second):
         raise ValueError("no forces fit")
 
     def _events(self, n: int) -> Iterator[tuple[Any, Callable[[float, np.ndarray, np.ndarray], None]]]:
+        """Yield each event function with the change of contacts after its zero."""
         for k, joint in enumerate(self.joints):
             if k in self.closed:
 
-                def used_up(t: float, y: np.ndarray, k: int = k) -> float:
+                def contact_force(t: float, y: np.ndarray, k: int = k) -> float:
+                    """Return the contact force λ of joint k."""
                     return float(self.accelerations(t, y[:n], y[n:], sorted(self.closed))[1][k])
 
-                def opens(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+                def open_contact(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+                    """Open joint k."""
                     self.settle(t, q, v, sorted(self.closed - {k}))
 
-                yield ending(used_up, -1.0), opens
+                yield ending(contact_force, -1.0), open_contact
                 continue
 
             def delta(t: float, y: np.ndarray, joint: Joint = joint) -> float:
+                """Return the penetration of a joint."""
                 return self.gap(joint, y[:n], y[n:]).delta
 
-            def meets(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+            def apply_impact(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
+                """Apply the impact of all touching joints, and store the onsets."""
                 known, near = set(self.closed), [-TOUCHING * one.law.clearance for one in self.joints]
                 touching = [i for i, gap in enumerate(self.gaps(q, v)) if i in known or gap.delta >= near[i]]
                 while any(self.gaps(q, v)[i].rate > RESTING for i in touching):  # friction may bring others to meet
@@ -202,9 +217,9 @@ class Rigid(Second):
                 for i in sorted(self.closed - known):
                     self.onsets[i].append(t)
 
-            yield ending(delta, 1.0), meets
+            yield ending(delta, 1.0), apply_impact
 
 
 def subsets(of: list[int]) -> Iterator[tuple[int, ...]]:
-    """All, the largest first."""
+    """Yield all subsets, the largest first."""
     return chain.from_iterable(combinations(of, size) for size in range(len(of), -1, -1))

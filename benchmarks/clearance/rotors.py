@@ -1,6 +1,6 @@
-"""Rotors, an engine's bearing and a drill string for the second code: their laws and loads, and how they begin.
+"""Define rotors, an engine's bearing and a drill string for the second code: laws, loads and initial states.
 
-A short bearing's film is taken by quadrature, without the line of centres. With u(φ) from the bearing's centre outwards
+The film of a short bearing is integrated by quadrature, without the line of centres. With u(φ) radially outwards
 the gap is h = c − e·u, and seen from a frame that turns with the mean of both surfaces it closes with the velocity
 w = ė − ½ (ω_i + ω_j) (e turned +90°): along the axis the pressure is a parabola, and over the half w·u > 0, where it is
 above that of the ends,
@@ -28,9 +28,10 @@ QUARTER = math.pi / 2.0
 
 @dataclass
 class Begun(Second):
-    """A run from coordinates and velocities that are given, and closed as they are."""
+    """A machine that starts from given coordinates and velocities, which satisfy the constraints."""
 
     def start(self, guess: np.ndarray) -> np.ndarray:
+        """Return the state. Raises ValueError if the drives have other values."""
         q, v = np.split(np.array(guess, dtype=float), 2)
         found = rows(self.linkage, 0.0, q, v)
         if max(abs(found.phi).max(initial=0.0), abs(found.phi_q @ v - found.nu).max(initial=0.0)) > 1e-14:
@@ -40,9 +41,10 @@ class Begun(Second):
 
 @dataclass(frozen=True)
 class Short(Pin):
-    """Nothing but a short bearing's film, at its `viscosity`; e < c."""
+    """Film of a short bearing with its `viscosity`; e < c."""
 
     def __call__(self, e: np.ndarray, rate: np.ndarray, omega_i: float, omega_j: float) -> Wrench:
+        """Return the force on the journal and both torques."""
         w = rate - 0.5 * (omega_i + omega_j) * (TURN @ e)
         angle = math.atan2(w[1], w[0]) + QUARTER * NODES
         u = np.array([np.cos(angle), np.sin(angle)])
@@ -59,11 +61,12 @@ class Short(Pin):
 
 @dataclass(frozen=True)
 class Elastic(Pin):
-    """A linear spring without damping, friction μ tanh(slip/`sliding`)."""
+    """Linear spring without damping, friction μ tanh(slip/`sliding`)."""
 
     sliding: float = math.inf
 
     def _dry(self, e: float, v_n: float, v_t: float, omega_i: float, omega_j: float) -> tuple[float, ...]:
+        """Return radial and tangential force, and both torques."""
         delta = e - self.clearance
         if delta <= 0.0:
             return 0.0, 0.0, 0.0, 0.0
@@ -76,7 +79,7 @@ class Elastic(Pin):
 
 @dataclass(frozen=True)
 class Shaft:
-    """What a shaft does between two points, alike in all directions: k and d (N/m, N s/m)."""
+    """Isotropic spring and damper between two points: k and d (N/m, N s/m)."""
 
     first: End
     second: End
@@ -84,48 +87,55 @@ class Shaft:
     d: float
 
     def forces(self, t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return the generalized forces."""
         one, two = place(self.first, q, v), place(self.second, q, v)
         return np.asarray((one.r_q - two.r_q).T @ (self.k * (two.r - one.r) + self.d * (two.v - one.v)))
 
     def potential(self, q: np.ndarray) -> float:
+        """Return the potential energy, which is not used: 0."""
         return 0.0
 
 
 @dataclass(frozen=True)
 class Gas:
-    """A force along x on body 0: F(ω t), ω in rad/s."""
+    """Force along x on body 0: F(ω t), ω in rad/s."""
 
     load: CubicSpline
     speed: float
 
     def forces(self, t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return the generalized forces."""
         g = np.zeros(q.size)
         g[0] = float(self.load(math.degrees(self.speed * t)))
         return g
 
     def potential(self, q: np.ndarray) -> float:
+        """Return the potential energy, 0."""
         return 0.0
 
 
 @dataclass(frozen=True)
 class Square:
-    """alpha t²/2."""
+    """Function of time alpha t²/2."""
 
     alpha: float
 
     def value(self, t: float) -> float:
+        """Return the value at t."""
         return 0.5 * self.alpha * t * t
 
     def rate(self, t: float) -> float:
+        """Return the first derivative at t."""
         return self.alpha * t
 
     def acceleration(self, t: float) -> float:
+        """Return the second derivative at t."""
         return self.alpha
 
 
 @dataclass(frozen=True)
 class String:
-    """What a drill string does to its collar, body 0, whose centre is `e` off its centre of mass on its x axis.
+    """Forces of a drill string on its collar, body 0, whose centre is `e` off its centre of mass on its x axis.
 
     Bending, at the centre of mass: −(k − softer T) r of the centre; drag of the mud at the centre: −drag |ṙ| ṙ; the
     pipes, from the rotary table at `speed`: −k_t (φ − Ω t) − c_t (φ' − Ω); the rock: −T, with
@@ -143,6 +153,7 @@ class String:
     b: tuple[float, float, float]
 
     def forces(self, t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return the generalized forces."""
         phi, rate = float(q[2]), float(v[2])
         arm = self.e * np.array([math.cos(phi), math.sin(phi)])
         r, velocity = q[:2] - arm, v[:2] - rate * (TURN @ arm)
@@ -153,6 +164,7 @@ class String:
         return np.array([*(mud - (self.k - self.softer * rock) * r), turning])
 
     def potential(self, q: np.ndarray) -> float:
+        """Return the potential energy, which is not used: 0."""
         return 0.0
 
 
@@ -164,19 +176,19 @@ def begun(
     weight: float = 0.0,
     method: str = "DOP853",
 ) -> Begun:
-    """A machine without joints but those with play, under gravity (m/s²)."""
+    """Return a machine without ideal joints, with gravity `weight` (m/s²) along −y."""
     linkage = Linkage(tuple(bodies), (), tuple(drives), gravity=(0.0, -weight), loads=tuple(loads))
     joints = [Joint(play, play.law) for play in plays]  # type: ignore[arg-type]
     return Begun(linkage, joints, rtol=1e-13 if method == "DOP853" else 1e-12, method=method)
 
 
 def bearing(body: int, law: Pin, at: tuple[float, float] = (0.0, 0.0)) -> Play:
-    """Of the ground at the origin, around this point of a body."""
+    """Return play between the ground at the origin and a point of a body."""
     return Play(End(GROUND, (0.0, 0.0)), End(body, at), law)
 
 
 def rigid_rotor() -> tuple[Begun, list[float]]:
-    """The body's origin of coordinates is its centre of mass: its journal's centre lies e below."""
+    """Return the rigid rotor and its start; the journal's centre is e below the centre of mass."""
     e, c = 1e-6, 15e-6
     law = Short(radius=3.5e-3 + c, clearance=c, width=3.5e-3, viscosity=2e-2)
     drives = (Drive(0, GROUND, Square(2.0 * math.pi * 700.0)),)
@@ -185,7 +197,7 @@ def rigid_rotor() -> tuple[Begun, list[float]]:
 
 
 def elastic_rotor() -> tuple[Begun, list[float]]:
-    """Journal and disc."""
+    """Return the elastic rotor and its start; bodies: journal and disc."""
     e, c, k, m = 1e-6, 15e-6, 1e5, 0.1
     law = Short(radius=3.5e-3 + c, clearance=c, width=3.5e-3, viscosity=2e-2)
     drives = [Drive(body, GROUND, Square(2.0 * math.pi * 500.0)) for body in (0, 1)]
@@ -195,7 +207,7 @@ def elastic_rotor() -> tuple[Begun, list[float]]:
 
 
 def floating_ring() -> tuple[Begun, list[float]]:
-    """Journal, disc and ring."""
+    """Return the rotor in floating rings and its start; bodies: journal, disc and ring."""
     e, k, m = 3e-6, 2e4, 5.0
     inner = Short(radius=12.5e-3 + 50e-6, clearance=50e-6, width=20e-3, viscosity=2e-2, shear=True)
     outer = Short(radius=20e-3 + 70e-6, clearance=70e-6, width=20e-3, viscosity=4e-2, shear=True)
@@ -207,7 +219,7 @@ def floating_ring() -> tuple[Begun, list[float]]:
 
 
 def engine_bearing() -> tuple[Begun, list[float]]:
-    """Crank angles (degrees) and loads (kN), closed to a period."""
+    """Return the engine's bearing and its start; loads in kN by crank angle in degrees, periodic."""
     loads = [
         (-0.570621, -2.012326),
         (15.768046, -1.595861),
@@ -263,7 +275,7 @@ def engine_bearing() -> tuple[Begun, list[float]]:
 
 
 def rotor_and_stator() -> tuple[Begun, list[float]]:
-    """The rotor's centre begins at a hundredth of the gap, at rest."""
+    """Return the rotor in its stator and its start: the centre is at rest at a hundredth of the gap."""
     e, c, speed = 0.18e-3, 1e-3, 3100.0
     law = Elastic(radius=50e-3, clearance=c, width=10e-3, stiffness=50e6, mu=0.0)
     shaft = Shaft(End(GROUND, (0.0, 0.0)), End(0, (-e, 0.0)), 1e6, 50.0)
@@ -273,7 +285,7 @@ def rotor_and_stator() -> tuple[Begun, list[float]]:
 
 
 def drill_collar() -> tuple[Begun, list[float]]:
-    """Section 3 of the collars; pipes and all sections turn."""
+    """Return section 3 of the drill collars and its start; pipes and all sections rotate."""
     young, shear, steel, mud = 220e9, 85.3e9, 7800.0, 1500.0
     pipe, first, collar = (0.140, 0.119), (0.140, 0.076), (0.171, 0.071)
     length = {"pipe": 4733.6, "first": 171.30, "second": 267.10, "third": 8.55, "last": 19.25}

@@ -1,8 +1,7 @@
-"""The second code: absolute coordinates and multipliers in dense NumPy, SciPy's DOP853, contacts as events.
+"""Simulate machines with play by the second code: absolute coordinates in dense NumPy, DOP853, contacts as events.
 
-It shares nothing with gudgeon: linkages are those of tests/oracles/numpy_linkage.py, journals those of journal.py.
-Where the force of a joint changes its formula (onset and end of contact, slips of v0 and v1) a step ends, and the next
-one begins with the other formula.
+It shares no code with gudgeon: linkages are those of tests/oracles/numpy_linkage.py, journals those of journal.py. A
+step ends at each switching point of a joint's force: onset and end of contact, slips of v0 and v1.
 """
 
 from __future__ import annotations
@@ -19,17 +18,18 @@ from tests.oracles import dry
 from tests.oracles.journal import Journal
 from tests.oracles.numpy_linkage import Linkage, Play, Revolute, Wrench, accelerations, place, rows
 
-STABLE = 100.0  # 1/s, Baumgarte's: what is left of Φ dies out
+STABLE = 100.0  # 1/s, gain of Baumgarte's terms
 FLOOR = 1e-6  # m/s: the least δ̇⁻ that an onset stores
 
 
 @dataclass(frozen=True)
 class Pin(Journal):
-    """A journal that may be in the middle of its bearing, of a given stiffness or its own, its film in doubles."""
+    """Journal that may be in the centre of its bearing, with a given stiffness or that of its materials."""
 
     stiffness: float = 0.0  # N/m^exponent; 0: that of its materials
 
     def __call__(self, e: np.ndarray, rate: np.ndarray, omega_i: float, omega_j: float) -> Wrench:
+        """Return the force on the journal and both torques."""
         least = 1e-13 * self.clearance
         if float(np.hypot(*e)) > least:
             return super().__call__(e, rate, omega_i, omega_j)
@@ -39,6 +39,7 @@ class Pin(Journal):
         return super().__call__(least * rate / speed if speed else np.array([least, 0.0]), rate, omega_i, omega_j)
 
     def _dry(self, e: float, v_n: float, v_t: float, omega_i: float, omega_j: float) -> tuple[float, ...]:
+        """Return radial and tangential contact force, and both torques."""
         delta = e - self.clearance
         if delta <= 0.0 or not self.stiffness:
             return super()._dry(e, v_n, v_t, omega_i, omega_j)
@@ -49,6 +50,7 @@ class Pin(Journal):
         return -normal, tangential, -arm_i * tangential, arm_j * tangential
 
     def _film(self, e: float, v_n: float, v_t: float, omega_i: float, omega_j: float) -> tuple[float, ...]:
+        """Return radial and tangential film force, and both torques."""
         c, eps, rate = self.clearance, e / self.clearance, v_n / self.clearance
         turning = omega_i + omega_j - 2.0 * v_t / e
         unit = 6.0 * self.viscosity * (self.radius - c) ** 3 * self.width / c**2
@@ -66,7 +68,8 @@ class Pin(Journal):
 
 @dataclass
 class Joint:
-    """A joint with play on its way: `stored` is δ̇⁻, 0 where nothing touches; its slip lies between two corners."""
+    """State of a joint with play: `stored` is δ̇⁻ (0 without contact), `sector` the switching points around its
+    slip."""
 
     play: Play
     law: Journal
@@ -74,17 +77,18 @@ class Joint:
     sector: tuple[float, float] = (-math.inf, math.inf)
 
     def now(self) -> Play:
+        """Return the play with the stored approach speed."""
         return replace(self.play, law=replace(self.law, stored=self.stored))
 
     def gap(self, q: np.ndarray, v: np.ndarray) -> tuple[float, float]:
-        """e − c, and its rate."""
+        """Return e − c in m, and its rate in m/s."""
         one, two = place(self.play.first, q, v), place(self.play.second, q, v)
         e, rate = two.r - one.r, two.v - one.v
         size = float(np.hypot(*e))
         return size - self.law.clearance, float(e @ rate) / size if size else 0.0
 
     def slip(self, q: np.ndarray, v: np.ndarray) -> float:
-        """Of the journal's surface on the bearing's, in the middle of the penetration."""
+        """Return the slip of the journal's surface on the bearing's in m/s, in the middle of the penetration."""
         one, two = place(self.play.first, q, v), place(self.play.second, q, v)
         e, rate = two.r - one.r, two.v - one.v
         size, law = float(np.hypot(*e)), self.law
@@ -93,7 +97,7 @@ class Joint:
         return across + two.omega * (law.radius - law.clearance - half) - one.omega * (law.radius + half)
 
     def settle(self, q: np.ndarray, v: np.ndarray) -> None:
-        """Between which corners the slip lies, or is about to."""
+        """Set the sector in which the slip is."""
         corners = [-math.inf, -self.law.v1, -self.law.v0, self.law.v0, self.law.v1, math.inf]
         slip = self.slip(q, v)
         k = next(i for i in range(5) if slip < corners[i + 1])
@@ -102,7 +106,7 @@ class Joint:
 
 @dataclass
 class Second:
-    """A run of a machine: q (N, n), e (N, joints, 2) and the force on each journal (N, joints, 2) at its samples."""
+    """A machine and its integrator; `onsets` lists the times of contact of each joint."""
 
     linkage: Linkage
     joints: list[Joint]
@@ -112,13 +116,14 @@ class Second:
     calls: int = 0
 
     def __call__(self, t: float, y: np.ndarray) -> np.ndarray:
+        """Return y' for the integrator."""
         self.calls += 1
         n = y.size // 2
         linkage = replace(self.linkage, plays=tuple(joint.now() for joint in self.joints))
         return np.concatenate([y[n:], accelerations(linkage, t, y[:n], y[n:], STABLE, STABLE)[0]])
 
     def start(self, guess: np.ndarray) -> np.ndarray:
-        """Every journal in the middle of its bearing, moving as an ideal one does: Newton's method on all rows."""
+        """Return the state with centred journals that move as ideal joints, by Newton's method. Raises ValueError."""
         pins = tuple(Revolute(joint.play.first, joint.play.second) for joint in self.joints)
         ideal = replace(self.linkage, joints=(*self.linkage.joints, *pins))
         q = np.array(guess, dtype=float)
@@ -131,7 +136,9 @@ class Second:
         return np.concatenate([q, np.linalg.solve(found.phi_q, found.nu)])
 
     def run(self, y: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Samples at `times`, which begin with 0."""
+        """Return samples at `times`, which begin with 0: q (N, n), e (N, joints, 2), force on each journal (N, joints,
+        2).
+        """
         self.onsets = [[] for _ in self.joints]
         t, n = 0.0, y.size // 2
         samples = [(y[:n], *self._of(0.0, y[:n], y[n:]))]
@@ -143,6 +150,7 @@ class Second:
         return q, e, force
 
     def _of(self, t: float, q: np.ndarray, v: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Return the eccentricity of each joint and the force on its journal."""
         eccentricities, forces = [], []
         for joint in self.joints:
             one, two = place(joint.play.first, q, v), place(joint.play.second, q, v)
@@ -151,7 +159,7 @@ class Second:
         return eccentricities, forces
 
     def _piece(self, t: float, end: float, y: np.ndarray) -> tuple[float, np.ndarray]:
-        """To the next event, or to the end."""
+        """Integrate to the next event, or to `end`; return time and state."""
         n = y.size // 2
         what = list(self._events(n))
         end = min(end, t + self._stride(y))
@@ -173,21 +181,24 @@ class Second:
         return t, y
 
     def _stride(self, y: np.ndarray) -> float:
-        """s, so far at most."""
+        """Return the largest step in s."""
         return math.inf
 
     def _sizes(self, y: np.ndarray) -> np.ndarray:
-        """1e-3 m, rad, m/s, rad/s: a journal's place is a thousandth of that of a body."""
+        """Return the scales of absolute tolerances: 1e-3 m, rad, m/s, rad/s."""
         return np.full(y.size, 1e-3)
 
     def _events(self, n: int) -> Iterator[tuple[Any, Callable[[float, np.ndarray, np.ndarray], None]]]:
+        """Yield each event function with the change of mode after its zero."""
         for k, joint in enumerate(self.joints):
             touches = joint.stored > 0.0
 
             def gap(t: float, y: np.ndarray, joint: Joint = joint) -> float:
+                """Return the penetration of a joint."""
                 return joint.gap(y[:n], y[n:])[0]
 
             def change(t: float, q: np.ndarray, v: np.ndarray, k: int = k, joint: Joint = joint) -> None:
+                """Begin or end the contact of a joint."""
                 if joint.stored:
                     joint.stored = 0.0
                     return
@@ -203,6 +214,7 @@ class Second:
                     continue
 
                 def slip(t: float, y: np.ndarray, joint: Joint = joint, corner: float = corner) -> float:
+                    """Return the slip's distance from a switching point."""
                     return joint.slip(y[:n], y[n:]) - corner
 
                 def cross(
@@ -213,6 +225,7 @@ class Second:
                     corner: float = corner,
                     direction: float = direction,
                 ) -> None:
+                    """Change the sector of a joint's slip."""
                     corners = [-math.inf, -joint.law.v1, -joint.law.v0, joint.law.v0, joint.law.v1, math.inf]
                     at = corners.index(corner)
                     joint.sector = (corner, corners[at + 1]) if direction > 0.0 else (corners[at - 1], corner)
@@ -221,5 +234,6 @@ class Second:
 
 
 def ending(function: Callable[[float, np.ndarray], float], direction: float) -> Any:
+    """Return the function as a terminal event of solve_ivp with a direction."""
     function.terminal, function.direction = True, direction  # type: ignore[attr-defined]
     return function

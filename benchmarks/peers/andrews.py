@@ -1,4 +1,4 @@
-"""Andrews' squeezer in the seven angles of the test set, as a user of jitcode or SciPy writes it, to t = .03 s.
+"""Integrate Andrews' squeezer by jitcode and SciPy in the seven angles of the test set, to t = 0.03 s.
 
 M q̈ + Gᵀ λ = f, G q̈ = −Ġ q̇ (index 1), y = (q, q̇), 14 numbers. Source: E. Hairer, G. Wanner, Solving Ordinary
 Differential Equations II, section VI.9; data by W. Schiehlen (ed.), Multibody Systems Handbook, 1990.
@@ -40,28 +40,30 @@ ZT, TA, TB, U, UA, UB, ZF, FA = 0.04, 0.02308, 0.00916, 0.04, 0.01228, 0.00449, 
 C0, L0, TORQUE = 4530.0, 0.07785, 0.033
 
 Error = float
-Measured = tuple[Error, float, int]  # error, seconds of integration only, right-hand sides (−1: not told)
+Measured = tuple[Error, float, int]  # error, seconds of integration only, right-hand sides (−1: unknown)
 ATOL = 1e-2  # of rtol
 
 
 def start() -> np.ndarray:
-    """y (14,) at rest."""
+    """Return y (14,) at rest."""
     return np.array([*START, *[0.0] * 7])
 
 
 def error(y: ArrayLike) -> float:
-    """The largest relative error of an angle at T_END, against 25 digits."""
+    """Return the largest relative error of an angle at T_END, against 25 digits."""
     exact = np.array(json.loads(ANSWERS.read_text())["andrews_squeezer"]["angles"])
     return float(np.abs(np.asarray(y)[:7] / exact - 1.0).max())
 
 
 class Steps:
-    """Named intermediate results, in order, as jitcode's `helpers` wants them."""
+    """Named intermediate results in order, in the form of jitcode's `helpers`."""
 
     def __init__(self) -> None:
+        """Create an empty list."""
         self.all: list[tuple[Any, Any]] = []
 
     def __call__(self, expression: Any) -> Any:
+        """Return a name for an expression, or the expression if it is a number or symbol."""
         symengine = import_module("symengine")
         expression = symengine.sympify(expression)
         if expression.is_Number or expression.is_Symbol:
@@ -73,7 +75,7 @@ class Steps:
 
 @dataclass(frozen=True)
 class Parts:
-    """Of M q̈ + Gᵀ λ = f, G q̈ = −curve: M's 2 × 2 blocks as ((i, j), (a, b, d)), its M[2][2], G (6 × 7), f, Ġ q̇."""
+    """Terms of M q̈ + Gᵀ λ = f, G q̈ = −curve: 2 × 2 blocks of M as ((i, j), (a, b, d)), M[2][2], G (6 × 7), f, Ġ q̇."""
 
     blocks: list[tuple[tuple[int, int], tuple[Any, Any, Any]]]
     m33: float
@@ -83,7 +85,9 @@ class Parts:
 
 
 def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any]) -> Parts:
-    """The equations with the functions of `algebra` (SymEngine or SymPy); `step` may name what it is given."""
+    """Return the terms of the equations, with functions of `algebra` (SymEngine or SymPy); `step` may name intermediate
+    results.
+    """
     cos, sin, sqrt = algebra.cos, algebra.sin, algebra.sqrt
     be, th, ga, ph, de, om, ep = q
     vb, vt, vg, vp, vd, vo, ve = v
@@ -139,7 +143,7 @@ def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any]) 
 
 @cache
 def equations() -> tuple[list[Any], list[tuple[Any, Any]]]:
-    """(ẏ, helpers) for jitcode."""
+    """Return (ẏ, helpers) for jitcode."""
     y, step = import_module("jitcode").y, Steps()
     q, v = [y(i) for i in range(7)], [y(i) for i in range(7, 14)]
     found = parts(import_module("symengine"), step, q, v)
@@ -147,13 +151,14 @@ def equations() -> tuple[list[Any], list[tuple[Any, Any]]]:
 
 
 def eliminate(step: Callable[[Any], Any], found: Parts) -> list[Any]:
-    """q̈: S λ = G M⁻¹ f + Ġ q̇ with S = G M⁻¹ Gᵀ = L D Lᵀ."""
+    """Return q̈ after elimination of λ: S λ = G M⁻¹ f + Ġ q̇ with S = G M⁻¹ Gᵀ = L D Lᵀ."""
     G, inverse = found.G, []
     for (i, j), (a, b, d) in found.blocks:
         r = step(1 / (a * d - b * b))
         inverse.append((i, j, step(d * r), step(-b * r), step(a * r)))
 
     def solve_mass(x: list[Any]) -> list[Any]:
+        """Return M⁻¹ x."""
         out = [x[2] / found.m33 if k == 2 else 0 for k in range(7)]
         for i, j, a, b, d in inverse:
             out[i], out[j] = a * x[i] + b * x[j], b * x[i] + d * x[j]
@@ -178,7 +183,8 @@ def eliminate(step: Callable[[Any], Any], found: Parts) -> list[Any]:
 
 @cache
 def compiled() -> Any:
-    """jitcode's object with its C compiled; extras are imported by name, so that type checks do without them."""
+    """Return jitcode's object with compiled C; the extras are imported by name, so that type checks do not need
+    them."""
     expressions, helpers = equations()
     ode = import_module("jitcode").jitcode(expressions, helpers=helpers, verbose=False)
     ode.compile_C(extra_compile_args=["-O3", "-march=native", "-w"])
@@ -186,7 +192,7 @@ def compiled() -> Any:
 
 
 def seconds_per_rhs(batch: int = 5000, repeats: int = 7) -> float:
-    """Least time of a call from Python (s): jitcode's C with its array handling, as its integrators call it."""
+    """Return the smallest time of a call from Python (s): jitcode's C with its array handling."""
     f, state = compiled().f, start()
     best = float("inf")
     for _ in range(repeats):
@@ -198,7 +204,7 @@ def seconds_per_rhs(batch: int = 5000, repeats: int = 7) -> float:
 
 
 def by_jitcode(rtol: float) -> Measured:
-    """Integrate by jitcode's "dop853", which is SciPy's compiled one and does not tell its right-hand sides."""
+    """Integrate by jitcode's "dop853", SciPy's compiled code, which does not report its right-hand sides."""
     ode = compiled()
     ode.set_integrator("dop853", rtol=rtol, atol=ATOL * rtol, nsteps=10**6)
     ode.set_initial_value(start(), 0.0)
@@ -218,5 +224,5 @@ def by_scipy(rtol: float, method: str = "DOP853") -> Measured:
 
 
 def by_lsoda(rtol: float) -> Measured:
-    """The same with LSODA."""
+    """Integrate by LSODA on jitcode's compiled right-hand side."""
     return by_scipy(rtol, "LSODA")

@@ -1,13 +1,14 @@
-"""Pendulums of two and of six links: smooth motion, as a user of heyoka writes it, and as a file of ours.
+"""Integrate pendulums of two and of six links by heyoka and by gudgeon; the motion is smooth.
 
 Links of length l, mass m and moment of inertia J about their middles hang from each other, theta from the x axis:
 
     sum_j c_ij cos(theta_i - theta_j) theta_j'' + c_ij sin(theta_i - theta_j) theta_j'^2 = -g w_i cos theta_i,
 
 c_ij = m l^2 (n - max(i, j) - 1/2) for i != j, c_ii = J + m l^2 (n - i - 3/4), w_i = m l (n - i - 1/2), i = 0 ... n - 1.
-heyoka is given accelerations by L D L^T of that matrix in its own expressions. In a batch the first link of each run
-begins elsewhere. Error: the largest of an angle at the end, of all runs. Reference: Gragg's midpoint rule extrapolated
-to order 16, in long double, with another number of steps it is the same to 1e-15 (`python -m benchmarks.peers.chains`).
+heyoka gets the accelerations by L D L^T of that matrix as its expressions. In a batch the first link of each run has
+another initial angle. Error: the largest error of an angle at the end, over all runs. Reference: Gragg's midpoint rule
+extrapolated to order 16, in long double. With another number of steps it agrees to 1e-15
+(`python -m benchmarks.peers.chains`).
 """
 
 from __future__ import annotations
@@ -33,18 +34,18 @@ T_END = {2: 3.0, 6: 1.5}
 M, L, J, G = 1.0, 1.0, 0.1, 9.81
 STEPS = 200  # of the reference
 RUNS, SPREAD = 64, 1e-3  # of a batch; rad
-Measured = tuple[float, float, int]  # error, seconds of integration only, right-hand sides (-1: not told)
+Measured = tuple[float, float, int]  # error, seconds of integration only, right-hand sides (-1: unknown)
 
 
 def starts(n: int, runs: int = 1) -> np.ndarray:
-    """Angles, then velocities (2n, runs)."""
+    """Return initial angles, then velocities (2n, runs)."""
     y = np.repeat([[0.5 * k] for k in range(n)] + [[0.0]] * n, runs, axis=1)
     y[0] += SPREAD * np.arange(runs)
     return y
 
 
 def coefficients(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """c (n, n) and w (n,)."""
+    """Return c (n, n) and w (n,)."""
     i = np.arange(n)
     c = M * L**2 * (n - np.maximum.outer(i, i) - 0.5)
     np.fill_diagonal(c, J + M * L**2 * (n - i - 0.75))
@@ -52,7 +53,7 @@ def coefficients(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def accelerations(theta: Any, omega: Any, sin: Any, cos: Any) -> list[Any]:
-    """By L D L^T of the matrix, of numbers or of expressions."""
+    """Return the accelerations by L D L^T of the matrix, for numbers or expressions."""
     n = len(theta)
     c, w = (some.tolist() for some in coefficients(n))
     x = [-G * w[i] * cos(theta[i]) for i in range(n)]
@@ -75,17 +76,18 @@ def accelerations(theta: Any, omega: Any, sin: Any, cos: Any) -> list[Any]:
 
 
 def sum_of(terms: Iterable[Any]) -> Any:
-    """0.0 of nothing."""
+    """Return the sum of terms; 0.0 without terms."""
     return reduce(add, terms) if (terms := list(terms)) else 0.0
 
 
 @cache
 def reference(n: int, runs: int = 1, steps: int = STEPS) -> np.ndarray:
-    """Angles at the end, (n, runs)."""
+    """Return the angles at the end (n, runs)."""
     y = starts(n, runs).astype(np.longdouble)
     h = np.longdouble(T_END[n]) / steps
 
     def rate(y: np.ndarray) -> np.ndarray:
+        """Return y'."""
         return np.array([*y[n:], *accelerations(y[:n], y[n:], np.sin, np.cos)], dtype=np.longdouble)
 
     for _ in range(steps):
@@ -104,7 +106,7 @@ def reference(n: int, runs: int = 1, steps: int = STEPS) -> np.ndarray:
 
 @cache
 def heyoka_of(n: int, runs: int, tolerance: float) -> Any:
-    """The compiled integrator of so many runs."""
+    """Return heyoka's compiled integrator for a number of runs."""
     hy = import_module(heyoka_runs.NAME)
     y = heyoka_runs.variables(*(f"{kind}{k}" for kind in ("theta", "omega") for k in range(n)))
     rates = [*y[n:], *accelerations(y[:n], y[n:], hy.sin, hy.cos)]
@@ -113,14 +115,14 @@ def heyoka_of(n: int, runs: int, tolerance: float) -> Any:
 
 
 def heyoka(n: int, tolerance: float) -> Measured:
-    """heyoka's Taylor method."""
+    """Run heyoka's Taylor method once."""
     run = heyoka_of(n, 1, tolerance)
     seconds = heyoka_runs.timed(run, starts(n)[:, 0], T_END[n])
     return float(np.abs(run.state[:n] - reference(n)[:, 0]).max()), seconds, -1
 
 
 def heyoka_batch(n: int, tolerance: float) -> Measured:
-    """RUNS of them, as many side by side as it recommends; seconds a run."""
+    """Run RUNS pendulums by heyoka in its recommended SIMD width; the time is that of a run."""
     width = heyoka_runs.beside()
     run, seconds, error = heyoka_of(n, width, tolerance), 0.0, 0.0
     for k in range(0, RUNS, width):
@@ -130,7 +132,7 @@ def heyoka_batch(n: int, tolerance: float) -> Measured:
 
 
 def written(n: int) -> str:
-    """The same as a file of ours."""
+    """Return the pendulum as a mechanism file of gudgeon."""
     names = [f"L{k}" for k in range(n)]
     joints = ["ground.O", *(f"{name}.head" for name in names)]
     angles = ", ".join(f"{name}.theta: {value!r}" for name, value in zip(names, starts(n)[:n, 0].tolist(), strict=True))
@@ -155,7 +157,7 @@ def written(n: int) -> str:
 
 @cache
 def loaded(n: int) -> Any:
-    """Compiled."""
+    """Return the compiled simulations by method."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "links.yaml")
         file.write_text(written(n), encoding="utf-8")
@@ -164,7 +166,7 @@ def loaded(n: int) -> Any:
 
 
 def own(n: int, method: str, rtol: float) -> Measured:
-    """gudgeon."""
+    """Run gudgeon once."""
     simulation = loaded(n)["taylor" if method == "taylor" else "dop853"]
     run = simulation.simulate(T_END[n], output=1, method=method, rtol=rtol)
     error = float(np.abs(run.q[-1][2::3] - reference(n)[:, 0]).max())
@@ -173,7 +175,7 @@ def own(n: int, method: str, rtol: float) -> Measured:
 
 @cache
 def states(n: int) -> list[State]:
-    """Those of a batch at t = 0: middles and angles of the links, at rest."""
+    """Return the initial states of a batch: centres and angles of the links, at rest."""
     final = loaded(n)["taylor"].simulate(T_END[n], output=1, method="taylor").final
     angles = starts(n, RUNS)[:n]
     joints = L * np.cumsum([np.cos(angles), np.sin(angles)], axis=1)
@@ -183,7 +185,7 @@ def states(n: int) -> list[State]:
 
 
 def own_batch(n: int, method: str, rtol: float) -> Measured:
-    """gudgeon's runs side by side, one thread; seconds a run."""
+    """Run gudgeon's batch in SIMD lanes in one thread; the time is that of a run."""
     with followed_by(10**9):  # its library is worth being compiled
         batch = loaded(n)["taylor" if method == "taylor" else "dop853"].simulate_many(
             {}, T_END[n], start=states(n), output=1, method=method, rtol=rtol, threads=1
@@ -194,7 +196,7 @@ def own_batch(n: int, method: str, rtol: float) -> Measured:
 
 
 def main() -> None:
-    """How far the reference is from itself."""
+    """Print the difference of the reference from that with more steps."""
     for name, n in LINKS.items():
         print(f"{name}: {np.abs(reference(n) - reference(n, steps=STEPS * 3 // 2)).max():.1e}")
 

@@ -1,4 +1,4 @@
-"""CVODE (SUNDIALS, as scikit-sundae ships it), BDF, on the hand-written press, three ways:
+"""Integrate the hand-written press by BDF of CVODE (SUNDIALS, from scikit-sundae) in three ways.
 
 - `sundae`: scikit-sundae as its users call it, CVODE's own difference quotients for the Jacobian;
 - `sundae_jacobian`: the same, differences of all 48 columns in C by one call;
@@ -48,12 +48,13 @@ int CVode(void *, double, void *, double *, int);
 
 
 def sundae(work: Work, rtol: float, jacobian: bool = False) -> Measured:
-    """scikit-sundae's CVODE; without contact only."""
+    """Run CVODE by scikit-sundae; without contact only. Raises FloatingPointError."""
     from sksundae.cvode import CVODE
 
     kernel = Kernel(work)
 
     def columns(t: float, y: np.ndarray, dy: np.ndarray, matrix: np.ndarray) -> None:
+        """Write the Jacobian into `matrix`."""
         matrix[:] = kernel.jacobian(t, y)
 
     options: dict[str, Any] = {"jacfn": columns} if jacobian else {}
@@ -68,13 +69,13 @@ def sundae(work: Work, rtol: float, jacobian: bool = False) -> Measured:
 
 
 def sundae_jacobian(work: Work, rtol: float) -> Measured:
-    """See the module's head."""
+    """Run CVODE by scikit-sundae with the Jacobian from C."""
     return sundae(work, rtol, jacobian=True)
 
 
 @cache
 def sundials() -> tuple[FFI, dict[str, Any]]:
-    """The functions of DECLARATIONS out of scikit-sundae's shared libraries. Raises ImportError without it."""
+    """Return the functions of DECLARATIONS from scikit-sundae's shared libraries. Raises ImportError without it."""
     import sksundae.cvode
 
     home = Path(sksundae.__file__).parents[1] / "scikit_sundae.libs"
@@ -98,15 +99,16 @@ def sundials() -> tuple[FFI, dict[str, Any]]:
 
 
 def _index_type(folder: Path) -> str:
-    """SUNDIALS' index type, as the wheel was built."""
+    """Return the C type of SUNDIALS' indices in the wheel."""
     text = (folder / "py_config.pxi").read_text() if (folder / "py_config.pxi").exists() else "int64"
     return "int" if "int32" in text else "long"
 
 
 class InC:
-    """One CVODE with its vectors and its dense matrix; `close` gives all back."""
+    """A CVODE integrator with its vectors and its dense matrix; `close` frees them."""
 
     def __init__(self, kernel: Kernel, rtol: float, own_jacobian: bool = True) -> None:
+        """Create the integrator."""
         self.ffi, self.f = sundials()
         self.kernel, f, ffi = kernel, self.f, self.ffi
         self.context, self.y = ffi.new("void **"), kernel.y0.copy()
@@ -130,23 +132,23 @@ class InC:
             self.call("CVodeSetJacFn", self.pointer(kind, c, "peer_cvode_jacobian"))
 
     def pointer(self, kind: str, library: Any, name: str) -> Any:
-        """A function of the press as this cffi sees it."""
+        """Return a function of the press as a pointer of this cffi instance."""
         function = self.kernel.ffi.addressof(library, name)
         return self.ffi.cast(kind, int(self.kernel.ffi.cast("intptr_t", function)))
 
     def call(self, name: str, *arguments: Any) -> int:
-        """A CVODE function on this memory; raises FloatingPointError where it answers less than 0."""
+        """Call a CVODE function. Raises FloatingPointError if it returns a negative status."""
         answer = int(self.f[name](self.memory[0], *arguments))
         if answer < 0:
             raise FloatingPointError(f"{name}: {answer}")
         return answer
 
     def locate(self, closed: list[bool]) -> None:
-        """Look for the crossings that can come next."""
+        """Set the directions of the next possible zero crossings."""
         self.call("CVodeSetRootDirection", self.ffi.new("int[2]", [-1 if c else 1 for c in closed]))
 
     def close(self) -> None:
-        """Free what C holds."""
+        """Free all memory of C."""
         self.f["CVodeFree"](self.memory)
         self.f["SUNLinSolFree"](self.solver)
         self.f["SUNMatDestroy"](self.matrix)
@@ -155,7 +157,7 @@ class InC:
 
 
 def in_c(work: Work, rtol: float) -> Measured:
-    """See the module's head."""
+    """Run CVODE completely in C, with its root finding."""
     kernel = Kernel(work)
     solver = InC(kernel, rtol)
     try:
@@ -168,6 +170,7 @@ def in_c(work: Work, rtol: float) -> Measured:
 
 
 def _run(solver: InC, work: Work) -> Samples:
+    """Return the outputs, with a restart after every onset and separation."""
     kernel, closed, times = solver.kernel, [False, False], work.times
     onsets: tuple[list[float], list[float]] = ([], [])
     dry = work.press.film == 0.0

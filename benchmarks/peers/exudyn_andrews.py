@@ -1,6 +1,6 @@
-"""Andrews' squeezer in Exudyn: seven rigid bodies, ten revolute joints, a spring, a torque; generalized-α.
+"""Integrate Andrews' squeezer by Exudyn: seven bodies, ten revolute joints, a spring, a torque; generalized-α.
 
-The step (s) takes the tolerance's place. The time is that of `SolveDynamic` alone, nothing written, nothing shown.
+The control is the step (s). The time is that of `SolveDynamic` alone, without output.
 Angles β … ε are differences of the bodies' rotations, as in the test set.
 """
 
@@ -24,7 +24,7 @@ BODIES: dict[str, tuple[float, float, dict[str, tuple[float, float]]]] = {
     "AH": (a.M7, a.I7, {"A": (a.UB, a.UA), "H": (a.UB, a.UA - a.U)}),
 }
 GROUND = {"O": (0.0, 0.0), "A": (a.XA, a.YA), "B": (a.XB, a.YB), "C": (a.XC, a.YC)}
-# each body hangs on the one before it: (body, its point, the other body or ground, the point there)
+# joints in an order that determines all positions: (body, its point, other body or ground, point there)
 JOINTS = (
     ("OF", "O", "", "O"),
     ("FE", "F", "OF", "F"),
@@ -40,12 +40,13 @@ JOINTS = (
 
 
 def placements() -> dict[str, tuple[float, float, float]]:
-    """x, y, θ of every body at the start, along JOINTS."""
+    """Return x, y, θ of every body at the start, along JOINTS."""
     be, th, ga, ph, de, om, ep = a.START
     angle = {"OF": be, "FE": be + th, "BDE": ga, "EG": ph + de, "AG": de, "HE": om + ep, "AH": ep}
     placed: dict[str, tuple[float, float, float]] = {}
 
     def point(body: str, name: str) -> tuple[float, float]:
+        """Return the position of a point."""
         if not body:
             return GROUND[name]
         x, y, t = placed[body]
@@ -60,7 +61,7 @@ def placements() -> dict[str, tuple[float, float, float]]:
 
 
 def build() -> tuple[Any, Any, dict[str, Any]]:
-    """(container, system, node number of each body). Raises ImportError without exudyn."""
+    """Return container, system and node number of each body. Raises ImportError without exudyn."""
     exu, item = import_module("exudyn"), import_module("exudyn.itemInterface")
     container = exu.SystemContainer()
     system = container.AddSystem()
@@ -76,6 +77,7 @@ def build() -> tuple[Any, Any, dict[str, Any]]:
         )
 
     def marker(name: str, point: str) -> Any:
+        """Return a marker at a point of a body."""
         x, y = BODIES[name][2][point] if name else GROUND[point]
         return system.AddMarker(item.MarkerBodyPosition(bodyNumber=body[name], localPosition=[x, y, 0.0]))
 
@@ -93,7 +95,7 @@ def build() -> tuple[Any, Any, dict[str, Any]]:
 
 
 def run(step: float) -> a.Measured:
-    """(error, seconds of SolveDynamic, −1)."""
+    """Integrate with a step in s; return (error, seconds of SolveDynamic, −1)."""
     exu = import_module("exudyn")
     _, system, node = build()
     settings = exu.SimulationSettings()

@@ -1,6 +1,6 @@
-"""The ideal press in Exudyn: eight rigid bodies, ten joints, both cranks driven; generalized-α, a step a sample.
+"""Integrate the ideal press by Exudyn: eight bodies, ten joints, two driven cranks; generalized-α, one step per sample.
 
-A step is the time between two samples, so `SolveDynamic` does what the race asks for and no more. The cranks' speeds
+A step is the time between two samples, so that `SolveDynamic` computes only the requested samples. The cranks' speeds
 are prescribed, in C++: a function of time called back in Python would be a handicap. Nothing is written during
 the run; a sensor stores the slider in memory. Error as in `ideal`, but of y and v alone: with spectral radius 1, which
 is second order and undamped, accelerations oscillate, and that is the method's, not the model's.
@@ -30,7 +30,10 @@ JOINTS = (
 
 
 def build() -> tuple[Any, int]:
-    """(system, sensor of the slider's coordinates is number 0, of its velocities 1). ImportError without exudyn."""
+    """Return the system and the node of the slider; sensor 0 stores its coordinates, 1 its velocities.
+
+    Raises ImportError without exudyn.
+    """
     exu, item = import_module("exudyn"), import_module("exudyn.itemInterface")
     data = press.work("dry").press
     geometry, struct = data.geometry, press_dense._struct(data)
@@ -50,9 +53,11 @@ def build() -> tuple[Any, int]:
         )
 
     def marker(body: int, local: list[float]) -> Any:
+        """Return a marker at a point of a body."""
         return system.AddMarker(item.MarkerBodyPosition(bodyNumber=body, localPosition=[*local, 0.0]))
 
     def end(k: int, side: int) -> Any:
+        """Return a marker at an end of a bar."""
         return marker(bodies[k], [0.5 * side * struct.length[k] if k != 7 else 0.0, 0.0])
 
     pins = [(end(*a), end(*b)) for a, b in JOINTS]
@@ -72,7 +77,7 @@ def build() -> tuple[Any, int]:
 
 
 def _hold(system: Any, item: Any, nodes: list[int], geometry: ideal_press.PressData) -> None:
-    """The cranks' speeds, the slider's x and angle."""
+    """Prescribe the speeds of the cranks, and hold x and angle of the slider."""
     fixed = system.AddNode(item.NodePointGround())
     zero = system.AddMarker(item.MarkerNodeCoordinate(nodeNumber=fixed, coordinate=0))
     for node, coordinate, speed in (
@@ -87,7 +92,7 @@ def _hold(system: Any, item: Any, nodes: list[int], geometry: ideal_press.PressD
 
 
 def run(step: float) -> tuple[float, float, int]:
-    """(error, seconds a sample, −1)."""
+    """Integrate with a step in s; return (error, seconds per sample, −1). Raises FloatingPointError."""
     exu = import_module("exudyn")
     system, _ = build()
     count = round(ideal.T_END / step)

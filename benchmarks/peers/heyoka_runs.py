@@ -1,4 +1,4 @@
-"""Runs by heyoka, a Taylor method whose code LLVM makes: one alone, and several of a batch in vectors.
+"""Integrate by heyoka, a Taylor method with code compiled by LLVM: single runs, and runs in SIMD lanes.
 
 Variables and rates are expressions of heyoka's; times are of `propagate_until`, called from Python.
 """
@@ -19,24 +19,24 @@ NAME = "heyoka"
 
 
 def variables(*names: str) -> list[Any]:
-    """Of these names."""
+    """Return heyoka's variables with these names."""
     return list(import_module(NAME).make_vars(*names))
 
 
 def integrator(state: Sequence[Any], rates: Sequence[Any], start: np.ndarray, tolerance: float) -> Any:
-    """A compiled one; `start` (N,), or (N, runs) for so many runs side by side."""
+    """Return a compiled integrator; `start` (N,), or (N, runs) for runs in SIMD lanes."""
     hy = import_module(NAME)
     make = hy.taylor_adaptive_batch if start.ndim == 2 else hy.taylor_adaptive
     return make(list(zip(state, rates, strict=True)), start, tol=tolerance)
 
 
 def beside() -> int:
-    """How many runs it recommends to be put side by side."""
+    """Return the recommended number of runs in SIMD lanes."""
     return int(import_module(NAME).recommended_simd_size())
 
 
 def timed(run: Any, start: np.ndarray, t_end: float) -> float:
-    """Seconds of a run from the start; its state is that at the end."""
+    """Return the seconds of a run from the start; its state is then that at the end."""
     if start.ndim == 2:
         run.set_time(0.0)
     else:
@@ -48,21 +48,22 @@ def timed(run: Any, start: np.ndarray, t_end: float) -> float:
 
 
 @cache
-def _of_andrews(tolerance: float) -> Any:
+def _andrews_integrator(tolerance: float) -> Any:
+    """Return the compiled integrator of Andrews' squeezer."""
     hy = import_module(NAME)
     y = variables(*(f"{kind}{k}" for kind in "qv" for k in range(7)))
-    found = andrews.parts(hy, _as_it_is, y[:7], y[7:])
-    rates = [*y[7:], *andrews.eliminate(_as_it_is, found)]
+    found = andrews.parts(hy, _keep_expression, y[:7], y[7:])
+    rates = [*y[7:], *andrews.eliminate(_keep_expression, found)]
     return integrator(y, rates, andrews.start(), tolerance)
 
 
-def _as_it_is(value: Any) -> Any:
-    """heyoka finds by itself what is read twice."""
+def _keep_expression(value: Any) -> Any:
+    """Return the value: heyoka finds common subexpressions itself."""
     return value
 
 
 def of_andrews(tolerance: float) -> andrews.Measured:
-    """Andrews' squeezer by accelerations, constraints and multipliers eliminated in its own expressions (index 1)."""
-    run = _of_andrews(tolerance)
+    """Integrate Andrews' squeezer with multipliers eliminated in heyoka's expressions (index 1)."""
+    run = _andrews_integrator(tolerance)
     seconds = timed(run, andrews.start(), andrews.T_END)
     return andrews.error(run.state), seconds, -1

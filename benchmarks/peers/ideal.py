@@ -1,4 +1,4 @@
-"""The ideal press by hand (press_ideal.c): dense Newton in C at every sample, with velocities and accelerations.
+"""Solve the ideal press by hand-written C (press_ideal.c): dense Newton at every sample, with two derivatives.
 
 A revolution at ω = 2π in 1001 samples. Error: the largest |Δy9| over the stroke, or, if that is greater, |Δv9| and
 |Δa9| over their largest values, against the closed form (intersections of circles).
@@ -23,26 +23,26 @@ DECLARATIONS += "int ideal_run(const Press *, double, long, const double *, doub
 
 @cache
 def library() -> tuple[FFI, Any]:
-    """cffi's view of press_ideal.c."""
+    """Return cffi's FFI and the library of press_ideal.c."""
     return press.compile_library("press_ideal.c", DECLARATIONS)
 
 
 @cache
 def exact() -> np.ndarray:
-    """y9, v9, a9 by the closed form, (SAMPLES, 3); l5 = .25 m as in the other works."""
+    """Return y9, v9, a9 (SAMPLES, 3) by the closed form; l5 = 0.25 m as in the other problems."""
     motion = ideal_press.motion(np.linspace(0.0, T_END, SAMPLES), press.work("dry").press.geometry)
     return np.stack([motion.q[:, 22], motion.v[:, 22], motion.a[:, 22]], axis=1)
 
 
 def error(found: np.ndarray) -> float:
-    """See the module's head; found (SAMPLES, 3), or without accelerations (SAMPLES, 2)."""
+    """Return the error as defined above; found: (SAMPLES, 3), or without accelerations (SAMPLES, 2)."""
     true = exact()[:, : found.shape[1]]
     scale = np.array([np.ptp(true[:, 0]), *np.abs(true[:, 1:]).max(axis=0)])
     return float((np.abs(found - true).max(axis=0) / scale).max())
 
 
 def dense(_: float) -> tuple[float, float, int]:
-    """(error, seconds of one sample, −1)."""
+    """Solve all samples; return (error, seconds per sample, −1). Raises FloatingPointError."""
     ffi, c = library()
     data = press.work("dry").press
     struct = ffi.new("Press *")

@@ -1,4 +1,4 @@
-"""The press of the race as its peers see it: hand-written dense C (press_peer.c), bound by cffi, and the two works.
+"""Define the press of the race for reference solvers: hand-written dense C (press_peer.c) by cffi, and two problems.
 
 Press there: l5 = .25 m, no gravity, forces at one point in the middle of the penetration, K with "+".
 
@@ -55,7 +55,7 @@ LSODA_ATOL = 1e-3  # of rtol, as for CVODE
 
 
 def compile_library(source: str, declarations: str) -> tuple[FFI, Any]:
-    """A C file of this folder, compiled and opened. Raises RuntimeError without a compiler."""
+    """Compile a C file of this folder and open the library. Raises RuntimeError without a compiler."""
     compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if compiler is None:
         raise RuntimeError("the peers need a C compiler")
@@ -71,13 +71,13 @@ def compile_library(source: str, declarations: str) -> tuple[FFI, Any]:
 
 @cache
 def library() -> tuple[FFI, Any]:
-    """cffi's view of press_peer.c."""
+    """Return cffi's FFI and the library of press_peer.c."""
     return compile_library("press_peer.c", DECLARATIONS)
 
 
 @dataclass(frozen=True)
 class Work:
-    """One work of the race: the press's data, its end (s), and what gudgeon is told to compute the same."""
+    """A problem of the race: data of the press, end (s), and parameters of gudgeon for the same problem."""
 
     name: str
     press: press_dense.Press
@@ -85,26 +85,26 @@ class Work:
 
     @property
     def times(self) -> np.ndarray:
-        """Output times (OUTPUTS,), s."""
+        """Return the output times (OUTPUTS,) in s."""
         return np.linspace(0.0, self.t_end, OUTPUTS)
 
     @property
     def stroke(self) -> float:
-        """Of the ideal press over a revolution, m."""
+        """Return the stroke of the ideal press over a revolution in m."""
         geometry = self.press.geometry
         y = ideal_press.motion(np.linspace(0.0, 2.0 * math.pi / geometry.omega1, 2001), geometry).q[:, 22]
         return float(np.ptp(y))
 
     @property
     def parameters(self) -> dict[str, float]:
-        """For `Simulation.simulate`."""
+        """Return the parameters for `Simulation.simulate`."""
         p = self.press
         return {"l5": p.geometry.l5, "c": p.clearance, "omega": p.geometry.omega1, "gravity.y": -p.gravity}
 
 
 @dataclass(frozen=True)
 class Samples:
-    """A run's outputs: q (N, 24), m and rad; times of onset (s) of A and of B."""
+    """Outputs of a run: q (N, 24), m and rad; times of onset (s) of A and of B."""
 
     q: np.ndarray
     onsets: tuple[np.ndarray, np.ndarray]
@@ -112,7 +112,7 @@ class Samples:
 
 @dataclass(frozen=True)
 class Errors:
-    """See the module's head: slider and path are ratios, onset is in seconds."""
+    """Errors as defined above: slider and path are ratios, onset is in s."""
 
     slider: float
     path: float
@@ -120,7 +120,7 @@ class Errors:
 
 
 def work(name: str) -> Work:
-    """One of the two works by its name, "lubricated" or "dry"."""
+    """Return one of the two problems by its name, "lubricated" or "dry"."""
     film = name == "lubricated"
     c, omega, t_end = (0.6e-3, 5.0 * math.pi, 0.4) if film else (0.3e-3, 2.0 * math.pi, 0.05)
     press = press_dense.Press(clearance=c, gravity=0.0, film=film, common_point=True).at_speed(omega)
@@ -128,9 +128,10 @@ def work(name: str) -> Work:
 
 
 class Kernel:
-    """The right-hand side for Python's solvers, with as little between them and C as cffi allows."""
+    """Right-hand side for Python's solvers, with minimal overhead of cffi."""
 
     def __init__(self, work: Work) -> None:
+        """Copy the data of the press to C."""
         self.ffi, self.c = library()
         self.peer = self.ffi.new("Peer *")
         data = bytes(press_dense._struct(work.press))
@@ -140,36 +141,36 @@ class Kernel:
         self._gaps = self.ffi.from_buffer("double[]", self.gaps_buffer)
 
     def rhs(self, t: float, y: np.ndarray) -> np.ndarray:
-        """A new array each time: solvers keep what they are given."""
+        """Return ẏ as a new array, since solvers store the arrays that they get."""
         dy = np.empty(48)
         self.c.peer_rhs(self.peer, t, self.ffi.from_buffer("double[]", y), self.ffi.from_buffer("double[]", dy))
         return dy
 
     def into(self, t: float, y: np.ndarray, dy: np.ndarray) -> None:
-        """ẏ written into dy."""
+        """Write ẏ into dy."""
         self.c.peer_rhs(self.peer, t, self.ffi.from_buffer("double[]", y), self.ffi.from_buffer("double[]", dy))
 
     def jacobian(self, t: float, y: np.ndarray) -> np.ndarray:
-        """∂ẏ/∂y (48, 48) by forward differences in C."""
+        """Return ∂ẏ/∂y (48, 48) by forward differences in C."""
         columns, cast = np.empty((48, 48)), self.ffi.from_buffer
         f = self.rhs(t, y)
         self.c.peer_jacobian(self.peer, t, cast("double[]", y), cast("double[]", f), cast("double[]", columns))
         return columns.T
 
     def gaps(self, y: np.ndarray) -> np.ndarray:
-        """δ (m), δ̇ and slip (m/s), each of A and B; one buffer, overwritten by the next call."""
+        """Return δ (m), δ̇ and slip (m/s), each of A and B, in a buffer that the next call overwrites."""
         self.c.peer_gaps(self.peer, self.ffi.from_buffer("double[]", y), self._gaps)
         return self.gaps_buffer
 
     @property
     def seconds_per_rhs(self) -> float:
-        """Least time of one right-hand side at the start, in C (s)."""
+        """Return the smallest time of one right-hand side at the start in C, in s."""
         y = self.ffi.from_buffer("double[]", self.y0)
         return float(self.c.peer_seconds_per_rhs(self.peer, 0.0, y, 5000, 7))
 
 
 def errors(work: Work, found: Samples, exact: Samples) -> Errors:
-    """See the module's head."""
+    """Return the errors as defined above."""
     slider = float(np.abs(found.q[:, 22] - exact.q[:, 22]).max()) / work.stroke
     path = float(np.hypot(*np.moveaxis(paths(work, found.q) - paths(work, exact.q), 2, 0)).max())
     onset = 0.0
@@ -180,7 +181,7 @@ def errors(work: Work, found: Samples, exact: Samples) -> Errors:
 
 
 def paths(work: Work, q: np.ndarray) -> np.ndarray:
-    """Eccentricities e of A and B (N, 2, 2), m, ground axes."""
+    """Return the eccentricities e of A and B (N, 2, 2) in m, in ground axes."""
     geometry, out = work.press.geometry, []
     for i, j, li, lj in ((0, 1, geometry.l1, geometry.l2), (3, 2, geometry.l4, geometry.l3)):
         bearing, journal = q[:, 3 * i : 3 * i + 3], q[:, 3 * j : 3 * j + 3]
@@ -193,12 +194,12 @@ def paths(work: Work, q: np.ndarray) -> np.ndarray:
 
 
 def with_events(kernel: Kernel, work: Work, kinks: bool = False, **options: Any) -> Samples:
-    """SciPy's solve_ivp from event to event: onsets and separations of both joints are located, δ̇⁻ is stored there.
+    """Integrate by SciPy's solve_ivp from event to event: onsets and separations are located, δ̇⁻ is stored there.
 
-    Every event ends the piece and the next starts there with the right-hand value. A joint looks only for
-    what can come next (onset when open, separation when closed), so a restart on either side of zero is harmless.
-    `kinks`: a piece ends where a closed joint's slip passes ±v0 or ±v1 too, so that an error estimate of high
-    order never looks across a bend of the friction law (for the reference; the peers go without).
+    Every event ends a piece; the next piece starts there with the right-hand value. A joint is monitored only for its
+    next possible event (onset when open, separation when closed), so that a restart on either side of zero is harmless.
+    `kinks`: a piece also ends where the slip of a closed joint passes ±v0 or ±v1, so that error estimates of high order
+    are valid (for the reference only).
     """
     from scipy.integrate import solve_ivp
 
@@ -229,7 +230,7 @@ def with_events(kernel: Kernel, work: Work, kinks: bool = False, **options: Any)
 def switch(
     kernel: Kernel, work: Work, y: np.ndarray, joint: int, closed: list[bool], onsets: list[float], t: float
 ) -> None:
-    """An onset stores δ̇⁻ and its time, a separation forgets it."""
+    """Open or close a joint: an onset stores δ̇⁻ and its time, a separation deletes δ̇⁻."""
     closed[joint] = not closed[joint]
     if closed[joint]:
         onsets.append(t)
@@ -237,9 +238,10 @@ def switch(
 
 
 def _crossing(kernel: Kernel, index: int, level: float, direction: float) -> Any:
-    """A terminal event of solve_ivp: entry `index` of the gaps passes `level`."""
+    """Return a terminal event of solve_ivp: entry `index` of the gaps passes `level`."""
 
     def function(_: float, y: np.ndarray) -> float:
+        """Return the distance from the level."""
         return float(kernel.gaps(y)[index]) - level
 
     function.terminal, function.direction = True, direction  # type: ignore[attr-defined]
@@ -247,9 +249,9 @@ def _crossing(kernel: Kernel, index: int, level: float, direction: float) -> Any
 
 
 def _bends(kernel: Kernel, work: Work, y: np.ndarray, closed: list[bool]) -> list[Any]:
-    """The levels ±v0, ±v1 of a closed joint's slip, each from the side on which the slip is now.
+    """Return events at the levels ±v0, ±v1 of each closed joint's slip, with the direction from the present slip.
 
-    A slip within rounding of a level has just met it: which side comes next is unknown, and neither is asked for.
+    A slip within rounding of a level has just reached it and is not monitored.
     """
     events, slip = [], kernel.gaps(y)[4:].copy()
     for joint in (0, 1):
@@ -261,7 +263,7 @@ def _bends(kernel: Kernel, work: Work, y: np.ndarray, closed: list[bool]) -> lis
 
 @cache
 def reference(name: str) -> Samples:
-    """What errors are measured against; see the module's head."""
+    """Return the reference solution as defined above."""
     if name == "dry":
         from benchmarks.peers import reference as long_double
 
@@ -270,14 +272,14 @@ def reference(name: str) -> Samples:
 
 
 def dop853(name: str) -> Samples:
-    """SciPy's DOP853 on the hand-written C at rtol 1e-13. Dry: short steps, so that what locates is as exact."""
+    """Integrate by SciPy's DOP853 on the hand-written C at rtol 1e-13; dry with short steps for accurate events."""
     task = work(name)
     options: dict[str, Any] = {} if task.press.film else {"kinks": True, "max_step": 1e-6}
     return with_events(Kernel(task), task, method="DOP853", rtol=1e-13, atol=1e-15, **options)
 
 
 def reference_gap(name: str) -> Errors:
-    """How far a second method is from the reference: dry DOP853, lubricated RK4 with a step of 2e-6 s."""
+    """Return the errors of a second method: dry DOP853, lubricated RK4 with a step of 2e-6 s."""
     task = work(name)
     if name == "dry":
         return errors(task, dop853(name), reference(name))
@@ -288,7 +290,7 @@ def reference_gap(name: str) -> Errors:
 def lsoda(work: Work, rtol: float, with_jacobian: bool = False) -> tuple[Samples, float, int]:
     """Return (samples, seconds of integration only, right-hand sides) of SciPy's LSODA, from event to event.
 
-    LSODA differences the right-hand side, or is given all 48 columns by one call of C.
+    LSODA differences the right-hand side, or gets all 48 columns by one call of C.
     """
     kernel = Kernel(work)
     options: dict[str, Any] = {"jac": kernel.jacobian} if with_jacobian else {}
@@ -299,12 +301,13 @@ def lsoda(work: Work, rtol: float, with_jacobian: bool = False) -> tuple[Samples
 
 
 def lsoda_with_jacobian(work: Work, rtol: float) -> tuple[Samples, float, int]:
-    """Return the same with the columns from C."""
+    """Return samples, seconds and right-hand sides of LSODA with the Jacobian from C."""
     return lsoda(work, rtol, with_jacobian=True)
 
 
 def rk4(work: Work, step: float) -> tuple[Samples, float, int]:
-    """Return the same of the classical method with a fixed step (s) inside press_dense.c, which lists no onsets."""
+    """Return samples, seconds and right-hand sides of classical RK4 with a fixed step (s) in C, which lists no
+    onsets."""
     every = max(1, round(work.t_end / (OUTPUTS - 1) / step))
     h = work.t_end / ((OUTPUTS - 1) * every)
     begin = perf_counter()

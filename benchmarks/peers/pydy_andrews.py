@@ -1,8 +1,8 @@
-"""Andrews' squeezer by PyDy: its code generator on the same equations, integrated by SciPy's DOP853.
+"""Integrate Andrews' squeezer by PyDy: its code generator on the same equations, and SciPy's DOP853.
 
 PyDy takes M(x) u̇ = F(x, u), writes both as C with common subexpressions, and solves with LAPACK at every call from
-Python. The multipliers are carried along as speeds: [M Gᵀ; G 0] [v̇; μ̇] = [f; −Ġ q̇], so μ̇ = λ. Whoever lets PyDy's
-own KanesMethod derive a closed linkage gets the same sort of system, only longer.
+Python. The multipliers are additional speeds: [M Gᵀ; G 0] [v̇; μ̇] = [f; −Ġ q̇], so μ̇ = λ. PyDy's own KanesMethod
+derives a similar, longer system for a closed linkage.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ import numpy as np
 from benchmarks.peers import andrews
 
 ATOL = 1e-2  # of rtol
-FREE = 1e30  # absolute tolerance of μ: nobody asks for it
+FREE = 1e30  # absolute tolerance of μ, which is not needed
 
 
 @cache
 def compiled() -> Any:
-    """ẏ = f(y, t) of 7 coordinates and 13 speeds, as PyDy generates it with Cython."""
+    """Return ẏ = f(y, t) of 7 coordinates and 13 speeds, as PyDy generates it with Cython."""
     sp = import_module("sympy")
     generator = import_module("pydy.codegen.ode_function_generators").CythonODEFunctionGenerator
     q, v, m = (list(sp.symbols(f"{name}0:{n}", real=True)) for name, n in (("q", 7), ("v", 7), ("m", 6)))
@@ -38,7 +38,7 @@ def compiled() -> Any:
     speeds = [*v, *m]
     built = generator(
         force,
-        [*q, *_unused()],
+        [*q, *_dummy_coordinates()],
         speeds,
         [torque],
         mass_matrix=mass,
@@ -48,19 +48,19 @@ def compiled() -> Any:
     return built.generate()
 
 
-def _unused() -> list[Any]:
-    """Coordinates that stand beside the multipliers, since PyDy wants as many as there are speeds."""
+def _dummy_coordinates() -> list[Any]:
+    """Return six dummy coordinates, since PyDy needs as many coordinates as speeds."""
     return list(import_module("sympy").symbols("z0:6", real=True))
 
 
 def start() -> np.ndarray:
-    """q, six that nobody reads, v, μ."""
+    """Return y: q, six dummy coordinates, v, μ."""
     y = andrews.start()
     return np.array([*y[:7], *[0.0] * 6, *y[7:], *[0.0] * 6])
 
 
 def run(rtol: float) -> andrews.Measured:
-    """(error, seconds of integration only, right-hand sides)."""
+    """Integrate; return (error, seconds of integration only, right-hand sides)."""
     from scipy.integrate import solve_ivp
 
     f, y0 = compiled(), start()
@@ -69,7 +69,7 @@ def run(rtol: float) -> andrews.Measured:
     atol = np.where(free, FREE, ATOL * rtol)
     torque = np.array([andrews.TORQUE])
     begin = perf_counter()
-    s = solve_ivp(  # PyDy answers in one array, over and over, and solve_ivp keeps what it is given: hence the copy
+    s = solve_ivp(  # PyDy returns the same array each time, and solve_ivp stores it: hence the copy
         lambda t, y: f(y, t, torque).copy(),
         (0.0, andrews.T_END),
         y0,
@@ -82,7 +82,7 @@ def run(rtol: float) -> andrews.Measured:
 
 
 def seconds_per_rhs(batch: int = 500, repeats: int = 7) -> float:
-    """Least time of a call from Python (s), LAPACK's solve included."""
+    """Return the smallest time of a call from Python (s), with LAPACK's solve."""
     f, y, torque, best = compiled(), start(), np.array([andrews.TORQUE]), float("inf")
     for _ in range(repeats):
         begin = perf_counter()

@@ -1,4 +1,4 @@
-"""The reference of the dry press in long double (press_reference.c): outputs, onsets and impact velocities.
+"""Compute the reference of the dry press in long double (press_reference.c): outputs, onsets, approach speeds.
 
 python -m benchmarks.peers.reference     # writes press_dry_onsets.json, with two steps' difference
 """
@@ -24,13 +24,13 @@ DECLARATIONS = "int reference_run(const double *, const double *, double, int, i
 
 @cache
 def library() -> tuple[FFI, Any]:
-    """cffi's view of press_reference.c."""
+    """Return cffi's FFI and the library of press_reference.c."""
     return press.compile_library("press_reference.c", DECLARATIONS)
 
 
 @cache
 def run(name: str = "dry", steps: int = STEPS) -> tuple[np.ndarray, np.ndarray]:
-    """(y (OUTPUTS, 48), onsets (K, 3): joint 0 or 1, t (s), δ̇⁻ (m/s))."""
+    """Return y (OUTPUTS, 48) and onsets (K, 3): joint 0 or 1, t (s), δ̇⁻ (m/s). Raises FloatingPointError."""
     ffi, c = library()
     work = press.work(name)
     data = np.frombuffer(bytes(press_dense._struct(work.press)))
@@ -52,14 +52,14 @@ def run(name: str = "dry", steps: int = STEPS) -> tuple[np.ndarray, np.ndarray]:
 
 
 def samples(name: str = "dry", steps: int = STEPS) -> press.Samples:
-    """As the race compares them."""
+    """Return the outputs and onsets for the race."""
     rows, onsets = run(name, steps)
     times = [onsets[onsets[:, 0] == joint, 1] for joint in (0, 1)]
     return press.Samples(np.ascontiguousarray(rows[:, :24]), (times[0], times[1]))
 
 
 def main() -> None:
-    """Write the onsets and what two steps differ by."""
+    """Write the onsets, and the difference of two steps."""
     rows, onsets = run()
     coarse_rows, coarse = run(steps=STEPS // 2)
     gap = {"onset": float(np.abs(onsets - coarse)[:, 1].max()), "y": float(np.abs(rows - coarse_rows).max())}

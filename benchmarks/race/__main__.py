@@ -1,11 +1,11 @@
-"""The race: CPU time to reach a given error, gudgeon and its peers in one run of one process.
+"""Run the race: CPU time to reach a given error, gudgeon and reference solvers in one process.
 
     python -m benchmarks.race [--work andrews double links ideal dry lubricated sweep] [--write]
 
-Peers that are not installed (extra `bench`) are left out with a line. Every entry is swept over its tolerances (or
-steps); a time is the least of at least five repeats after a warm-up, integration only. The tables interpolate along a
-sweep, log-log, between the two neighbours that enclose the error asked for. Works, errors and references:
-benchmarks/peers. `--write` keeps what was found: benchmarks/race.csv, and made from it figures and docs/race.md.
+Solvers that are not installed (extra `bench`) are left out with a message. Every entry is run with its tolerances (or
+steps). A time is the smallest of at least five repeats after a warm-up, of integration only. The tables interpolate
+between two neighbouring tolerances, log-log. benchmarks/peers defines problems, errors and references. `--write` stores
+the results in benchmarks/race.csv, and makes figures and docs/race.md from it.
 """
 
 from __future__ import annotations
@@ -26,22 +26,23 @@ from benchmarks.studies import LARGE, large
 from gudgeon.loading import compiler
 
 REPEATS = 5
-LONG = 0.3  # s: a run so long needs no warm-up of its own
-SHORT, MORE = 0.03, 4  # s: runs so short are cheaply had again, this often a round
+LONG = 0.3  # s: longer runs need no warm-up
+SHORT, MORE = 0.03, 4  # s: shorter runs are repeated this often in a round
 
 
 class Best:
-    """The least times of a work's entries. Rounds go through all of them, so that whatever else the machine does for a
-    while takes its share of everyone."""
+    """Smallest times of the entries of one problem. Each round runs all entries, so that other load affects all
+    alike."""
 
     def __init__(self, taking_part: list[Entry]) -> None:
+        """Collect all entries with their tolerances or steps."""
         self.found: dict[tuple[Entry, float], Found] = {}
         self.waiting = [(entry, control) for entry in taking_part for control in entry.controls]
 
     def warm_up(self) -> None:
-        """The first run of everyone; it counts where it is long, else a second does.
+        """Run every entry once; a long run counts, after a short one a second run does.
 
-        A control at which a method gives up is left out.
+        Tolerances at which a method fails are left out.
         """
         for entry, control in list(self.waiting):
             try:
@@ -54,7 +55,7 @@ class Best:
             self.found[entry, control] = run if long else entry.run(control)
 
     def round(self, last: bool) -> None:
-        """Once more everyone; those whose first run counted rest in the last round."""
+        """Run every entry again; those whose first run counted are left out in the last round."""
         for entry, control in self.waiting:
             best = self.found[entry, control]
             if last and best.seconds * entry.runs > LONG:
@@ -63,7 +64,7 @@ class Best:
             self.found[entry, control] = min(best, *again, key=lambda found: found.seconds)
 
     def rows(self) -> list[Row]:
-        """For the record."""
+        """Return the rows for the record."""
         return [
             Row(e.work, e.name, bool(e.method), control, run.seconds, run.right_hand_sides, run.errors)
             for (e, control), run in self.found.items()
@@ -71,7 +72,7 @@ class Best:
 
 
 def machine_facts() -> dict[str, str]:
-    """What the times belong to."""
+    """Return machine, compiler, versions and load to which the times belong."""
     command = compiler.find_compiler()
     said = subprocess.run([*command, "--version"], capture_output=True, text=True, env=compiler.plain()).stdout
     return {
@@ -84,7 +85,7 @@ def machine_facts() -> dict[str, str]:
 
 
 def work_facts(work: str) -> dict[str, str]:
-    """What a work is judged by: the peers' right-hand side and how well the reference is confirmed; large batches."""
+    """Return facts on a problem: time of the peers' right-hand side, confirmation of the reference, large batches."""
     if work == "andrews":
         found = {}
         if find_spec("jitcode") is not None:
@@ -111,7 +112,7 @@ def work_facts(work: str) -> dict[str, str]:
 
 
 def race(works: list[str]) -> Record:
-    """Run, print, return everything."""
+    """Run the problems, print the tables, and return the record."""
     facts, rows = machine_facts(), []
     print("\n".join(f"{name}: {value}" for name, value in facts.items()))
     for work in works:
@@ -136,7 +137,7 @@ def race(works: list[str]) -> Record:
 
 
 def main() -> None:
-    """Command line."""
+    """Run the race from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--work", nargs="+", action="extend", choices=WORKS, help="only these")
     parser.add_argument("--write", action="store_true", help="keep CSV, figures and the page; all works")

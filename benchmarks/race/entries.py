@@ -1,6 +1,6 @@
-"""Who takes part in the race: the peers, and gudgeon with each of its methods. One line an entry.
+"""List the entries of the race: reference solvers, and gudgeon with each of its methods.
 
-A peer that is not installed is left out with a line that says so.
+A solver that is not installed is left out with a message.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ SWEEP = (10, 20)  # clearances, speeds
 
 @dataclass(frozen=True)
 class Found:
-    """Of one run: errors by measure (see `press.errors`; andrews and ideal have "angle" and "motion"), its cost."""
+    """Errors by measure (see `press.errors`; andrews and ideal have "angle" and "motion") and cost of one run."""
 
     errors: dict[str, float]
     seconds: float
-    right_hand_sides: int  # −1: not told
+    right_hand_sides: int  # −1: unknown
 
 
 @dataclass(frozen=True)
@@ -63,11 +63,11 @@ class Entry:
     controls: tuple[float, ...]
     needs: tuple[str, ...] = ()  # modules
     method: str = ""  # gudgeon's own; "" for a peer
-    runs: int = 1  # that `seconds` is one share of
+    runs: int = 1  # number of runs over which `seconds` is averaged
 
     @property
     def missing(self) -> str:
-        """What is not there; "" if all is."""
+        """Return the modules that are not installed; "" if there are none."""
         return ", ".join(module for module in self.needs if find_spec(module) is None)
 
 
@@ -76,9 +76,10 @@ Plain = Callable[[float], tuple[float, float, int]]
 
 
 def on_press(run: Press, name: str) -> Callable[[float], Found]:
-    """A peer's run of a press with play, with its errors."""
+    """Return a function that runs a reference solver on a press with play, with errors."""
 
     def found(control: float) -> Found:
+        """Return errors and cost."""
         samples, seconds, calls = run(press.work(name), control)
         return Found(press_errors(name, samples), seconds, calls)
 
@@ -86,15 +87,16 @@ def on_press(run: Press, name: str) -> Callable[[float], Found]:
 
 
 def press_errors(name: str, samples: press.Samples) -> dict[str, float]:
-    """By measure; the onset's only where contacts were listed."""
+    """Return the errors by measure; that of the onset is NaN without a list of contacts."""
     errors = press.errors(press.work(name), samples, press.reference(name))
     return {"slider": errors.slider, "path": errors.path, "onset": errors.onset}
 
 
 def plain(run: Plain, measure: str) -> Callable[[float], Found]:
-    """A run that tells one error."""
+    """Return a function for a run that has one error."""
 
     def found(control: float) -> Found:
+        """Return error and cost."""
         error, seconds, calls = run(control)
         return Found({measure: error}, seconds, calls)
 
@@ -103,14 +105,15 @@ def plain(run: Plain, measure: str) -> Callable[[float], Found]:
 
 @cache
 def loaded(mechanism: str, scene: str) -> Any:
-    """Compiled once."""
+    """Load a scene once."""
     return gudgeon.load(mechanism, scene=scene, quick=False)
 
 
 def own_press(name: str, method: str, control: str) -> Callable[[float], Found]:
-    """gudgeon on a press with play; `control`: "step" or "rtol"."""
+    """Return a function that runs gudgeon on a press with play; `control`: "step" or "rtol"."""
 
     def found(value: float) -> Found:
+        """Return errors and cost."""
         work = press.work(name)
         run = loaded("nine_bar_press", name).simulate(
             work.t_end, output=work.times, method=method, parameters=work.parameters, **{control: value}
@@ -124,9 +127,10 @@ def own_press(name: str, method: str, control: str) -> Callable[[float], Found]:
 
 
 def own_andrews(method: str, control: str) -> Callable[[float], Found]:
-    """gudgeon on Andrews' squeezer."""
+    """Return a function that runs gudgeon on Andrews' squeezer."""
 
     def found(value: float) -> Found:
+        """Return error and cost."""
         run = loaded("andrews_squeezer", "ideal").simulate(andrews.T_END, output=1, method=method, **{control: value})
         names = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
         error = andrews.error(np.array([run[name][-1] for name in names]))
@@ -136,7 +140,7 @@ def own_andrews(method: str, control: str) -> Callable[[float], Found]:
 
 
 def own_ideal(_: float) -> Found:
-    """gudgeon on the ideal press, a sample."""
+    """Run gudgeon on the ideal press; the time is that of a sample."""
     parameters = {k: v for k, v in press.work("dry").parameters.items() if k != "c"}
     run = loaded("nine_bar_press", "ideal").simulate(ideal.T_END, output=ideal.SAMPLES - 1, parameters=parameters)
     error = ideal.error(np.stack([run["S9.y"], run["S9.vy"], run["S9.ay"]], axis=1))
@@ -145,21 +149,22 @@ def own_ideal(_: float) -> Found:
 
 @cache
 def sweep_reference() -> np.ndarray:
-    """Slider's y (runs, OUTPUTS) by the stiff method at 1e-10; `many.confirm` tells how far it is from the race's."""
+    """Return the slider's y (runs, OUTPUTS) by the stiff method at 1e-10; `many.confirm` checks it."""
     batch = many.run(loaded("nine_bar_press", "lubricated"), many.grid(*SWEEP), method="rodas5p", rtol=1e-10)
     return batch.q[:, :, batch.source.coordinates.index(many.SLIDER)]
 
 
 def sweep_found(y: np.ndarray, seconds: float) -> Found:
-    """The worst error of the slider over all runs, and seconds a run."""
+    """Return the worst slider error over all runs, and seconds per run."""
     error = float(np.abs(y - sweep_reference()).max() / press.work("lubricated").stroke)
     return Found({"worst": error}, seconds / len(y), -1)
 
 
 def own_sweep(threads: int) -> Callable[[float], Found]:
-    """gudgeon on all runs of the sweep, whole batches: starts, runs and arrays."""
+    """Return a function that runs gudgeon on all runs of the sweep as a batch: starts, runs and arrays."""
 
     def found(rtol: float) -> Found:
+        """Return error and cost."""
         batch = many.run(loaded("nine_bar_press", "lubricated"), many.grid(*SWEEP), rtol=rtol, threads=threads)
         return sweep_found(batch.q[:, :, batch.source.coordinates.index(many.SLIDER)], batch.seconds)
 
@@ -167,26 +172,26 @@ def own_sweep(threads: int) -> Callable[[float], Found]:
 
 
 def peer_sweep(rtol: float) -> Found:
-    """CVODE on the same."""
+    """Run CVODE on all runs of the sweep."""
     columns = many.grid(*SWEEP)
     c, omega = np.asarray(columns["c"]), np.asarray(columns["omega"])
     return sweep_found(*cvode.sweep(cvode.sweep_works(c, omega), rtol))
 
 
 def entries() -> list[Entry]:
-    """Everyone, gudgeon first in each work."""
+    """Return all entries, those of gudgeon first in each problem."""
     return [*press_entries(), *andrews_entries(), *chain_entries(), *ideal_entries(), *sweep_entries()]
 
 
 def own_methods(work: str) -> list[tuple[str, str, tuple[float, ...]]]:
-    """gudgeon's methods, what controls them and its values; what a user gets who names none comes first."""
+    """Return gudgeon's methods, their control and its values; the default method is the first."""
     names = ("auto", "dop853", "rodas5p", *(STAGED if work == "lubricated" else ()))
     adaptive = [(method, "rtol", TOLERANCES) for method in names]
     return [*adaptive, ("rk4", "step", RK4_STEPS[work])]
 
 
 def press_entries() -> list[Entry]:
-    """The press with play."""
+    """Return the entries of the press with play."""
     found, sundae = [], ("sksundae",)
     for work in ("lubricated", "dry"):
         for method, control, values in own_methods(work):
@@ -203,7 +208,7 @@ def press_entries() -> list[Entry]:
 
 
 def andrews_entries() -> list[Entry]:
-    """Andrews' squeezer."""
+    """Return the entries of Andrews' squeezer."""
     found, jit = [], ("jitcode",)
     for method, control, values in own_methods("andrews"):
         found.append(Entry("andrews", f"gudgeon {method}", own_andrews(method, control), values, (), method))
@@ -220,7 +225,7 @@ def andrews_entries() -> list[Entry]:
 
 
 def chain_entries() -> list[Entry]:
-    """Pendulums of several links, smooth motion: Taylor's method beside heyoka's, single runs and batches."""
+    """Return the entries of pendulums with several links: single runs and batches, Taylor methods included."""
     found = []
     for work, n in CHAINS.items():
         for method in ("auto", "dop853", "taylor"):
@@ -235,7 +240,7 @@ def chain_entries() -> list[Entry]:
 
 
 def ideal_entries() -> list[Entry]:
-    """The press without play."""
+    """Return the entries of the press without play."""
     steps, n = (1e-3, 1e-4), ideal.SAMPLES  # a step a sample, and ten
     return [
         Entry("ideal", "gudgeon kinematic", own_ideal, (math.nan,), (), "kinematic", n),
@@ -245,7 +250,7 @@ def ideal_entries() -> list[Entry]:
 
 
 def sweep_entries() -> list[Entry]:
-    """200 lubricated runs, clearance × speed."""
+    """Return the entries of 200 lubricated runs over clearance and speed."""
     n, sundae = SWEEP[0] * SWEEP[1], ("sksundae",)
     own = [
         Entry("sweep", f"gudgeon auto, {k} thread{'s' * (k > 1)}", own_sweep(k), many.TOLERANCES, (), "auto", n)

@@ -1,9 +1,8 @@
-"""The tables and figures of docs/race.md, made from benchmarks/race.csv and from nothing else.
+"""Make the tables and figures of docs/race.md from benchmarks/race.csv.
 
     python -m benchmarks.race.page          # after a race, or after a change of the page's text
 
-The page's own text stands outside the marks `<!-- race: name -->` … `<!-- end -->`; what is between them is written
-here, and a test compares it with the CSV.
+The text between the marks `<!-- race: name -->` … `<!-- end -->` is generated here; a test compares it with the CSV.
 """
 
 from __future__ import annotations
@@ -18,12 +17,12 @@ from benchmarks.race.record import LEVELS, MEASURES, ONSET_LEVELS, SMOOTH, SMOOT
 FOLDER = Path(__file__).resolve().parents[1]
 CSV, FIGURES, PAGE = FOLDER / "race.csv", FOLDER / "figures", FOLDER.parent / "docs" / "race.md"
 UNITS = {"ideal": ("µs a sample", 1e6), "double": ("µs", 1e6), "links": ("µs", 1e6), "sweep": ("ms a run", 1e3)}
-DEFAULT = "gudgeon auto"  # what a user gets who names no method: it alone is held to the bars
+DEFAULT = "gudgeon auto"  # the default method, to which the requirements apply
 
 
 @dataclass(frozen=True)
 class Bar:
-    """What is asked at the errors `levels`: `least` times the speed of a peer, or with no peer `most` seconds."""
+    """Requirement at the errors `levels`: `least` times the speed of a reference solver, or at most `most` seconds."""
 
     work: str
     own: str
@@ -49,12 +48,12 @@ THREADS = 1.8  # the sweep: two threads over one, at least
 
 
 def number(x: float) -> str:
-    """Three digits; a dash where an error was not reached."""
+    """Return three digits; a dash if an error was not reached."""
     return f"{x:#.3g}".rstrip(".") if math.isfinite(x) else "–"
 
 
 def grid(head: list[str], rows: list[list[str]]) -> list[str]:
-    """A Markdown table with columns of equal width, so that it reads as text too."""
+    """Return a Markdown table with columns of equal width."""
     widths = [max(len(row[k]) for row in [head, *rows]) for k in range(len(head))]
     line = ["---".ljust(w, "-") if k == 0 else "-" * (w - 1) + ":" for k, w in enumerate(widths)]
     fitted = [
@@ -65,7 +64,7 @@ def grid(head: list[str], rows: list[list[str]]) -> list[str]:
 
 
 def bars(record: Record) -> list[str]:
-    """What is asked, what was found, and found over asked: 1 or more meets it."""
+    """Return the table of requirements and results; the ratio in brackets is 1 or more if a requirement is met."""
     rows = []
     for bar in (b for b in BARS if record.entries(b.work)):
         measure = bar.measure or MEASURES[bar.work][0]
@@ -89,7 +88,7 @@ def bars(record: Record) -> list[str]:
 
 
 def table(record: Record, work: str, measure: str) -> list[str]:
-    """Time of every entry to each error, and over that of gudgeon as it comes."""
+    """Return the times of all entries to each error, and their ratios to the default method of gudgeon."""
     levels = ONSET_LEVELS if measure == "onset" else SMOOTH_LEVELS if work in SMOOTH else LEVELS
     unit, scale = UNITS.get(work, ("ms", 1e3))
     names = record.entries(work)
@@ -106,7 +105,7 @@ def table(record: Record, work: str, measure: str) -> list[str]:
 
 
 def facts(record: Record, work: str = "") -> list[str]:
-    """What was noted of a work, or of the machine."""
+    """Return the facts of a problem, or of the machine."""
     prefix = f"{work}, " if work else ""
     chosen = {
         name.removeprefix(prefix): value
@@ -117,7 +116,7 @@ def facts(record: Record, work: str = "") -> list[str]:
 
 
 def blocks(record: Record) -> dict[str, str]:
-    """The text between the marks of the page, by name."""
+    """Return the texts between the marks by name."""
     found = {"machine": facts(record), "bars": bars(record)}
     for work, measures in MEASURES.items():
         lines = facts(record, work)
@@ -130,10 +129,11 @@ def blocks(record: Record) -> dict[str, str]:
 
 
 def filled(page: str, record: Record) -> str:
-    """The page with what stands between its marks made anew. Raises ValueError where a mark names nothing."""
+    """Return the page with the texts between its marks replaced. Raises ValueError for unknown marks."""
     texts = blocks(record)
 
     def put(found: re.Match[str]) -> str:
+        """Return the text of a mark."""
         if found[1] not in texts:
             raise ValueError(f"the page asks for {found[1]!r}; there are: {', '.join(texts)}")
         return f"<!-- race: {found[1]} -->\n{texts[found[1]]}\n<!-- end -->"
@@ -142,8 +142,10 @@ def filled(page: str, record: Record) -> str:
 
 
 def draw(folder: Path, record: Record) -> None:
-    """Time against error, log-log, a figure a work; gudgeon's lines are thick, its default dashed on top of the method
-    that it chose."""
+    """Draw time against error, log-log, one figure for each problem.
+
+    Lines of gudgeon are thick; its default method is dashed on top of the chosen one.
+    """
     import matplotlib
 
     matplotlib.use("Agg")
@@ -174,7 +176,7 @@ def draw(folder: Path, record: Record) -> None:
 
 
 def main() -> None:
-    """Page and figures from the CSV."""
+    """Write the page and the figures from the CSV."""
     record = read(CSV)
     PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), record), encoding="utf-8")
     draw(FIGURES, record)

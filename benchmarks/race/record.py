@@ -1,7 +1,7 @@
-"""What a race found, as a CSV that everything else is made from: the tables, the figures and docs/race.md.
+"""Store the results of a race as a CSV file, from which tables, figures and docs/race.md are made.
 
-Lines that begin with "# " hold facts, `# name: value`: the machine, the versions, the peers' right-hand sides. No times
-of day and no paths. Then a row a control (tolerance or step) of every entry.
+Lines that begin with "# " contain facts, `# name: value`: machine, versions, times of right-hand sides. The other lines
+are rows for each control (tolerance or step) of every entry.
 """
 
 from __future__ import annotations
@@ -38,39 +38,38 @@ class Row:
     own: bool  # gudgeon's
     control: float
     seconds: float
-    right_hand_sides: int  # −1: not told
+    right_hand_sides: int  # −1: unknown
     errors: dict[str, float]
 
 
 @dataclass(frozen=True)
 class Record:
-    """A whole race."""
+    """Results of a whole race."""
 
     facts: dict[str, str] = field(default_factory=dict)
     rows: tuple[Row, ...] = ()
 
     def entries(self, work: str) -> list[str]:
-        """In the order of the rows."""
+        """Return the entries of a problem in the order of the rows."""
         return list(dict.fromkeys(row.entry for row in self.rows if row.work == work))
 
     def points(self, work: str, entry: str, measure: str) -> list[tuple[float, float]]:
-        """(error, seconds) along an entry's controls."""
+        """Return (error, seconds) of an entry for all its controls."""
         return [(r.errors[measure], r.seconds) for r in self.rows if (r.work, r.entry) == (work, entry)]
 
     def is_own(self, work: str, entry: str) -> bool:
-        """Whether gudgeon ran."""
+        """Return whether the entry is gudgeon."""
         return any(r.own for r in self.rows if (r.work, r.entry) == (work, entry))
 
     def time_to(self, work: str, entry: str, measure: str, level: float) -> float:
-        """Seconds to an error; NaN if it never gets there."""
+        """Return the seconds to an error; NaN if it is not reached."""
         return time_to(self.points(work, entry, measure), level)
 
 
 def time_to(points: Iterable[tuple[float, float]], level: float) -> float:
-    """Seconds to reach an error: the least over points (error, seconds) that do, and over neighbours that enclose it.
+    """Return the smallest time to reach an error, from points (error, seconds) and between neighbours that enclose it.
 
-    NaN where no point reaches it. Nothing is extrapolated: a sweep whose loosest point is better than asked for
-    gives that point's time.
+    NaN if no point reaches it. There is no extrapolation: if all points are better, the time is that of the loosest.
     """
     good = [(e, s) for e, s in points if math.isfinite(e)]
     times = [s for e, s in good if e <= level]
@@ -82,7 +81,7 @@ def time_to(points: Iterable[tuple[float, float]], level: float) -> float:
 
 
 def versions() -> str:
-    """Of the packages that take part; what is not installed is left out."""
+    """Return the versions of the installed packages."""
     found = []
     for name in PACKAGES:
         try:
@@ -93,7 +92,7 @@ def versions() -> str:
 
 
 def write(path: Path, record: Record) -> None:
-    """The CSV."""
+    """Write the CSV file."""
     measures = sorted({m for names in MEASURES.values() for m in names})
     with path.open("w", newline="", encoding="utf-8") as file:
         file.writelines(f"# {name}: {value}\n" for name, value in record.facts.items())
@@ -107,7 +106,7 @@ def write(path: Path, record: Record) -> None:
 
 
 def read(path: Path) -> Record:
-    """What `write` wrote."""
+    """Return the record of a CSV file."""
     lines = path.read_text(encoding="utf-8").splitlines()
     facts = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     rows = []

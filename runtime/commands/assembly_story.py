@@ -16,7 +16,7 @@ from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
 from gudgeon.assembly.journals import check_places, in_walls
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.start import velocities
-from gudgeon.commands.common import at_numbers, check_addresses
+from gudgeon.commands.common import check_addresses, linkage_at_values
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
 from gudgeon.model.seams import seams
@@ -77,7 +77,7 @@ def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, fl
     numbers = given or {}
     check_addresses(numbers, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
     for name, (linkage, rows) in linkages.items():
-        linkage = at_numbers(mechanism, linkage, numbers)
+        linkage = linkage_at_values(mechanism, linkage, numbers)
         try:
             scenes[name] = _assembled(linkage, rows)
         except GudgeonError as error:

@@ -69,8 +69,8 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False, 
     if scenes:
         _print_scenes(mechanism, scenes, seconds)
     for scene, problem in found.failed.items():
-        told = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
-        raise AssemblyError(f"{told}{problem}")
+        message = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
+        raise AssemblyError(f"{message}{problem}")
     return _exit_code(mechanism, found)
 
 
@@ -201,8 +201,8 @@ def _document(
 
 def _scene_data(source: KernelSource) -> dict[str, Any]:
     """Return the counts, reduction, events, notes and reduction log of one scene for `--json`."""
-    told = {"events": _events(source), "notes": list(source.notes), "story": story_data(source.story)}
-    return {**_count_facts(source), **_reduction(source), **told}
+    document = {"events": _events(source), "notes": list(source.notes), "story": story_data(source.story)}
+    return {**_count_facts(source), **_reduction(source), **document}
 
 
 def _print_scenes(

@@ -59,14 +59,14 @@ def settings(texts: Iterable[str]) -> dict[str, float | str]:
     found: dict[str, float | str] = {}
     written: dict[str, str] = {}  # a parameter may be called with its section or without
     for text in texts:
-        address, equals, told = (part.strip() for part in text.partition("="))
-        if not (equals and address and told):
+        address, equals, given = (part.strip() for part in text.partition("="))
+        if not (equals and address and given):
             raise BadValueError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
         key = address.removeprefix("parameters.")
         if key in written:
-            told = f"--set {text}: this number is set already, by --set {written[key]}"
-            raise BadValueError(told, hint="set it once")
-        written[key], found[address] = text, value(told)
+            message = f"--set {text}: this number is set already, by --set {written[key]}"
+            raise BadValueError(message, hint="set it once")
+        written[key], found[address] = text, value(given)
     return found
 
 
@@ -87,13 +87,13 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
         raise unknown(f"--set: no scene has a number {name!r}", name, known)
 
 
-def known_here(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
+def known_settings(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
     """Return the values of `--set` whose addresses the scene has: an ideal scene has no viscosity."""
     known = set(addresses(source))
     return {address: number for address, number in given.items() if address in known}
 
 
-def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
+def linkage_at_values(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
     """Return the closed linkage of a scene at other parameter values; addresses of other scenes are ignored.
 
     Raises BadValueError.
@@ -101,7 +101,7 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
     from gudgeon.generator.pipeline import closed_linkage
 
     source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
-    known, p = known_here(source, given), linkage.p[:count].copy()
+    known, p = known_settings(source, given), linkage.p[:count].copy()
     values, is_given = given_slots(source, known)
     p[: len(values)][is_given] = values[is_given]
     check(source, p, is_given)  # before derived values are computed
@@ -112,8 +112,8 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
     try:
         found, _ = closed_linkage(mechanism, source.scene, own)
     except ArithmeticError as error:
-        told = f"--set: what follows from these numbers is none ({error})"
-        raise BadValueError(told, hint="look for one that is 0, or far too large") from error
+        message = f"--set: what follows from these numbers is none ({error})"
+        raise BadValueError(message, hint="look for one that is 0, or far too large") from error
     check(source, found.p[:count], is_given)
     return found
 
@@ -157,7 +157,7 @@ def check_name(option: str, path: Path) -> None:
         raise InputError(f"{option}: {error}") from error
 
 
-def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
+def require_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
     """Raise InputError if the suffix of `path` is not one of `suffixes`."""
     if path.suffix.lower() not in suffixes:
         ends = f"{', '.join(suffixes[:-1])} or {suffixes[-1]}"

@@ -14,7 +14,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.common import at_numbers, check_addresses, check_file, chosen_scenes, need_suffix, settings
+from gudgeon.commands.common import (
+    check_addresses,
+    check_file,
+    chosen_scenes,
+    linkage_at_values,
+    require_suffix,
+    settings,
+)
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
@@ -78,7 +85,7 @@ def draw_file(request: Request) -> int:
     chosen_scenes(request.file, (request.scene,))
     file = find_mechanism(request.file)
     target = request.target or Path("out") / f"{file.stem}_{request.scene}.svg"
-    need_suffix(target, SUFFIXES)
+    require_suffix(target, SUFFIXES)
     check_file("--out", target)
     from gudgeon.results.figures import plots  # noqa: F401  (says where matplotlib is missing)
 
@@ -111,8 +118,8 @@ def _report_undrawable(target: Path) -> Iterator[None]:
     except (ValueError, ArithmeticError) as error:
         if isinstance(error, GudgeonError):
             raise
-        told = f"no picture {shortened(target)}: its numbers cannot be drawn ({error})"
-        raise GudgeonError(f"{told}\n  look for a length or a start that is far too large") from error
+        message = f"no picture {shortened(target)}: its numbers cannot be drawn ({error})"
+        raise GudgeonError(f"{message}\n  look for a length or a start that is far too large") from error
 
 
 def _draw_moved(request: Request, at: float, values: Mapping[str, float | str]) -> Drawn:
@@ -154,7 +161,7 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
     mechanism = read_mechanism(read_bytes(file), str(file))
     linkage, _ = closed_linkage(mechanism, request.scene)
     check_addresses(values, request.file, [linkage.source])
-    linkage = at_numbers(mechanism, linkage, values)
+    linkage = linkage_at_values(mechanism, linkage, values)
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
         q, closed = closure.nearest()

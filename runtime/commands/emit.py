@@ -86,9 +86,9 @@ def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
     for scene in scenes:
         other = known.setdefault(scene.casefold(), scene)
         if other != scene:
-            told = f"it would share a folder with scene {other!r}" if other else "that folder is what all share"
+            message = f"it would share a folder with scene {other!r}" if other else "that folder is what all share"
             hint = "give the scene another name, or emit others with --scene"
-            raise InputError(f"scene {scene!r} cannot be emitted: {told}", hint=hint)
+            raise InputError(f"scene {scene!r} cannot be emitted: {message}", hint=hint)
 
 
 def _engine_folders() -> dict[str, dict[str, str]]:
@@ -153,16 +153,16 @@ def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
             raise InputError(f"{shown} is a file", hint="name another folder")
         listed = _read_list(folder)
         if not listed and read_regular(folder / LIST):
-            told = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
-            raise InputError(told, hint="put the list back as it was, remove the folder, or name another one")
+            message = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
+            raise InputError(message, hint="put the list back as it was, remove the folder, or name another one")
         kept = (path.name for path in folder.iterdir() if _is_own(path, listed) or _is_folder(path, inner))
         foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
     except OSError as error:
         raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
     own = [name for name in foreign if name in listed]
     if foreign and own == foreign:
-        told = f"{shown}: {', '.join(own[:5])} and the checksums in {LIST} differ: files or list were changed"
-        raise InputError(told, hint="put back what was changed, move those files away or name another folder")
+        message = f"{shown}: {', '.join(own[:5])} and the checksums in {LIST} differ: files or list were changed"
+        raise InputError(message, hint="put back what was changed, move those files away or name another folder")
     if foreign:
         foreign, hint = [name for name in foreign if name not in listed], "move them away or name another folder"
         raise InputError(f"{shown} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)

@@ -8,7 +8,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
+from gudgeon.commands.common import check_file, chosen_scenes, require_suffix
 from gudgeon.commands.progress import status_line
 from gudgeon.commands.told import show, wrote
 from gudgeon.errors import BadValueError, GudgeonError
@@ -32,11 +32,11 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     if os.path.isdir(target) or not (target.suffix or target == TERMINAL):
         return _write_pages(mechanism, target, scenes)
     if target != TERMINAL:
-        need_suffix(target, SUFFIXES)
+        require_suffix(target, SUFFIXES)
         check_file("--out", target)
     if len(scenes) > 1:
-        told = f"{path_text(target)} holds the equations of one scene, not of {', '.join(scenes)}"
-        raise BadValueError(told, hint="name a folder: -o pages/")
+        message = f"{path_text(target)} holds the equations of one scene, not of {', '.join(scenes)}"
+        raise BadValueError(message, hint="name a folder: -o pages/")
     (scene,) = chosen_scenes(mechanism, scenes or (DEFAULT,))
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = _format_equations(mechanism, scene, target)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
+from gudgeon.commands.common import check_file, chosen_scenes, require_suffix
 from gudgeon.commands.progress import status_line
 from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
@@ -23,7 +23,7 @@ SUFFIXES = (".html", ".tex", ".txt", ".md")
 
 def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str | None) -> int:
     """Write an exercise sheet (.html, .tex, .txt or .md) and NAME-solutions next to it, and return the exit code."""
-    need_suffix(target, SUFFIXES)
+    require_suffix(target, SUFFIXES)
     solutions = target.with_name(f"{target.stem}-solutions{target.suffix}")
     for file in (target, solutions):
         check_file("--out", file)
@@ -55,9 +55,9 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
         try:
             drawn = draw_numbers(simulation, seed, at, units_of(read_scene(data, str(file), scene)))
         except (AssemblyError, SolverError) as error:
-            told = GudgeonError(f"no sheet: the run that its numbers come from fails, the file's own too: {error}")
-            told.exit_code = error.exit_code
-            raise told from error
+            failure = GudgeonError(f"no sheet: the run that its numbers come from fails, the file's own too: {error}")
+            failure.exit_code = error.exit_code
+            raise failure from error
     with working(f"deriving {file.stem}, scene {scene}"):
         from gudgeon.generator.pipeline import derive
         from gudgeon.teaching.questions import make_questions

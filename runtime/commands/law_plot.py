@@ -232,8 +232,8 @@ def _draw_friction(ax: Axes, law: Function, chosen: Chosen) -> None:
         return
     for amplitude in (2e-5, 2e-4):
         v_t, force = _oscillate_slip(law, chosen.law, fastest, amplitude)
-        told = f"to and fro, {quantity(2 * amplitude, 'm', 2)} apart"
-        _draw_curves(ax, v_t, iter([(force, told)]), ("v_t", "m/s"), ("F_t/F_n", ""))
+        text = f"to and fro, {quantity(2 * amplitude, 'm', 2)} apart"
+        _draw_curves(ax, v_t, iter([(force, text)]), ("v_t", "m/s"), ("F_t/F_n", ""))
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
 
 

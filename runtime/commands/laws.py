@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.commands.common import check_file, need_suffix, settings
+from gudgeon.commands.common import check_file, require_suffix, settings
 from gudgeon.errors import BadValueError
 from gudgeon.language.names import unknown_name
 from gudgeon.language.shown import one_line, plain_console, print_json, visible
@@ -30,29 +30,29 @@ class Asked:
     settings: tuple[str, ...]
 
 
-def show_laws(asked: Asked) -> int:
+def show_laws(request: Asked) -> int:
     """Print a table of all laws, or one law in full, or write its plot; return the exit code.
 
     Raises UnknownNameError, BadValueError for options that do not fit together, LawError for a user-defined law.
     """
-    name = asked.name
-    if asked.settings and asked.plot is None or asked.plot is not None and (name is None or asked.as_json):
+    name = request.name
+    if request.settings and request.plot is None or request.plot is not None and (name is None or request.as_json):
         raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
     if name is None:
-        if asked.as_json:
+        if request.as_json:
             print_json(_list_data())
         else:
             _print_table()
         return 0
     law = _find_law(name)
-    if asked.plot is not None:
+    if request.plot is not None:
         from gudgeon.commands.law_plot import SUFFIXES, plot_law
 
-        need_suffix(asked.plot, SUFFIXES)
-        check_file("--plot", asked.plot)
-        plot_law(law, name, asked.plot, settings(asked.settings))
+        require_suffix(request.plot, SUFFIXES)
+        check_file("--plot", request.plot)
+        plot_law(law, name, request.plot, settings(request.settings))
         return 0
-    if asked.as_json:
+    if request.as_json:
         print_json(_law_data(law, name))
         return 0
     from gudgeon.generator.targets.latex.law import law_text

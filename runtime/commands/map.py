@@ -39,12 +39,12 @@ class Asked:
         return self.method in FIXED
 
 
-def map_file(request: Request, asked: Asked) -> int:
+def map_file(request: Request, map_options: Asked) -> int:
     """Classify the runs of all scenes, print the result, write table and picture, and return the exit code."""
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
-    _check_options(asked, step)
-    setting, loaded = _fixed_setting(asked), load_scenes(request)
-    _check_names(asked, loaded)
+    _check_options(map_options, step)
+    setting, loaded = _fixed_setting(map_options), load_scenes(request)
+    _check_names(map_options, loaded)
     moving = [simulation for simulation in loaded if simulation.source.degrees_of_freedom != 0]
     if not request.json:
         for simulation in loaded:
@@ -53,20 +53,20 @@ def map_file(request: Request, asked: Asked) -> int:
     if not moving:
         return 0
     table = request.table(moving[0].source.mechanism, "map")
-    if asked.box is not None:
-        return _map_box(request, asked, moving, t_end, setting, table)
+    if map_options.box is not None:
+        return _map_box(request, map_options, moving, t_end, setting, table)
     steps = sorted({*default_steps(moving, request.quick), *([] if step is None else [step])})
 
     def one(simulation: Simulation, report: Report | None) -> VerdictMap:
         """Return the map of one scene."""
         parameters = request.of(simulation)
-        axes = [typed(simulation, text, parameters) for text in asked.axes]
-        if asked.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
+        axes = [typed(simulation, text, parameters) for text in map_options.axes]
+        if map_options.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
             axes = [axis(simulation, "step", steps), *axes]
         return verdict_map(
             simulation,
             axes,
-            method=asked.method,
+            method=map_options.method,
             value=setting,
             t_long=t_end,
             parameters=parameters,
@@ -82,7 +82,7 @@ def map_file(request: Request, asked: Asked) -> int:
 
 def _map_box(
     request: Request,
-    asked: Asked,
+    map_options: Asked,
     moving: Sequence[Simulation],
     t_end: float | None,
     setting: float | None,
@@ -93,14 +93,14 @@ def _map_box(
     def one(simulation: Simulation, report: Report | None) -> VerdictBox:
         """Return the box of one scene."""
         parameters = request.of(simulation)
-        axes = {a.name: a for a in (typed(simulation, text, parameters) for text in asked.ranges)}
+        axes = {a.name: a for a in (typed(simulation, text, parameters) for text in map_options.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
-        usual = natural_step(simulation, parameters) if asked.fixed else USUAL
+        usual = natural_step(simulation, parameters) if map_options.fixed else USUAL
         return verdict_box(
             simulation,
             ranges,
-            asked.box or 0,
-            setting=Setting(asked.method, setting or usual),
+            map_options.box or 0,
+            setting=Setting(map_options.method, setting or usual),
             t_long=t_end,
             parameters=parameters,
             addresses=axes,
@@ -114,30 +114,32 @@ def _map_box(
     return exit_code(moving, found, interrupted)
 
 
-def _check_options(asked: Asked, step: float | None) -> None:
+def _check_options(map_options: Asked, step: float | None) -> None:
     """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s."""
-    if asked.method not in OFFERED:
-        raise BadValueError(f"--method {asked.method!r}: expected {', '.join(OFFERED)}")
-    own = [name for name in map(_name, asked.axes) if name in SETTINGS]
-    _check_once("--axis", asked.axes)
-    _check_once("--range", asked.ranges)
-    if asked.box is None and asked.ranges:
+    if map_options.method not in OFFERED:
+        raise BadValueError(f"--method {map_options.method!r}: expected {', '.join(OFFERED)}")
+    own = [name for name in map(_name, map_options.axes) if name in SETTINGS]
+    _check_once("--axis", map_options.axes)
+    _check_once("--range", map_options.ranges)
+    if map_options.box is None and map_options.ranges:
         hint = "add --box COUNT (0: its corners alone), or vary the number along an --axis"
-        raise BadValueError(f"--range {asked.ranges[0]}: an edge of a box, and there is no --box", hint=hint)
-    if asked.box is not None:
-        if asked.axes:
+        raise BadValueError(f"--range {map_options.ranges[0]}: an edge of a box, and there is no --box", hint=hint)
+    if map_options.box is not None:
+        if map_options.axes:
             raise BadValueError("--box and --axis: a box has edges, give --range NAME=LOW..HIGH")
-        if not asked.ranges:
+        if not map_options.ranges:
             raise BadValueError("--box: give its edges, --range NAME=LOW..HIGH")
-        for text in asked.ranges:
+        for text in map_options.ranges:
             if ".." not in text.partition("=")[2] or ":" in text:
                 raise BadValueError(f"--range {text}: expected NAME=LOW..HIGH")
             if _name(text) in SETTINGS:
                 raise BadValueError(f"--range {text}: a box has one {_name(text)}", hint="--at gives it")
-    elif asked.at is not None and (own or len(asked.axes) < 2):
-        what = "step" if asked.fixed else "rtol"
-        raise BadValueError(f"--at {asked.at}: here {what} is an axis of the map", hint="give two other axes, or --box")
-    rows = asked.box is None and asked.fixed and ("step" in own or len(asked.axes) < 2)
+    elif map_options.at is not None and (own or len(map_options.axes) < 2):
+        what = "step" if map_options.fixed else "rtol"
+        raise BadValueError(
+            f"--at {map_options.at}: here {what} is an axis of the map", hint="give two other axes, or --box"
+        )
+    rows = map_options.box is None and map_options.fixed and ("step" in own or len(map_options.axes) < 2)
     if step is not None and not rows:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
 
@@ -148,16 +150,16 @@ def _check_once(option: str, texts: Sequence[str]) -> None:
     for text in texts:
         name = _name(text).removeprefix("parameters.")
         if name in varied:
-            told = f"{option} {text}: this number is varied already, by {option} {varied[name]}"
-            raise BadValueError(told, hint=f"give each {option} a number of its own")
+            message = f"{option} {text}: this number is varied already, by {option} {varied[name]}"
+            raise BadValueError(message, hint=f"give each {option} a number of its own")
         varied[name] = text
 
 
-def _check_names(asked: Asked, loaded: Sequence[Simulation]) -> None:
+def _check_names(map_options: Asked, loaded: Sequence[Simulation]) -> None:
     """Raise UnknownNameError for a name that no scene has, with the nearest names."""
     every = [name for simulation in loaded for name in addresses(simulation.source)]
     known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
-    for option, texts in (("--axis", asked.axes), ("--range", asked.ranges)):
+    for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:
             if "=" in text and _name(text) not in known:
                 raise unknown(f"{option} {text}: no scene has a number {_name(text)!r}", _name(text), known)
@@ -168,12 +170,12 @@ def _name(text: str) -> str:
     return text.partition("=")[0].strip()
 
 
-def _fixed_setting(asked: Asked) -> float | None:
+def _fixed_setting(map_options: Asked) -> float | None:
     """Return the step (s) or tolerance of `--at`, or None."""
-    if asked.at is None:
+    if map_options.at is None:
         return None
-    unit, power = ("s", 1) if asked.fixed else ("", 0)
-    found = number(value(asked.at), Slot("--at", unit, 0.0, False, (0, 0, power)))
-    if asked.fixed and not found > 0:
-        raise BadValueError(f"--at {asked.at}: expected a positive step")
-    return found if asked.fixed else tolerance(found, asked.method, False)
+    unit, power = ("s", 1) if map_options.fixed else ("", 0)
+    found = number(value(map_options.at), Slot("--at", unit, 0.0, False, (0, 0, power)))
+    if map_options.fixed and not found > 0:
+        raise BadValueError(f"--at {map_options.at}: expected a positive step")
+    return found if map_options.fixed else tolerance(found, map_options.method, False)

@@ -23,7 +23,15 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, have, known_here, settings
+from gudgeon.commands.common import (
+    check_addresses,
+    check_folder,
+    check_name,
+    chosen_scenes,
+    have,
+    known_settings,
+    settings,
+)
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shortened
 from gudgeon.files.room import check_disk, check_memory
@@ -134,23 +142,23 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
         return "interrupted before anything was computed: nothing is shown or saved"
     unsaved = [name for name in session.runs if name not in session.files]
     kept = " and ".join(["shown"] * session.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
-    told = f"interrupted: what was computed is {kept}"
+    text = f"interrupted: what was computed is {kept}"
     if unsaved and session.shown or 0 < len(unsaved) < len(session.runs):
-        told += f"; not saved: {', '.join(unsaved)}"
+        text += f"; not saved: {', '.join(unsaved)}"
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
-        told += "; the search for the horizon was not finished"
+        text += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
     left = [name for name in names if name not in session.runs and name not in session.failures]
     beside = {IDEAL: "was run as the reference alone"} if session.references else {}
     missing = [f"{name} {beside.get(name, 'was not begun')}" for name in left]
-    return "; ".join([told, *ended, *missing])
+    return "; ".join([text, *ended, *missing])
 
 
 def _check_request(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
     """Raise errors for unknown names and invalid values before anything is run or written."""
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
-        prepare(simulation.compiled, known_here(simulation.source, settings))
+        prepare(simulation.compiled, known_settings(simulation.source, settings))
     if request.watch or request.peaks:
         from gudgeon.results.series import catalogue
 
@@ -179,7 +187,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
     The ideal scene is the last: it runs as long as the longest scene with play, and is cheap.
     """
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
-    own = {name: prepare(s.compiled, known_here(s.source, settings))[0] for name, s in simulations.items()}
+    own = {name: prepare(s.compiled, known_settings(s.source, settings))[0] for name, s in simulations.items()}
     longest = max((scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
     check_needs(request, {name: (simulation, own[name]) for name, simulation in simulations.items()})
     with progress_bar(quiet=request.json) as bar:
@@ -197,7 +205,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     step=step,
                     rtol=request.rtol,
                     horizon=request.horizon or request.report,
-                    parameters=known_here(simulation.source, settings),
+                    parameters=known_settings(simulation.source, settings),
                     progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
                     peaks=_requested_peaks(request, simulation.source),
@@ -427,5 +435,5 @@ def check_origin(path: Path, origin: str) -> None:
     except (OSError, ValueError):  # no file; errors of writing are reported later
         return
     if ours and found and not found & set(ours.groups()):
-        told = f"--out: {shortened(path)} is the result of another mechanism file that has the same name"
-        raise InputError(told, hint="name another folder with --out, or remove it; or change `name:` in one of them")
+        message = f"--out: {shortened(path)} is the result of another mechanism file that has the same name"
+        raise InputError(message, hint="name another folder with --out, or remove it; or change `name:` in one of them")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from gudgeon.commands.common import check_addresses, check_file, check_name, chosen_scenes, need_suffix, settings
+from gudgeon.commands.common import check_addresses, check_file, check_name, chosen_scenes, require_suffix, settings
 from gudgeon.commands.progress import Report, progress_bar, status_line
 from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError
@@ -74,7 +74,7 @@ class Request:
         """Return the path of the CSV file; pictures have the same name. Raises InputError if it cannot be written."""
         table = self.csv or self.out / f"{mechanism}_{what}.csv"
         if self.csv is not None:
-            need_suffix(self.csv, (".csv",))
+            require_suffix(self.csv, (".csv",))
         option = "--out" if self.csv is None else "--csv"
         check_file(option, table)
         check_name(option, table.with_suffix(".png"))

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gudgeon.commands.common import check_file, check_folder, need_suffix, settings
+from gudgeon.commands.common import check_file, check_folder, require_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.told import told_as_json, wrote
+from gudgeon.commands.told import report_as_json, wrote
 from gudgeon.errors import BadValueError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import path_text
@@ -50,11 +50,11 @@ class Request:
 def report_study(folder: str, out: Path | None, json: bool) -> int:
     """Write the page of a finished study to `out`, or next to its folder; return the exit code."""
     page = out or Path(folder).absolute().with_suffix(".html")
-    need_suffix(page, (".html", ".htm"))
+    require_suffix(page, (".html", ".htm"))
     check_file("--out", page)
     with status_line(quiet=json):
         found = load_study(folder).report().to_html()
-    with told_as_json(json):
+    with report_as_json(json):
         write_bytes(page, found.encode())
         wrote("report", page)
     return 0
@@ -96,5 +96,5 @@ def _report_interruption(plans: Plans, folder: Path) -> None:
     """Print how many blocks of runs are stored, after Ctrl-C."""
     every = sum(len(plan.blocks) for plan in plans.each.values())
     there = min(every, sum(StudyFolder(folder / name, plan).there() for name, plan in plans.each.items()))
-    told = f"{there} of {every} blocks of runs are in {path_text(folder)}"
-    print(f"interrupted: {told}; the same command goes on from there", file=sys.stderr)
+    text = f"{there} of {every} blocks of runs are in {path_text(folder)}"
+    print(f"interrupted: {text}; the same command goes on from there", file=sys.stderr)

@@ -38,7 +38,7 @@ def told(command: Command) -> Command:
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
         """Run the command and exit with its code."""
-        listed = told_as_json(kwargs.pop("files_as_json", False))
+        listed = report_as_json(kwargs.pop("files_as_json", False))
         silence = silent(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:
             _register_laws(kwargs.pop("laws", None) or ())
@@ -132,16 +132,16 @@ def show(kind: str, text: str) -> None:
 
 
 @contextmanager
-def told_as_json(wanted: bool) -> Iterator[None]:
-    """Collect what the block reports and print it at its end as JSON, if `wanted`; also after an error."""
+def report_as_json(is_requested: bool) -> Iterator[None]:
+    """Collect what the block reports and print it at its end as JSON, if requested; also after an error."""
     global _document
-    if not wanted:
+    if not is_requested:
         yield
         return
-    _document = told = Document()
+    _document = document = Document()
     try:
         yield
     finally:
         _document = None
-        if told.files or told.notes or told.texts:
-            print_json({"files": told.files, "notes": told.notes, **told.texts})
+        if document.files or document.notes or document.texts:
+            print_json({"files": document.files, "notes": document.notes, **document.texts})

@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "984f316389e1b13aec731ee655ffd94b0ff8acbcb2453529ef603dba48b48586"  # SHA-256 of these declarations
+OF = "185a3959e840334102e85656e8876b599a8ff55cee98ca614aabfe89aebb16b4"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,

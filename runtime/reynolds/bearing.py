@@ -153,6 +153,7 @@ class Film:
         return math.hypot(*self.eccentricity) / self.bearing.clearance
 
     def __repr__(self) -> str:
+        """Return cavitation condition, ε, ω_s and force."""
         force = f"{math.hypot(*self.force):.4g} N at {math.degrees(self.attitude):.4g}°"
         return f"<Film {self.cavitation}: ε = {self.eccentricity_ratio:.4g}, ω_s = {self.omega_s:.4g} rad/s, {force}>"
 

@@ -93,8 +93,8 @@ def _factor_lu(matrix: sparse.csr_matrix, **how: Any) -> Any:
             return splu(columns, **how)
         return apart(lambda: splu(columns, **how))
     except RuntimeError as error:  # SuperLU raises it for a pivot of 0
-        told = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
-        raise GudgeonError(told) from error
+        message = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
+        raise GudgeonError(message) from error
 
 
 def _solve_reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, carries: Flags) -> tuple[Array, Flags]:

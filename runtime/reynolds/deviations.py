@@ -54,6 +54,7 @@ class Deviation:
         return np.asarray(np.hypot(off[..., 0], off[..., 1]) / largest)
 
     def __repr__(self) -> str:
+        """Return law, L/D, cavitation condition and the largest deviation."""
         worst = f"{self.share.max():.2%} at most"
         return f"<Deviation of {self.law} at L/D = {self.l_over_d:g}, {self.cavitation}: {worst}>"
 

@@ -111,7 +111,7 @@ class Grid:
     apart: Array  # (n,) from a node to the next
     weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes lie evenly: no error but that of p
     zeta: Array  # (m,) nodes but that at the end, where p = 0
-    height: Array  # (m,) lengths of cells; behind an open end's node as much as is left (m + 1,)
+    height: Array  # (m,) lengths of cells; for an open end with the remaining length (m + 1,)
     gaps: Array  # (m,) from a node to the next, the last to the end; (0,) if sealed
     weight_along: Array  # (m,) Simpson's, of the half
 

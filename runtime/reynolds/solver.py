@@ -151,9 +151,10 @@ class Solution:
 
     @cached_property
     def force(self) -> Array:
-        """(F_r, F_t) in units of 12 μ (R/c)² R².
+        """Return (F_r, F_t) in units of 12 μ (R/c)² R².
 
-        The trapezoidal rule counts a half of the interval in which p changes its sign; p > 0 has less or more of it.
+        The trapezoidal rule counts a half of the interval in which p changes its sign. The correction takes the part
+        with p > 0 instead.
         """
         p, grid = self.p, self.grid
         share = np.maximum(p, 0.0)

@@ -34,6 +34,7 @@ class Table:
     error: Array
 
     def __repr__(self) -> str:
+        """Return the shape of the states."""
         return f"<Table of the forces at {self.eps.shape} states>"
 
 

@@ -137,8 +137,8 @@ def _time_before_event(run: Result, moment: float | None, share: float) -> float
     end, last = float(run.t[-1]), run.source.events[run.events["event"][-1]]
     if moment is None:
         return float(f"{share * end:.2g}")
-    told = f"--at is {moment:g} s: event {last.name} (action: stop) ends the motion at {end:.6g} s"
-    raise BadValueError(told, hint=f"take a time before that, such as {share * end:.2g} s")
+    message = f"--at is {moment:g} s: event {last.name} (action: stop) ends the motion at {end:.6g} s"
+    raise BadValueError(message, hint=f"take a time before that, such as {share * end:.2g} s")
 
 
 def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:

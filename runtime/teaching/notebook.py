@@ -191,8 +191,8 @@ def _column_by_lines(items: list[str]) -> str:
 
 def _motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
     """Yield the cells of M and g; the system is solved numerically later."""
-    told = "The joints with play and friction that may stick add to g; the simulator has them."
-    more = told if model.clearances or model.frictions else ""
+    text = "The joints with play and friction that may stick add to g; the simulator has them."
+    more = text if model.clearances or model.frictions else ""
     yield (
         "markdown",
         (

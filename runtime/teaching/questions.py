@@ -63,11 +63,11 @@ def _ask_freedoms(subject: Subject) -> Question:
         paragraph(total, "."),
     ]
     if dropped := model.redundancy.dropped:
-        told = f"{', '.join(dropped)} follow from the others: the rank is {len(model.rows)}, and {n - len(model.rows)}"
-        solved.append(paragraph(f"Counting is not enough here: {told} are free."))
+        text = f"{', '.join(dropped)} follow from the others: the rank is {len(model.rows)}, and {n - len(model.rows)}"
+        solved.append(paragraph(f"Counting is not enough here: {text} are free."))
     elif model.rows:
-        told = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
-        solved.append(paragraph("The rank of ", PHI_Q, told))
+        text = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
+        solved.append(paragraph("The rank of ", PHI_Q, text))
     asked = paragraph(
         "How many coordinates do the bodies have, how many rows does each joint and drive add to ",
         PHI,

@@ -62,7 +62,7 @@ class Subject:
     simulation: Simulation
     drawn: Drawn
     rng: np.random.Generator
-    owners: tuple[str, ...]  # joints and drives whose rows are asked for
+    owners: tuple[str, ...]  # joints and drives whose constraint equations the questions treat
 
     @property
     def rows(self) -> list[tuple[int, Row]]:

@@ -105,8 +105,8 @@ class Printer(StrPrinter):
 
     def _print_CurveOf(self, expr: sp.Expr) -> Any:
         """Raise GudgeonError: a notebook does not contain curves."""
-        told = f"a notebook holds no curves, and this scene has {expr.name}"
-        raise GudgeonError(f"{told}\n  write a .tex, .txt or .html")
+        message = f"a notebook holds no curves, and this scene has {expr.name}"
+        raise GudgeonError(f"{message}\n  write a .tex, .txt or .html")
 
 
 def number_of_code(value: float) -> str:

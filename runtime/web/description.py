@@ -175,5 +175,5 @@ def _stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
             return None
     found, large = assemble(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
     values = [max(len(array), 1) for array in compiled.start_values(p)]
-    told = {"q": found.q.tolist(), "v": found.v.tolist(), "rows": len(compiled.source.start_rows), "values": values}
-    return told | ({"large": True} if large else {})
+    document = {"q": found.q.tolist(), "v": found.v.tolist(), "rows": len(compiled.source.start_rows), "values": values}
+    return document | ({"large": True} if large else {})
