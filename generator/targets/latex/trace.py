@@ -25,8 +25,8 @@ from gudgeon.generator.mechanism import quantities
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.emit import described, emit, file_names, render
-from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
+from gudgeon.generator.targets.c.emit import describe_program, emit, file_names, render
+from gudgeon.generator.targets.c.lines import Stored, find_function, find_stores_in_text, locate_text
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
 from gudgeon.generator.targets.latex.document import entries_of, entry_token, joint_tokens, row_token, sum_token
@@ -61,7 +61,7 @@ class Trace(Functions):
 def functions_of(model: Model) -> Functions:
     """The scene's functions, without their C."""
     program = make_program(model)
-    return Functions(program.model, program, described(program, {}), file_names(program))
+    return Functions(program.model, program, describe_program(program, {}), file_names(program))
 
 
 def trace(model: Model, source: KernelSource | None = None) -> Trace:
@@ -116,7 +116,7 @@ class _Finder:
                     self.numbers[number] |= own
             for part in pin_functions(pin, render, self.model.law_states):
                 self._whole(part.text, lit)
-                file, stored = find_within(part.text, part.stores, self.files)
+                file, stored = find_stores_in_text(part.text, part.stores, self.files)
                 for one in stored:
                     self._keep(file, one, f"law.{part.name}.{{}}".format)
         self._prepare()
@@ -128,7 +128,7 @@ class _Finder:
         self._note(kernel, marked.stored)
 
     def _note(self, kernel: Kernel, stored: Mapping[Key, Marks]) -> None:
-        for found in find(kernel, self.files):
+        for found in find_function(kernel, self.files):
             for one in found.lines:
                 own = stored.get(one.target, NO_MARKS) | self._result(kernel.name, one.target)
                 for number in one.lines:
@@ -217,7 +217,7 @@ class _Finder:
 
     def _whole(self, text: str, own: Marks) -> None:
         """All lines of what was printed whole."""
-        file, lines = place_of(text, self.files)
+        file, lines = locate_text(text, self.files)
         for number in lines:
             self.lines[file][number] |= own
 
