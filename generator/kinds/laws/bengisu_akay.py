@@ -18,7 +18,7 @@ from gudgeon.language.units import VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t."""
+    """Return the friction force F_t (N) on the journal along t."""
     import sympy as sp
 
     mu, mu_s, v0, decay = (s.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))

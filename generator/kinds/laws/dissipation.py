@@ -90,7 +90,7 @@ def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
 
 
 def delivered(a: float) -> float:
-    """The restitution e of a free impact: a (1 + e) = ln[(1 + a)/(1 − a e)], a ≥ 0."""
+    """Return the restitution e of a free impact: a (1 + e) = ln[(1 + a)/(1 − a e)], a ≥ 0."""
     from scipy.optimize import brentq
 
     if a == 0.0:
@@ -116,6 +116,7 @@ def _solved(s: LawInputs, c_e: Any) -> Any:
 
 
 def _exp(x: Any) -> Any:
+    """Return the exponential in SymPy."""
     import sympy as sp
 
     return sp.exp(x)

@@ -25,7 +25,7 @@ from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.curves import NAME as CURVES
 from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.model_header import header_values, known_bounds, of_joints
+from gudgeon.generator.targets.c.model_header import header_values, joint_parameters, known_bounds
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.printer import within
@@ -155,7 +155,7 @@ def _include_line(name: str) -> str:
 
 def _parameters_code(program: Program) -> str:
     """Return parameters.c: `prepare`, and the functions for parameters of joints with play."""
-    functions_of_joints = render("of_joints.c.jinja", of_joints=of_joints(program.model)) if program.pins else ""
+    functions_of_joints = render("of_joints.c.jinja", of_joints=joint_parameters(program.model)) if program.pins else ""
     return _print_kernels(program.prepare) + functions_of_joints
 
 

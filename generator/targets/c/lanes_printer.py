@@ -159,7 +159,7 @@ class LaneLines(functions.Lines):
                 return [f"*rare |= ~({self.test(test)});"]
             case Call():
                 passed = (*item.given, *item.results)
-                given = [self.handed_over(x) if isinstance(x, Place) else self.expression(x) for x in passed]
+                given = [self.as_argument(x) if isinstance(x, Place) else self.expression(x) for x in passed]
                 return [f"{item.function}({', '.join(given)});"]
             case Declare(type=Number.REAL):
                 return super()._lines(replace(item, type="Lanes"))

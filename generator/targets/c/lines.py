@@ -10,7 +10,7 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.storage import Key
-from gudgeon.generator.targets.c.functions import printed
+from gudgeon.generator.targets.c.functions import printed_parts
 from gudgeon.generator.targets.c.printer import within
 
 
@@ -41,7 +41,7 @@ class Found:
 
 def find_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Found]:
     """Yield the printed parts of a function with their locations; parts that no file contains are left out."""
-    for part, own, pieces in printed(kernel):
+    for part, own, pieces in printed_parts(kernel):
         texts = [within(text).split("\n") for text, _ in pieces]
         whole = "\n".join(line for text in texts for line in text)
         file = next((name for name, text in files.items() if f"{whole}\n" in text), None)
