@@ -218,11 +218,10 @@ Results = dict[str, NDArray[np.float64]]
 def alone(
     law: Law, numbers: Mapping[str, Any], options: Mapping[str, str | bool], pair: Mapping[str, float]
 ) -> Callable[..., Results]:
-    """Its results by name, SI, of arrays that broadcast: variables of its role, those that it reads besides, states.
+    """Return a law by itself as a function of arrays that broadcast: variables of its role, further ones, inner states.
 
-    numbers: by key, those that may be left out left out; expressions of a variable as SymPy.
-    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. What it reads
-    besides is given whether it reads it or not. Raises LawError for what is not computed here.
+    The function returns the law's results by name in SI units. numbers: by key, without optional ones that are left out.
+    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j.
     """
     import sympy as sp
 

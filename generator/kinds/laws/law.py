@@ -111,7 +111,7 @@ class Law:
     fields: tuple[Field, ...]  # the keys beside `law`
     build: Callable[..., Any]
     states: tuple[State, ...] = ()
-    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
+    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the options that they fix
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
     limits: Limits = Limits()  # of a film

@@ -74,6 +74,7 @@ class TextPrinter(_InOrder, StrPrinter):
         return f"({text})" if item.is_Float and "/" in text and level >= PRECEDENCE["Mul"] else text
 
     def _print_Pi(self, expr: sp.Expr) -> str:
+        """Print π."""
         return "π"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
@@ -87,9 +88,11 @@ class TextPrinter(_InOrder, StrPrinter):
         return f"{self.parenthesize(base, PRECEDENCE['Pow'])}^{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
 
     def _print_Abs(self, expr: sp.Expr) -> str:
+        """Print an absolute value."""
         return f"|{self._print(expr.args[0])}|"
 
     def _print_Whole(self, expr: sp.Expr) -> str:
+        """Print an unevaluated operand in brackets."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
@@ -115,7 +118,7 @@ class TextPrinter(_InOrder, StrPrinter):
 
 
 class TexPrinter(_InOrder, LatexPrinter):
-    """LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
+    """Print LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
 
     def __init__(
         self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], breakable: bool = False
@@ -132,14 +135,14 @@ class TexPrinter(_InOrder, LatexPrinter):
         self._text = TextPrinter({symbol: "x" * name.room for symbol, name in names.items()}, order)
 
     def long(self, expr: sp.Expr) -> str:
-        """`expr`, if it is long with brackets and fractions that a line may break in."""
+        """Return a long expression with brackets and fractions in which a line may break; shorter ones as usual."""
         if len(self._text.doprint(expr)) <= LONG:
             return str(self.doprint(expr))
         loose = str(TexPrinter(self._names, self._order, True).doprint(expr))  # behind commas and factors too
         return loose.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)").replace(", ", r", \allowbreak ")
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """A number over a number stands in front, small; the rest as SymPy has it, or breakable."""
+        """Print a product; a quotient of numbers precedes it as a small fraction."""
         number, rest = expr.as_coeff_Mul()
         above, below = sp.fraction(expr)
         if number.is_Rational and number.q != 1 and sp.fraction(rest)[1] == 1:
@@ -154,7 +157,7 @@ class TexPrinter(_InOrder, LatexPrinter):
         return f"{self.parenthesize(above, PRECEDENCE['Mul'])} / {under}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """No line breaks under the bar of a root."""
+        """Print a power; no line breaks under a root."""
         if self._breakable and expr.exp == sp.S.Half:
             return rf"\surd \left({self._print(expr.base)}\right)"
         return str(super()._print_Pow(expr))
@@ -178,17 +181,21 @@ class TexPrinter(_InOrder, LatexPrinter):
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
+        """Print a curve or its derivative."""
         name = expr.name.replace("_", r"\_")
         text = rf"\mathrm{{{name}}}{_PRIME * expr.order}\left({self._print(expr.args[2])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_ModOf(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a remainder."""
         return self._function(r"\operatorname{mod}", expr, exp)
 
     def _print_Heaviside(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a step function."""
         return self._function("H", expr, exp)
 
     def _print_Pick(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a choice as the file writes it."""
         left, right, below, otherwise = map(self._print, compared(expr))
         if self._breakable:  # no line breaks between the cases of a brace
             text = rf"\operatorname{{where}}\left({left} < {right}, {below}, {otherwise}\right)"
@@ -198,11 +205,13 @@ class TexPrinter(_InOrder, LatexPrinter):
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print an unevaluated operand in brackets."""
         return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
 
     _print_Share = _print_Whole
 
     def _function(self, name: str, expr: sp.Expr, exp: str | None) -> str:
+        """Print a call of a function."""
         inside = ", ".join(self._print(argument) for argument in sorted_arguments(expr))
         return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({inside}\right)"
 

@@ -48,9 +48,9 @@ class Functions:
 
 @dataclass(frozen=True)
 class Trace(Functions):
-    """`lines`: tokens by file and line of C; `values`: what a line stores, "phi.arm_x", "p.3", "lambda.2".
+    """Contain `lines`, tokens by file and line of C, and `values`, what a line stores: "phi.arm_x", "p.3", "lambda.2".
 
-    `numbers`: tokens by address of what hangs on a number of the file.
+    `numbers`: tokens by address of everything that depends on a number of the file.
     """
 
     lines: Mapping[str, Tokens]

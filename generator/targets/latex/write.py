@@ -115,7 +115,7 @@ def equations_text(model: Model) -> str:
 def equations_html(
     model: Model, *, head: str = "", app: str = "", scripts: str = "", source: KernelSource | None = None
 ) -> str:
-    """The equations of a scene as one HTML file with MathML, its file and its C, each traced to the others.
+    """Return the equations of a scene as one HTML file with MathML, its file and its C, linked with each other.
 
     Raises GudgeonError without the extra `docs`.
     head, app, scripts: HTML that a page which runs has more, in its head, below its title, at its end.

@@ -188,7 +188,7 @@ class NumPyModel(ClosedLinkage):
         modes: ArrayLike = (),
         states: ArrayLike = 0.0,
     ) -> SimpleNamespace:
-        """Accelerations a (n,), multipliers `lambda_`, forces `clearance`, powers: [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …].
+        """Solve [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …]: return accelerations a (n,), `lambda_`, forces `clearance`, powers.
 
         `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
         are open; the force of a closed one whose surfaces do not give is NaN, for only a run finds it. `modes`

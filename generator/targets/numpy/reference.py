@@ -121,7 +121,7 @@ def _contact_states(
 
 
 def _most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
-    """Of candidates, (features, state) each, at most N_MORE states with the most features."""
+    """Return at most N_MORE states of candidates (features, state) that together have the most features."""
     seen, kept = set[tuple[Any, ...]](), list[Any]()
     while candidates and len(kept) < N_MORE:
         best = max(range(len(candidates)), key=lambda k: len(candidates[k][0] - seen))
