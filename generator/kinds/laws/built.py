@@ -218,7 +218,7 @@ Results = dict[str, NDArray[np.float64]]
 def alone(
     law: Law, numbers: Mapping[str, Any], options: Mapping[str, str | bool], pair: Mapping[str, float]
 ) -> Callable[..., Results]:
-    """Return a law by itself as a function of arrays that broadcast: variables of its role, further ones, inner states.
+    """Return a law by itself as a function of arrays: variables of its role, further ones, inner states.
 
     The function returns the law's results by name in SI units. numbers: by key, without optional ones that are left out.
     pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j.

@@ -102,7 +102,7 @@ ROUGHNESS = number(
 
 
 def overlap(s: LawInputs, first: int, last: int) -> Any:
-    """Return the fraction of the way from Λ = `first`, where tips touch, to `last`, where all do: δ's fraction, at most 1.
+    """Return δ's fraction of the way from Λ = `first`, where tips touch, to `last`, where all do; at most 1.
 
     The film's clearance follows from `first`.
     """
