@@ -220,7 +220,8 @@ def alone(
 ) -> Callable[..., Results]:
     """Return a law by itself as a function of arrays: variables of its role, further ones, inner states.
 
-    The function returns the law's results by name in SI units. numbers: by key, without optional ones that are left out.
+    The function returns the law's results by name in SI units.
+    numbers: by key, without optional ones that are left out; expressions of a variable as SymPy.
     pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j.
     """
     import sympy as sp
