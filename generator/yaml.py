@@ -44,9 +44,11 @@ class Events:
         self._ahead: deque[Any] = deque()
 
     def __iter__(self) -> Iterator[Any]:
+        """Return the iterator itself."""
         return self
 
     def __next__(self) -> Any:
+        """Return the next event."""
         return self._ahead.popleft() if self._ahead else next(self._events)
 
     def join_pieces(self, event: Any, in_mapping: bool) -> Any:

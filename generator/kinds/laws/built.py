@@ -222,7 +222,8 @@ def alone(
 
     The function returns the law's results by name in SI units.
     numbers: by key, without optional ones that are left out; expressions of a variable as SymPy.
-    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j.
+    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. Further variables are arguments whether the law reads them or not.
+    Raises LawError if the law cannot be computed.
     """
     import sympy as sp
 

@@ -1,8 +1,8 @@
-"""What is shown, before it is laid out: sections of paragraphs, equations, tables and sketches.
+"""Represents a document before its layout: sections of paragraphs, equations, tables and sketches.
 
-Every formula is there in LaTeX and in plain text; HTML takes the LaTeX as MathML. `of` are tokens of what a block
-belongs to (trace.py), parts that share one are lit together (light.js); `value` is what a page that runs shows beside
-it (live.js): for HTML alone.
+Every formula has a LaTeX and a plain text form; HTML converts the LaTeX to MathML. `of` are the tokens of a block
+(trace.py); blocks that share a token are highlighted together (light.js). `value` is the value that a running page
+shows next to the block (live.js); both are for HTML only.
 """
 
 from __future__ import annotations

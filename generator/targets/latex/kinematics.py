@@ -1,8 +1,8 @@
-"""The second part of the document: coordinates, Φ and its rows' derivatives.
+"""Writes the second part of the document: coordinates, Φ and the derivatives of its rows.
 
-γ stands as textbooks write it, by products of angular velocities. A translational joint's is then θ̇_i² (…) + 2 θ̇_i u
-· (ṙ_j − ṙ_i) + …, as P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall 1988, has it, there
-with the angular velocities of both bodies as one.
+γ is written as in textbooks, by products of angular velocities. That of a translational joint is then θ̇_i² (…) +
+2 θ̇_i u · (ṙ_j − ṙ_i) + …, as in P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall 1988,
+where the angular velocities of both bodies are one.
 """
 
 from __future__ import annotations
@@ -152,6 +152,7 @@ def _phi(k: int, row: Row, model: Model, notation: Notation) -> Equation:
             tokens[term] = tokens[-term] = named
 
     def of(term: sp.Expr) -> list[str]:
+        """Return the tokens of a term."""
         explicit = sorted(place[s] for s in model.symbols.explicit(term).free_symbols if s in row.phi_q)
         return [*(entry_token(k, i) for i in explicit), *tokens.get(term, ())]
 

@@ -106,9 +106,11 @@ class TextPrinter(_InOrder, StrPrinter):
         return f"{expr.name}{_PRIME * expr.order}({self._print(expr.args[2])})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
+        """Print a remainder."""
         return f"mod({self._print(expr.args[0])}, {self._print(expr.args[1])})"
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
+        """Print a step function."""
         return f"H({self._print(expr.args[0])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
@@ -163,11 +165,13 @@ class TexPrinter(_InOrder, LatexPrinter):
         return str(super()._print_Pow(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
+        """Print a rational number."""
         if expr.q == 1:
             return str(expr.p)
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
 
     def _print_Float(self, expr: sp.Float) -> str:
+        """Print a number, an angle as a fraction of π or in degrees."""
         if angle := as_angle(float(expr)):
             return angle.latex
         mantissa, _, exponent = number_text(float(expr)).partition("e")
@@ -177,6 +181,7 @@ class TexPrinter(_InOrder, LatexPrinter):
         return power if mantissa == "1" else rf"{mantissa} \cdot {power}"
 
     def _print_ContourOf(self, expr: ContourOf, exp: str | None = None) -> str:
+        """Print W or its derivative."""
         text = rf"W{_PRIME * expr.order}\left({self._print(expr.args[3])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 

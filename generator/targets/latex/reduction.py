@@ -59,6 +59,7 @@ def _of_matrix(before: Solve | None, after: Solve | None) -> list[tuple[str, int
     """Return rows of the table on the factored matrix: (what, full, reduced)."""
 
     def both(of: str) -> tuple[int | None, int | None]:
+        """Return a property of the factored matrix in the full and in the reduced formulation."""
         full, reduced = (getattr(solve, of) if solve else None for solve in (before, after))
         return full, reduced
 

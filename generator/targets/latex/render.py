@@ -1,5 +1,6 @@
-"""A document as LaTeX, plain text or HTML: layout and escaping; templates/latex holds the frames. Text
-in LaTeX can only be read as text: nothing in it is a command, all of it is ASCII.
+"""Renders a document as LaTeX, plain text or HTML: layout and escaping; the frames are in templates/latex.
+
+Text in LaTeX can only be read as text: nothing in it is a command, all of it is ASCII.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
-"""Letters that a scene's documents have of themselves, by what they tell; what a file names gives way to them. The
-sketches of joint types and force elements have such letters too.
+"""Contains the letters of the theory in a scene's documents, with their meaning; user-defined names give way to them.
+
+The sketches of joint types and force elements contain such letters, too.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
-"""Parts of a document as HTML: MathML, tokens of what belongs together, places for values, listings. `Letters`
-writes a model's equations where a notebook or a terminal shows them.
+"""Renders parts of a document as HTML: MathML, tokens for cross-highlighting, elements for values, listings.
+
+`Letters` writes a model's equations in a notebook or a terminal.
 """
 
 from __future__ import annotations

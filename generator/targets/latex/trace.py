@@ -1,7 +1,7 @@
-"""What belongs together: tokens of rows, entries, terms, joints, bodies and laws, and the lines of C and YAML of each.
+"""Traces rows, entries, terms, joints, bodies and laws to the lines of C and YAML that belong to them, by tokens.
 
-Selecting anything on a page lights whatever has a token in common with it (light.js). Which lines of C compute a row is
-asked of the functions themselves (generator/ir/dependence.py), never of their text.
+Selecting anything on a page highlights whatever shares a token with it (light.js). The lines of C that compute a row
+are determined from the functions themselves (generator/ir/dependence.py), not from their text.
 """
 
 from __future__ import annotations
