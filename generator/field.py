@@ -1,7 +1,7 @@
-"""One key of a mechanism file, declared once.
+"""Declares what one key of a mechanism file may hold.
 
-The reader, `--set`, the JSON Schema and the tables of docs/format.md ask nothing else what a key may hold.
-Sections are declared in generator/format/sections.py, the rest in the files of generator/kinds.
+The reader, `--set`, the JSON Schema and the tables of docs/format.md all use these declarations. Sections are declared
+in generator/format/sections.py, joints, drives, forces and laws in generator/kinds.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from typing import Any, NamedTuple
 
 from gudgeon.language.units import DIMENSIONLESS, FORCE, LENGTH, Dimension
 
-# what a field is
+# kinds of fields
 NUMBER = "number"  # an expression with a dimension
-VECTOR = "vector"  # two of them
-PLACE = "place"  # a number, or two, as its key says: a coordinate, or a point
-WORD = "word"  # one of `values`
+VECTOR = "vector"  # two such expressions
+PLACE = "place"  # a number for a coordinate, two for a point
+WORD = "word"  # one of the field's `values`
 FLAG = "flag"  # true or false
 TEXT = "text"
 RESULTS = "results"  # names of results: a list, or a text with commas between
 POINTS = "points"  # a list of pairs of numbers
-DEPTHS = "depths"  # a list of numbers, or how many of them are 0
+DEPTHS = "depths"  # a list of numbers, or the count of zeros
 NAME = "name"  # of an entry of the section `names`
 BODY = "body"  # a body or the ground
 CORNERS = "corners"  # three names of points of the same body
@@ -34,13 +34,13 @@ KINDS = "kinds"  # a mapping with one key that is a kind, and that kind's fields
 LAW = "law"  # a mapping with `law:`, a kind, and that kind's fields
 SCALARS = frozenset((NUMBER, WORD, FLAG, TEXT, NAME, BODY))
 
-# what the expression of a number may use besides parameters
+# names that the expression of a number may use in addition to parameters
 OF_TIME = "t"
 OF_MOTION = "t, coordinates and velocities"
 OF_RESULTS = "t and anything that a result has"
 OF_PENETRATION = "delta"
 OF_CAM_ANGLE = "phi"
-CONSTANT_IN_TIME = ("", OF_PENETRATION, OF_CAM_ANGLE)  # what may not use t
+CONSTANT_IN_TIME = ("", OF_PENETRATION, OF_CAM_ANGLE)  # expressions that must not use t
 
 
 RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
@@ -52,14 +52,14 @@ RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
 
 
 class Bound(NamedTuple):
-    """A condition: `relation` to a number, or to another field of the same mapping."""
+    """Represent a condition on a number: its `relation` to a constant, or to another field of the same mapping."""
 
     relation: str  # ">" ">=" "<" "<="
     limit: float | str
-    why: str = ""  # in a message: "a mass is positive"; {name} is the field's own. "": its meaning
+    why: str = ""  # text of the message, "a mass is positive"; {name} is the field's name. "": its meaning
 
     def reason(self, field: Field, owner: str) -> str:
-        """What an error says of a number that breaks it."""
+        """Return the reason that an error gives for a number that violates the bound."""
         return self.why.format(name=field.name) if self.why else f"{field.meaning} ({owner})"
 
 
@@ -69,64 +69,64 @@ NOT_NEGATIVE = (Bound(">=", 0.0, "{name} is not negative"),)
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of joint, drive, force or law: what its own key lists, and the keys beside it."""
+    """Represent a kind of joint, drive, force or law: the targets that its own key lists, and its other keys."""
 
     title: str
     fields: tuple[Field, ...]
     targets: str = ""  # "points", "bodies" or "coordinates"; a law has none
     counts: tuple[int, ...] = ()  # how many targets there may be
-    also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
-    like: str = ""  # the kind whose keys it has, but those that its name chooses
+    also: tuple[str, ...] = ()  # names in other programs, for hints
+    like: str = ""  # the kind of which this is another name, with some options fixed
 
 
 @dataclass(frozen=True)
 class Field:
-    """A key, what it holds, and what that means in one sentence or less."""
+    """Declare one key of a mapping: what it holds, its meaning in at most one sentence, its default and its bounds."""
 
     name: str
-    kind: str  # one of those above
+    kind: str  # one of the kinds of fields above
     meaning: str
-    dimension: Dimension | None = DIMENSIONLESS  # None: any, or another key says which
+    dimension: Dimension | None = DIMENSIONLESS  # None: any, or determined by another key
     required: bool = False
-    default: float | str | bool | None = None  # what the reader fills in (SI)
-    either: str = ""  # the key of which it is needed, or this one
-    otherwise: str = ""  # what holds where nothing is written and nothing is filled in
+    default: float | str | bool | None = None  # default that the reader fills in (SI)
+    either: str = ""  # another key that may stand in place of this one
+    otherwise: str = ""  # what applies if the key is missing and has no default
     bounds: tuple[Bound, ...] = ()
-    per: str = ""  # of a force by a power of a length: the key whose number is the power, and says the dimension
-    varies: str = ""  # what its expression may use besides parameters
+    per: str = ""  # of a coefficient in N/m^n: the key of the exponent n, which determines the dimension
+    varies: str = ""  # names that its expression may use in addition to parameters
     whole: bool = False  # of a number: 1, 2, 3
     nonzero: bool = False  # of a vector: not both components zero
-    values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True)
-    words: tuple[str, ...] = ()  # that may stand in place of a number
-    sources: Mapping[str, str] | None = None  # of words that are somebody's
-    symbol: str = ""  # as in the literature, in LaTeX
-    names: str = ""  # the section that a name is of
+    values: tuple[str | bool, ...] = ()  # allowed values of a word; a flag has (False, True)
+    words: tuple[str, ...] = ()  # words allowed in place of a number
+    sources: Mapping[str, str] | None = None  # word -> its source in the literature
+    symbol: str = ""  # symbol in the literature, in LaTeX
+    names: str = ""  # the section in which a name is declared
     fields: tuple[Field, ...] = ()
     entry: Field | None = None
-    keys: Mapping[str, Dimension] | None = None  # of a mapping with keys BODY.key: which, and what dimension they have
-    addresses: tuple[str, ...] = ()  # of a mapping whose keys are addresses: bearings.NAME.journal_material
-    given: tuple[str, ...] = ()  # names of a mapping that exist without being written
+    keys: Mapping[str, Dimension] | None = None  # of a mapping with keys BODY.key: dimension by key
+    addresses: tuple[str, ...] = ()  # patterns of keys that are addresses: bearings.NAME.journal_material
+    given: tuple[str, ...] = ()  # names that always exist in a mapping
     kinds: Callable[[], Mapping[str, Kind]] | None = None
 
     @property
     def any_dimension(self) -> bool:
-        """Whether its unit is not checked."""
+        """Return whether the unit is not checked."""
         return self.dimension is None
 
     @property
     def choice(self) -> str | bool:
-        """The default of a word, a flag or a body."""
+        """Return the default of a word, a flag or a body."""
         assert isinstance(self.default, (str, bool)), self.name
         return self.default
 
     def below(self, name: str, node: Any = ()) -> Field | None:
-        """The field of the key `name` in what stands here; `node` is that, to see its kind. None: no such key."""
+        """Return the field for the key `name` in a mapping; `node`, its contents, shows the kind. None: no such key."""
         if self.kind == MAPPING:
             return self.entry
         return next((field for field in self.known(node) if field.name == name), None)
 
     def known(self, node: Any = ()) -> tuple[Field, ...]:
-        """The keys that a mapping here may have: of the kinds that `node` names, or of all, if it names none."""
+        """Return the allowed keys of a mapping: those of the kinds that `node` names, of all kinds if it names none."""
         if self.kinds is None:
             return self.fields
         kinds = self.kinds()
@@ -135,7 +135,10 @@ class Field:
 
 
 def with_dimensions(fields: Iterable[Field], written: Mapping[str, Any]) -> list[Field]:
-    """Of a field that says `per`, N/m^n: n is a number as `written`, or the default; any where a parameter says it."""
+    """Return fields with the dimension N/m^n of those that have `per`; n is the number in `written` or its default.
+
+    The dimension is any if n is not a plain number or has exponents finer than halves.
+    """
     found = list(fields)
     defaults = {own.name: str(own.default) for own in found}
     for k, own in enumerate(found):
@@ -147,42 +150,42 @@ def with_dimensions(fields: Iterable[Field], written: Mapping[str, Any]) -> list
 
 
 def number(name: str, meaning: str, dimension: Dimension | None, **more: Any) -> Field:
-    """A number with a dimension; None: any."""
+    """Declare a number with a dimension; None: any dimension."""
     return Field(name, NUMBER, meaning, dimension, **more)
 
 
 def vector(name: str, meaning: str, dimension: Dimension | None, **more: Any) -> Field:
-    """Two numbers: [x, y]."""
+    """Declare a vector of two numbers, [x, y]."""
     return Field(name, VECTOR, meaning, dimension, **more)
 
 
 def word(
     name: str, meaning: str, words: Iterable[str], default: str, sources: Mapping[str, str] | None = None
 ) -> Field:
-    """One of some words."""
+    """Declare a choice of some words."""
     return Field(name, WORD, meaning, values=tuple(words), default=default, sources=sources)
 
 
 def flag(name: str, meaning: str) -> Field:
-    """true or false, which is the default."""
+    """Declare a flag, false by default."""
     return Field(name, FLAG, meaning, values=(False, True), default=False)
 
 
 def body_or_ground(name: str, meaning: str) -> Field:
-    """A body, or the ground, which is the default."""
+    """Declare the name of a body or the ground, which is the default."""
     return Field(name, BODY, meaning, default="ground")
 
 
 def name_in(names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = "") -> Field:
-    """A name of an entry of the section `names`; where another key may stand in its place it is not `required`."""
+    """Declare a name of an entry of the section `names`; `either` is a key that may stand in its place."""
     return Field(name, NAME, meaning, names=names, required=required, either=either, otherwise=otherwise)
 
 
 def record(name: str, meaning: str, *fields: Field, required: bool = False) -> Field:
-    """A mapping with known keys."""
+    """Declare a mapping with known keys."""
     return Field(name, RECORD, meaning, fields=fields, required=required)
 
 
 def mapping(name: str, meaning: str, entry: Field, **more: Any) -> Field:
-    """Names of the user's, each with an `entry`."""
+    """Declare a mapping of user-defined names, each with an `entry`."""
     return Field(name, MAPPING, meaning, entry=entry, **more)

@@ -1,11 +1,7 @@
-"""A mechanism as its YAML file describes it: names resolved, numbers in SI, no SymPy.
+"""Defines a mechanism as its YAML file describes it: frozen values, names resolved, numbers in SI, no SymPy.
 
-All of these are frozen values. A `Quantity` is a number with an address: it becomes a run-time
-slot of the compiled model unless it is a literal zero, which is structural (its terms vanish).
-
-All numbers in a part of a mechanism.
-
-A scene: the mechanism plus which joints have play, with which laws. The unit that is compiled.
+A `Quantity` is a number with an address. It becomes a run-time parameter of the compiled model unless it is a literal
+zero, which is structural: its terms vanish. A Scene adds which joints have play, and is the unit of compilation.
 """
 
 from __future__ import annotations
@@ -24,19 +20,19 @@ GROUND = "ground"
 
 @dataclass(frozen=True)
 class Quantity:
-    """One physical number: `value` is an expression of parameters (of `t` too, in a drive)."""
+    """Represent one physical number: an address and an expression of parameters, in a drive also of `t`."""
 
     address: str  # "bodies.L2.mass", "ground.O4.y", "parameters.omega"
     value: Expr
     dimension: Dimension
     where: Location
-    of: tuple[Quantity, ...] = ()  # numbers that `value` names by their addresses: it follows them
-    kept: bool = False  # a number of the run even where it is written as 0
-    written: Expr | None = None  # of an expression by name: with the names of others, whose trees `value` has
+    of: tuple[Quantity, ...] = ()  # quantities that `value` names by their addresses
+    kept: bool = False  # a run-time parameter even if it is written as 0
+    written: Expr | None = None  # of a named expression: with the names of others, for which `value` has their trees
 
     @property
     def is_zero(self) -> bool:
-        """True for a literal zero only, unless it is kept: a parameter is never assumed zero."""
+        """Return whether the number is a literal zero that is not `kept`; a parameter is never assumed to be zero."""
         return not self.kept and isinstance(self.value, Number) and self.value.value == 0.0
 
 
@@ -44,19 +40,19 @@ Vector = tuple[Quantity, Quantity]
 
 
 def following(address: str, of: Quantity, where: Location) -> Quantity:
-    """The number at an address that is another one, unless it is given itself."""
+    """Return a quantity at an address whose value is another quantity, unless a run sets it."""
     return Quantity(address, Name(of.address), of.dimension, where, (of,))
 
 
 def at_onset(force: Quantity) -> Quantity:
-    """What an expression of the penetration is at δ = 0, as a number of its own."""
+    """Return the value of an expression of the penetration at δ = 0 as a quantity of its own."""
     value = replaced(force.value, {"delta": Number(0.0, "0")})
     return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, kept=True)
 
 
 @dataclass(frozen=True)
 class PointRef:
-    """A named point of a body (`L1.head`) or of the ground (`ground.O1`)."""
+    """Represent a named point of a body (`L1.head`) or of the ground (`ground.O1`)."""
 
     body: str
     point: str
@@ -65,30 +61,28 @@ class PointRef:
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid body. Its frame: a bar (a body with `length`) has its origin at the tail and its x axis
-    towards the head; any other body has its origin where its points are measured from.
+    """Represent a rigid body with its frame.
 
-    `points` are in that frame and hold `origin` always, `tail` and `head` for a bar.
-    `com` is the centre of mass in that frame; None stands for the default: mid-length of a bar,
-    the origin of any other body.
+    The frame of a bar, a body with `length`, has its origin at the tail and its x axis towards the head. Points of
+    other bodies are measured from their origin. `com` is the centre of mass; None is the middle of a bar, the origin of
+    others.
     """
 
     name: str
-    mass: Quantity | None  # None: there is none, which kinematics does not ask for
+    mass: Quantity | None  # None: not given, which kinematics does not need
     inertia: Quantity | None  # about the centre of mass
     length: Quantity | None
     com: Vector | None
-    points: Mapping[str, Vector]  # what the user named; tail, head, origin, com are implied
+    points: Mapping[str, Vector]  # declared points; tail, head, origin, com are implied
     where: Location
-    lacks: tuple[str, ...] = ()  # keys that dynamics would ask for
+    lacks: tuple[str, ...] = ()  # keys that dynamics needs and that are missing
 
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint between a point of the first and a point of the second body; `ground` may be either.
+    """Represent a joint between a point of the first and a point of the second body; `ground` may be either.
 
-    `kind` names a file in generator/kinds/joints, which owns the meaning of `quantities` (numbers with
-    addresses), `vectors` (pairs of them) and `options` (structural words).
+    `kind` is a file in generator/kinds/joints, which defines the meaning of `quantities`, `vectors` and `options`.
     """
 
     name: str
@@ -103,11 +97,11 @@ class Joint:
 
 @dataclass(frozen=True)
 class Drive:
-    """Prescribes `value` of t: of an angle, of a coordinate, or of the distance of two points.
+    """Represent a drive, which prescribes an angle, a coordinate or a distance as the function `value` of t.
 
-    kind "angle": of `body`, relative to `reference` if that is not None; "coordinate": `coordinate`
-    ("x", "y" or "theta") of `body`; "distance": between the two `points` (`body` is then that of the first
-    point that is not on the ground).
+    kind "angle": of `body`, relative to `reference` if that is not None; "coordinate": `coordinate` ("x", "y" or
+    "theta") of `body`; "distance": between the two `points`, with the body of the first that is not on the ground as
+    `body`.
     """
 
     name: str
@@ -122,11 +116,10 @@ class Drive:
 
 @dataclass(frozen=True)
 class ForceElement:
-    """An entry of the section `forces`; `kind` names a file in generator/kinds/forces.
+    """Represent an entry of the section `forces`; `kind` is a file in generator/kinds/forces.
 
-    `targets` are the points or bodies that its own key lists (a body is a PointRef to its `com`, the
-    ground one to the point ""). Expressions (`quantities`, `vectors`) may use t and named coordinates and
-    velocities where the element's field says so.
+    `targets` are points or bodies: a body is a PointRef to its `com`, the ground one to the point "". Expressions may
+    use t, coordinates and velocities where the element's field allows it.
     """
 
     name: str
@@ -140,8 +133,10 @@ class ForceElement:
 
 @dataclass(frozen=True)
 class JournalStart:
-    """Where a journal begins: eccentricity and its rate in ground axes, "start.play.A.e.x"; all four are kept.
-    Of a slider they are its offset and tilt in its guide, "start.play.A.offset", and their rates."""
+    """Represent where a journal begins: eccentricity and its rate in ground axes, at addresses "start.play.A.e.x".
+
+    For a slider, `e` is its offset and tilt in its guide, "start.play.A.offset", and `rate` their rates.
+    """
 
     e: Vector
     rate: Vector
@@ -149,10 +144,10 @@ class JournalStart:
 
 @dataclass(frozen=True)
 class Start:
-    """`guess` picks the branch, `set` is held exactly, `rates` are velocities that drives leave free.
+    """Represent the start: `guess` selects the branch, `set` is held exactly, `rates` are free velocities.
 
-    Keys are coordinates "L7.theta", "S9.x", "L1.omega"; values have addresses "start.guess.L7.theta".
-    A guessed point is two: "L7.P.x", "L7.P.y". `play` is by joint, for scenes that give it play.
+    Keys are coordinates "L7.theta", "S9.x", "L1.omega"; a guessed point has two, "L7.P.x" and "L7.P.y". `play` contains
+    journals by joint.
     """
 
     guess: Mapping[str, Quantity] = field(default_factory=dict)
@@ -163,7 +158,7 @@ class Start:
 
 @dataclass(frozen=True)
 class Material:
-    """What the file says of it: E, nu, density."""
+    """Represent a material with its properties E, nu and density, as far as the file gives them."""
 
     name: str
     numbers: Mapping[str, Quantity]
@@ -171,7 +166,7 @@ class Material:
 
 @dataclass(frozen=True)
 class Choice:
-    """A material that a scene or a run may replace by another; `numbers` are those at its address, by their names."""
+    """Represent a material that a scene or a run may replace; `numbers` are its properties at this address."""
 
     address: str  # "bearings.pin.journal_material"
     material: str
@@ -180,19 +175,19 @@ class Choice:
 
 @dataclass(frozen=True)
 class Bearing:
-    """A pin in a hole: bearing radius R_i, radial clearance c = R_i − R_j, length L, two materials."""
+    """Represent a pin in a hole: bearing radius R_i, radial clearance c = R_i − R_j, length L, two materials."""
 
     name: str
     radius: Quantity
     clearance: Quantity
     length: Quantity
-    bearing_material: Material  # of its numbers E and nu
+    bearing_material: Material  # its properties E and nu
     journal_material: Material
 
 
 @dataclass(frozen=True)
 class Guide:
-    """A block between parallel walls: gap c on each side, half-length, half-height, radius of its corners if any."""
+    """Represent a block between parallel walls: gap c on each side, half-length, half-height, corner radius."""
 
     name: str
     gap: Quantity
@@ -205,7 +200,7 @@ class Guide:
 
 @dataclass(frozen=True)
 class LawUse:
-    """A force law with its numbers; `law` names a file in generator/kinds/laws."""
+    """Represent a force law with its numbers; `law` is a file in generator/kinds/laws."""
 
     law: str
     quantities: Mapping[str, Quantity]  # with the law's defaults filled in
@@ -214,7 +209,7 @@ class LawUse:
 
 @dataclass(frozen=True)
 class Contact:
-    """What happens between journal and bearing: dry laws, a film, and between both a transition or a law of sharing."""
+    """Represent the contact of journal and bearing: dry laws, a film, and how film and dry contact share the load."""
 
     name: str
     normal: LawUse | None
@@ -227,12 +222,14 @@ class Contact:
 
     @property
     def laws(self) -> tuple[LawUse, ...]:
-        """The laws that it has."""
+        """Return the laws of the contact."""
         return tuple(use for use in (self.normal, self.friction, self.film, self.mixed) if use is not None)
 
 
 @dataclass(frozen=True)
 class Play:
+    """Represent the play of one joint: its bearing or guide, its contact, and the contour of the bearing."""
+
     bearing: Bearing | Guide
     contact: Contact
     where: Location
@@ -241,7 +238,7 @@ class Play:
 
 @dataclass(frozen=True)
 class EventSpec:
-    """The run is watched for `zero` crossing zero: "rising", "falling" or "both"; action "record" or "stop"."""
+    """Represent an event: an expression `zero` whose zero crossings a run records, or at which it stops."""
 
     name: str
     zero: Quantity  # an expression of t, parameters, coordinates and velocities, of any dimension
@@ -252,30 +249,32 @@ class EventSpec:
 
 @dataclass(frozen=True)
 class SceneSpec:
-    """A scene as the file writes it, `extends` already followed."""
+    """Represent a scene as the file describes it, with `extends` resolved."""
 
     name: str
     play: Mapping[str, Play]  # joint -> play
     parameters: Mapping[str, Quantity]  # parameter name -> its value in this scene
     simulate: Mapping[str, Quantity]  # t_end, output, step
     where: Location
-    events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's, with the scene's own put in
-    peaks: tuple[str, ...] = ()  # series whose peaks are wanted, with their places (yaml.tree.Text) while it is read
+    events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's events and the scene's own
+    peaks: tuple[str, ...] = ()  # series whose peaks are requested; Text with locations while the file is read
     materials: Mapping[str, str] = field(default_factory=dict)  # address of a choice -> another material
 
 
 @dataclass(frozen=True)
 class Condition:
-    """What a value must satisfy, at reading and again for every run-time override."""
+    """Represent a condition on a value, checked after reading and again for every run-time override."""
 
     address: str
     relation: str  # ">" ">=" "<" "<="
-    bound: float | str  # a number, or the address of another quantity, or those of several: "a + b" is their sum
+    bound: float | str  # a number, or the address of a quantity, or of a sum: "a + b"
     message: str  # "a mass is positive"
 
 
 @dataclass(frozen=True)
 class Mechanism:
+    """Represent a mechanism with all its sections."""
+
     name: str
     title: str
     gravity: Vector | None
@@ -285,33 +284,35 @@ class Mechanism:
     joints: Mapping[str, Joint]
     drives: Mapping[str, Drive]
     start: Start
-    scenes: Mapping[str, SceneSpec]  # holds `ideal` always
+    scenes: Mapping[str, SceneSpec]  # always contains `ideal`
     outputs: Mapping[str, Quantity]
     conditions: tuple[Condition, ...]
     file: str
     sha256: str  # of the file's bytes
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
-    freedoms: Quantity | None = None  # what the file says of the closed linkage
+    freedoms: Quantity | None = None  # expected degrees of freedom of the closed linkage
     curves: Mapping[str, Curve] = field(default_factory=dict)
-    expressions: Mapping[str, Quantity] = field(default_factory=dict)  # by name; their trees stand where they are used
+    expressions: Mapping[str, Quantity] = field(
+        default_factory=dict
+    )  # by name; their trees replace the names where they are used
     materials: Mapping[str, Material] = field(default_factory=dict)
     choices: Mapping[str, Choice] = field(default_factory=dict)  # by address
-    tables: Mapping[str, str] = field(default_factory=dict)  # files beside this one -> sha256 of what was read
-    laws: Mapping[str, str] = field(default_factory=dict)  # the user's own that it uses -> what they say, as a key
+    tables: Mapping[str, str] = field(default_factory=dict)  # path of a table next to the file -> sha256 of its bytes
+    laws: Mapping[str, str] = field(default_factory=dict)  # name of each used user-defined law -> key of its definition
 
 
 def is_massless(mechanism: Mechanism) -> bool:
-    """Whether a body has no mass or no inertia: there is kinematics then, and no force that follows from motion."""
+    """Return whether a body has no mass or no inertia, so that only kinematics is possible."""
     return any(body.lacks for body in mechanism.bodies.values())
 
 
 def quantities(part: object) -> Iterator[Quantity]:
-    """Those of a frozen value, of what it holds and of what that holds."""
+    """Yield all quantities in a frozen value and in its parts."""
     if isinstance(part, Quantity):
         yield part
         return
     inner: Iterable[object] = ()
-    if isinstance(part, Curve):  # its numbers are no quantities, and may be millions
+    if isinstance(part, Curve):  # its values are not quantities, and may be millions
         return
     if is_dataclass(part):
         inner = (getattr(part, one.name) for one in fields(part))
@@ -325,10 +326,9 @@ def quantities(part: object) -> Iterator[Quantity]:
 
 @dataclass(frozen=True)
 class Scene:
-    """`parameters` are the mechanism's, in the order of the file, with the scene's own values put in.
+    """Represent a scene: the mechanism with the play, parameter values and run settings of this scene.
 
-    A parameter keeps its address `parameters.<name>` whichever scene gives its value: it is the same
-    run-time slot in all of them.
+    A parameter keeps its address `parameters.<name>` whichever scene gives its value.
     """
 
     mechanism: Mechanism
@@ -338,12 +338,12 @@ class Scene:
     simulate: Mapping[str, Quantity]  # t_end, output, step
     events: Mapping[str, EventSpec]
     peaks: tuple[str, ...]
-    materials: Mapping[str, str]  # address of each choice -> what is chosen here
-    instead: Mapping[str, Quantity]  # by address: numbers that follow another material than the file's
+    materials: Mapping[str, str]  # address of each choice -> the material of this scene
+    instead: Mapping[str, Quantity]  # by address: properties that follow the material of this scene
 
 
 def make_scene(mechanism: Mechanism, name: str) -> Scene:
-    """The scene `name` of a mechanism. Raises UnknownNameError, which names the scenes that exist."""
+    """Return the scene `name` of a mechanism. Raises UnknownNameError, which lists the scenes that exist."""
     if name not in mechanism.scenes:
         raise unknown_name("scene", name, mechanism.scenes, None)
     spec = mechanism.scenes[name]

@@ -1,7 +1,6 @@
-"""The table of contents: YAML → Mechanism → Scene → Model → Program → KernelSource, a call each.
+"""Runs the stages of the compiler: YAML → Mechanism → Scene → Model → Program → KernelSource, one call each.
 
-Where `seconds` is given, each stage notes there how long it took; `begun` is told what may be
-compiled already.
+If `seconds` is given, each stage stores its duration there; `begun` is called with parts that can be compiled already.
 """
 
 from __future__ import annotations
@@ -27,12 +26,12 @@ from gudgeon.generator.targets.numpy.reference import reference_values
 def derive(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
 ) -> Model:
-    """The equations of one scene of a mechanism file, without the rows that say nothing new."""
+    """Derive the equations of one scene of a mechanism file, without redundant constraint equations."""
     return equations(read_scene(data, file, scene, overrides, seconds), seconds)
 
 
 def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
-    """The same of a scene that was read."""
+    """Derive the equations of a scene that was read, without redundant constraint equations."""
     with stage("equations", seconds):
         model = replace(make_model(scene), targets=TARGETS)
     with stage("rank of the rows", seconds):
@@ -45,24 +44,24 @@ def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
 def closed_linkage(
     mechanism: Mechanism, scene: str, given: Mapping[str, float | str] | None = None
 ) -> tuple[NumPyLinkage, list[int]]:
-    """The closed linkage of a scene in numbers, and which of its rows the scene keeps: joints with play are open.
+    """Return the closed linkage of a scene in NumPy, and the indices of its rows that the scene with play keeps.
 
-    given: numbers of the run by address, as `simulate` takes them.
+    given: run-time parameters by address, as `simulate` accepts them.
     """
     model = make_model(make_scene(mechanism, scene))
-    kept = {row.name for row in model.rows}
+    remaining = {row.name for row in model.rows}
     linkage = NumPyLinkage(model, describe(model), given)
-    return linkage, [r for r, row in enumerate(model.all_rows) if row.name in kept]
+    return linkage, [r for r, row in enumerate(model.all_rows) if row.name in remaining]
 
 
 def _letters(model: Model) -> Any:
+    """Return how the model's equations are written in documents."""
     from gudgeon.generator.targets.latex.to_html import Letters
 
     return Letters(model)
 
 
-# What `Model.written` offers: a name each, and what is made of the absolute formulation's functions; "letters": how
-# the equations are written in documents.
+# Targets of `Model.written` by name, for the full formulation; "letters": how documents write the equations.
 TARGETS: Mapping[str, Callable[[Model], Any]] = {
     "numpy": lambda model: NumPyModel(make_program(model, "full")),
     "letters": _letters,
@@ -72,7 +71,7 @@ TARGETS: Mapping[str, Callable[[Model], Any]] = {
 def in_c(
     model: Model, formulation: str = "reduced", seconds: Seconds | None = None, begun: Begun | None = None
 ) -> KernelSource:
-    """The C of a model, with the names of everything in it."""
+    """Return the C code of a model, with the description of its contents and reference values."""
     with stage("functions", seconds):
         program = make_program(model, formulation)
     with stage("C", seconds):
@@ -84,5 +83,5 @@ def in_c(
 def generate(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced"
 ) -> KernelSource:
-    """The C of one scene of a mechanism file."""
+    """Return the C code of one scene of a mechanism file."""
     return in_c(derive(data, file, scene, overrides), formulation)

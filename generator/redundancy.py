@@ -1,8 +1,8 @@
-"""Rows of Φ that say nothing new: found by rank at the start and near it, named, and left out.
+"""Finds redundant constraint equations by the rank of the Jacobian at the start and near it.
 
-A row may depend on the others everywhere (a second hinge on the same axis) or only where links stand in
-one line for a moment. So the rank is taken at the assembled start and at configurations near it on the
-same branch; the largest counts. Contradictory rows do not assemble: the run tells them.
+An equation may depend on others everywhere (a second hinge on the same axis) or only while links are in line. The
+largest rank at the assembled start and at configurations near it counts. Contradictory equations do not assemble, which
+the run reports.
 """
 
 from __future__ import annotations
@@ -26,52 +26,54 @@ from gudgeon.model.compiled import Array
 
 
 def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
-    """Rows of the scene (joints with play open) that depend on the others at every configuration."""
+    """Return the constraint equations of a scene, its joints with play open, that are redundant everywhere."""
     if not model.rows:
         return Redundancy()
     numeric = NumPyLinkage(model, source)
     names = {row.name for row in model.rows}
-    kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
+    open_rows = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
         with np.errstate(all="ignore"):
             q = search(numeric, numeric.p).q
-            start = scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[kept])
-            near = configurations(numeric, numeric.p, q, kept, SAMPLES if rank(start) < len(kept) else 0)
-            matrices = [scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, x, numeric.p)[kept]) for x in near]
+            start = scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[open_rows])
+            near = configurations(numeric, numeric.p, q, open_rows, SAMPLES if rank(start) < len(open_rows) else 0)
+            matrices = [
+                scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, x, numeric.p)[open_rows]) for x in near
+            ]
         ranks = [rank(matrix) for matrix in matrices]
-    except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
+    except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run reports the reason
         return Redundancy()
-    wanted = model.scene.mechanism.freedoms
-    if wanted is not None and isinstance(wanted.value, Number):
-        check_freedoms(wanted.value.value, wanted.where, find_mobility(numeric, numeric.p, q))
+    expected_freedoms = model.scene.mechanism.freedoms
+    if expected_freedoms is not None and isinstance(expected_freedoms.value, Number):
+        check_freedoms(expected_freedoms.value.value, expected_freedoms.where, find_mobility(numeric, numeric.p, q))
     best = int(np.argmax(ranks))
-    if ranks[best] == len(kept):
+    if ranks[best] == len(open_rows):
         return Redundancy()
-    return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
+    return _name_rows([model.all_rows[r] for r in open_rows], matrices[best], ranks[best])
 
 
 def refuse_singular_masses(model: Model, source: KernelSource) -> None:
-    """Raise a BadValueError where bodies without moment of inertia can turn against nothing: M is singular there.
+    """Raise BadValueError if bodies without moment of inertia can turn freely, so that the mass matrix is singular.
 
-    That is looked for at the start and near it; a motion that the rows determine needs no inertia.
+    The motion is tested at the start and near it; a motion that constraints determine needs no inertia.
     """
     bodies = model.scene.mechanism.bodies
-    light = {body.name: body.index + 2 for body in model.bodies if not model.slots.default(body.inertia)}
-    if not light or model.degrees_of_freedom <= 0:
+    massless = {body.name: body.index + 2 for body in model.bodies if not model.slots.default(body.inertia)}
+    if not massless or model.degrees_of_freedom <= 0:
         return
     numeric = NumPyLinkage(model, source)
     names = {row.name for row in model.rows}
-    kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
+    open_rows = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
-        near = configurations(numeric, numeric.p, search(numeric, numeric.p).q, kept, SAMPLES)
+        near = configurations(numeric, numeric.p, search(numeric, numeric.p).q, open_rows, SAMPLES)
         heavy = numeric.mass(numeric.p) > 0.0
-        matrices = [scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[kept]) for q in near]
+        matrices = [scaled_rows(numeric, numeric.p, numeric.closed_phi_q(0.0, q, numeric.p)[open_rows]) for q in near]
         found = [_lightest_motion(matrix, heavy) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
-    if all(share <= RANK for share, _ in found):
+    if all(fraction <= RANK for fraction, _ in found):
         motion = found[-1][1]
-        name = max(light, key=lambda body: abs(motion[light[body]]))
+        name = max(massless, key=lambda body: abs(motion[massless[body]]))
         inertia = bodies[name].inertia
         where = inertia.where if inertia is not None else bodies[name].where
         raise BadValueError(
@@ -83,15 +85,20 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
 
 
 def _lightest_motion(phi_q: Array, heavy: NDArray[np.bool_]) -> tuple[float, Array]:
-    """Of the motions (n,) that the rows leave free that with the least share in coordinates which have mass."""
+    """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
+
+    The fraction is the norm of its part in coordinates with mass."""
     _, values, right = np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(heavy)))
     free = right[int((values > RANK * values.max(initial=0.0)).sum()) :].T
-    _, shares, motions = np.linalg.svd(free[heavy])
-    return float(shares[-1]) if len(shares) == free.shape[1] else 0.0, free @ motions[-1]
+    _, fractions, motions = np.linalg.svd(free[heavy])
+    return float(fractions[-1]) if len(fractions) == free.shape[1] else 0.0, free @ motions[-1]
 
 
 def _name_rows(rows: Sequence[Row], matrix: Array, independent: int) -> Redundancy:
-    """Drives are kept first, then rows in the order of the file; a dependent one is dropped."""
+    """Select independent rows, drives first, then in the order of the file, and return the others as redundant.
+
+    Pivoting is a Gram–Schmidt orthogonalization of the Jacobian's rows.
+    """
     order = sorted(range(len(rows)), key=lambda r: (rows[r].kind != "drive", r))
     basis = np.zeros((0, matrix.shape[1]))
     dropped = []

@@ -1,14 +1,11 @@
-"""Commas in parentheses: `{value: smooth_step(t, 0, 1 s)}` holds one value for its reader, and three for YAML.
+"""Reads YAML bytes into a tree of texts, lists and mappings with locations; no Python objects are constructed.
 
-In a mapping or list in brackets YAML ends a plain text at every comma. An expression leaves no parenthesis open,
-so a text that does is put together with those behind it, as they stand in the source, until its parentheses match.
-(In a mapping the pieces behind it are keys without values, which the format never has.)
+ruamel.yaml scans and parses. Its events are composed here, so that limits of depth, size and aliases hold while the
+file is read, and scalars stay the texts of the user: `1e-4`, `on` and `012` are expressions, not YAML values.
 
-YAML bytes to a tree of text, lists and mappings that know their places; nothing is constructed.
-
-ruamel.yaml scans and parses; its events are composed here, because only so are the bounds on depth,
-size and aliases in force while the file is read, and because a scalar must stay the text that the
-user wrote: `1e-4`, `on` and `012` mean what our expressions say, not what YAML says.
+In brackets, YAML ends a plain text at every comma: `{value: smooth_step(t, 0, 1 s)}` becomes three texts. A text with
+an open parenthesis is therefore joined with those after it, as they stand in the source, until parentheses match. (In
+a mapping the pieces after it are keys without values, which the format never has.)
 """
 
 from __future__ import annotations
@@ -35,33 +32,35 @@ from gudgeon.errors import InputError, LimitError, Location, NotYamlError, Unkno
 from gudgeon.files.reading import MAX_BYTES
 from gudgeon.language.names import YAML_NULL
 
-MOST_PIECES = 512  # more than the 1000 characters that an expression may have can be cut into
-MOST_OPEN = 60  # in a list, of which a long one is looked through from each of its texts
+MOST_PIECES = 512  # texts that are joined: more than an expression of 1000 characters can contain
+MOST_OPEN = 60  # open parentheses in a list: bounds the time for long lists
 
 
 class Events:
-    """ruamel's events, one after the other; `whole` puts together what commas have cut."""
+    """Iterate over ruamel's events with a lookahead; `whole` joins texts that commas have split."""
 
     def __init__(self, events: Iterator[Any], text: str) -> None:
         self._events, self._text = events, text
         self._ahead: deque[Any] = deque()
 
     def __iter__(self) -> Iterator[Any]:
+        """Return the iterator itself."""
         return self
 
     def __next__(self) -> Any:
+        """Return the next event."""
         return self._ahead.popleft() if self._ahead else next(self._events)
 
-    def whole(self, event: Any, in_mapping: bool) -> Any:
-        """`event`, a value in brackets, with the pieces behind it that belong into its parentheses."""
-        if not _is_plain(event) or _open(event.value) <= 0:
+    def join_pieces(self, event: Any, in_mapping: bool) -> Any:
+        """Return `event`, a value in brackets, joined with the texts after it that belong into its parentheses."""
+        if not _is_plain(event) or _count_open(event.value) <= 0:
             return event
-        still_open, taken, last = _open(event.value), 0, event
+        still_open, taken, last = _count_open(event.value), 0, event
         for _ in range(MOST_PIECES):
             piece = self._peek(taken)
             if not _is_plain(piece) or in_mapping and not _is_nothing(self._peek(taken + 1)):
                 break
-            still_open, last, taken = still_open + _open(piece.value), piece, taken + 1 + in_mapping
+            still_open, last, taken = still_open + _count_open(piece.value), piece, taken + 1 + in_mapping
             if still_open <= 0 or still_open > MOST_OPEN and not in_mapping:
                 break
         if still_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
@@ -73,7 +72,7 @@ class Events:
         return event
 
     def _peek(self, index: int) -> Any:
-        """The event behind `index` others; None at the end."""
+        """Return the event after `index` others; None at the end."""
         while len(self._ahead) <= index:
             try:
                 self._ahead.append(next(self._events))
@@ -83,32 +82,33 @@ class Events:
 
 
 def _is_plain(event: Any) -> bool:
+    """Return whether an event is a plain scalar without quotes, anchor and tag."""
     return isinstance(event, ScalarEvent) and event.style is None and event.anchor is None and event.tag is None
 
 
 def _is_nothing(event: Any) -> bool:
-    """Whether a key stands without a value: it was none."""
+    """Return whether an event is the missing value of a key."""
     return _is_plain(event) and event.start_mark.index == event.end_mark.index
 
 
-def _open(text: str) -> int:
-    """Parentheses that `text` opens and does not close."""
+def _count_open(text: str) -> int:
+    """Return the number of parentheses that `text` opens and does not close."""
     return text.count("(") - text.count(")")
 
 
 NO_MERGE = "merge keys ('<<') are no part of the format"
 MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
-MAX_NODES = 100_000  # aliases counted as what they stand for
+MAX_NODES = 100_000  # aliases count as the nodes that they stand for
 MAX_TAG = 10_000  # characters: the time that ruamel takes for one grows with their square
-MOST_TWICE = 50  # keys given twice that are told
+MOST_TWICE = 50  # reported keys that are given twice
 _TAG = re.compile(rf"!\S{{{MAX_TAG}}}")
-# what ruamel raises on hostile text besides its own errors: "%YAML 1.13" fails an assertion
+# errors that ruamel raises on hostile text in addition to its own: "%YAML 1.13" fails an assertion
 _OF_RUAMEL = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
 
 
 class Text(str):
-    """A scalar: its text and the place of its first character (behind the quote of a quoted one)."""
+    """Represent a scalar: its text and the location of its first character, after the quote of a quoted one."""
 
     where: Location
     plain: bool  # neither quoted nor a block: an empty plain scalar is nothing at all
@@ -116,51 +116,54 @@ class Text(str):
 
     @staticmethod
     def make(text: str, where: Location, plain: bool = True, one_line: bool = True) -> Text:
+        """Return a text with its location and style."""
         made = Text(text)
         made.where, made.plain, made.one_line = where, plain, one_line
         return made
 
     @property
     def is_nothing(self) -> bool:
-        """Whether YAML reads it as null."""
+        """Return whether YAML reads the text as null."""
         return self.plain and self in YAML_NULL
 
 
 class Map(dict[str, Any]):
-    """A mapping; its keys are Text (see `names`), so that a key has a place, too."""
+    """Represent a mapping whose keys are Text, so that keys have locations, too."""
 
     where: Location
 
     @staticmethod
     def make(items: Any, where: Location) -> Map:
+        """Return a mapping with its location."""
         made = Map(items)
         made.where = where
         return made
 
     def key(self, name: str) -> Text:
-        """The key itself, with its place."""
+        """Return the key itself, with its location."""
         return next(key for key in self.names() if key == name)
 
     def pairs(self) -> list[tuple[Text, Any]]:
-        """Keys and values."""
+        """Return keys and values."""
         return [(key, self[key]) for key in self.names()]
 
     def part(self, name: str) -> Map:
-        """The mapping at a key; an empty one where there is no such key."""
+        """Return the mapping at a key; an empty one if there is no such key."""
         return self[name] if name in self else Map.make((), self.where)
 
     def names(self) -> list[Text]:
-        """The keys as what they are."""
+        """Return the keys as Text."""
         return [key for key in self if isinstance(key, Text)]
 
 
 class Items(list[Any]):
-    """A sequence."""
+    """Represent a sequence."""
 
     where: Location
 
     @staticmethod
     def make(items: Any, where: Location) -> Items:
+        """Return a sequence with its location."""
         made = Items(items)
         made.where = where
         return made
@@ -170,15 +173,15 @@ Node: TypeAlias = Text | Map | Items
 
 
 def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None, begins: str = "gudgeon/1") -> Map:
-    """The mapping that a file holds.
+    """Return the mapping that a file contains.
 
-    Raises NotYamlError, LimitError, or UnknownKeyError for a key that is given twice; these go to `twice`, if given.
+    Raises NotYamlError, LimitError, or UnknownKeyError for keys that are given twice; these go to `twice`, if given.
     """
     if len(data) > MAX_BYTES:
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
     text = _decode(data, file)
     if long := _TAG.search(text):
-        hint, where = "expected plain text, lists and mappings", _behind(text[: long.start()], file)
+        hint, where = "expected plain text, lists and mappings", _location_after(text[: long.start()], file)
         raise LimitError(f"a tag of more than {MAX_TAG} characters", where, hint)
     composer = _Composer(text, file)
     try:
@@ -188,11 +191,11 @@ def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None, be
     except _OF_RUAMEL:
         hint = "look at what stands behind % and behind backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
-    told = composer.duplicates[:MOST_TWICE]
+    duplicates = composer.duplicates[:MOST_TWICE]
     if twice is not None:
-        twice += told
-    elif told:
-        raise together(told)
+        twice += duplicates
+    elif duplicates:
+        raise together(duplicates)
     hint = f"expected a mapping that begins with format: {begins}"
     if root is None or isinstance(root, Text) and root.is_nothing:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
@@ -202,7 +205,7 @@ def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None, be
 
 
 def kind_of(node: object) -> str:
-    """A node in words."""
+    """Return a phrase for a node: "a mapping", "a list", "nothing", or its quoted text."""
     if isinstance(node, Map):
         return "a mapping"
     if isinstance(node, Items):
@@ -213,22 +216,23 @@ def kind_of(node: object) -> str:
 
 
 def _decode(data: bytes, file: str) -> str:
+    """Decode the UTF-8 bytes of a file. Raises NotYamlError at the first invalid byte."""
     try:
         return data.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError as error:
-        where = _behind(data[: error.start].decode("utf-8"), file)
+        where = _location_after(data[: error.start].decode("utf-8"), file)
         raise NotYamlError(f"byte 0x{data[error.start]:02x} is no UTF-8", where, "expected a UTF-8 text file") from None
 
 
-def _behind(before: str, file: str) -> Location:
-    """The place right behind a text that a file begins with."""
+def _location_after(before: str, file: str) -> Location:
+    """Return the location directly after the text with which a file begins."""
     return Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
 
 
 def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
-    """ruamel's error in our words, with its place."""
+    """Return ruamel's error as a NotYamlError with its location."""
     if isinstance(error, ReaderError):
-        where = _behind(text[: error.position], file)
+        where = _location_after(text[: error.position], file)
         return NotYamlError(f"character {text[error.position : error.position + 1]!r} is not allowed in YAML", where)
     if not isinstance(error, MarkedYAMLError):
         return NotYamlError(f"not YAML: {error}"[:500], Location(file, 1, 1))
@@ -247,7 +251,7 @@ def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
 
 
 class _Composer:
-    """Builds the tree from ruamel's events and counts as it goes."""
+    """Compose the tree from ruamel's events while counting nodes and depth."""
 
     def __init__(self, text: str, file: str) -> None:
         self.events = Events(YAML(typ="safe", pure=True).parse(text), text)
@@ -258,83 +262,90 @@ class _Composer:
         self.duplicates: list[InputError] = []
 
     def document(self) -> Node | None:
-        """The root of the only document; None if there is none."""
+        """Return the root of the only document; None if there is none."""
         root, documents = None, 0
         for event in self.events:
             if isinstance(event, DocumentStartEvent):
                 documents += 1
                 if documents > 1:
-                    raise NotYamlError("a second document begins", self.place(event), "expected one document a file")
+                    raise NotYamlError(
+                        "a second document begins", self.location_of(event), "expected one document a file"
+                    )
             elif isinstance(event, (ScalarEvent, SequenceStartEvent, MappingStartEvent, AliasEvent)):
                 root = self.node(event, 0)
         return root
 
-    def place(self, event: Any, shift: int = 0) -> Location:
+    def location_of(self, event: Any, shift: int = 0) -> Location:
+        """Return the location of an event's begin."""
         return Location(self.file, event.start_mark.line + 1, event.start_mark.column + 1 + shift)
 
-    def behind(self, key: Any) -> Location:
-        """Right behind the colon of a key."""
+    def location_after(self, key: Any) -> Location:
+        """Return the location directly after the colon of a key."""
         return Location(self.file, key.end_mark.line + 1, key.end_mark.column + 2)
 
     def count(self, nodes: int, event: Any) -> None:
+        """Count nodes. Raises LimitError if there are too many."""
         self.nodes += nodes
         if self.nodes > MAX_NODES:
             message = "the file is too large once its aliases are expanded" if nodes > 1 else "the file holds too much"
-            raise LimitError(message, self.place(event), f"expected at most {MAX_NODES} values")
+            raise LimitError(message, self.location_of(event), f"expected at most {MAX_NODES} values")
 
     def node(self, event: Any, depth: int) -> Node:
-        """The node that `event` begins."""
+        """Return the node that begins with `event`. Raises LimitError or NotYamlError."""
         if isinstance(event, AliasEvent):
             return self.alias(event)
         if depth > MAX_DEPTH:
-            raise LimitError("nested too deeply", self.place(event), f"expected at most {MAX_DEPTH} levels")
+            raise LimitError("nested too deeply", self.location_of(event), f"expected at most {MAX_DEPTH} levels")
         tag = getattr(event, "tag", None)
         if tag is not None:
             raise NotYamlError(
-                f"the tag {str(tag)[:60]!r}", self.place(event), "expected plain text, lists and mappings"
+                f"the tag {str(tag)[:60]!r}", self.location_of(event), "expected plain text, lists and mappings"
             )
         before = self.nodes
         self.count(1, event)
         if isinstance(event, ScalarEvent):
-            where = self.place(event, int(event.style in ("'", '"')))
+            where = self.location_of(event, int(event.style in ("'", '"')))
             one_line = event.start_mark.line == event.end_mark.line
             node: Node = Text.make(event.value, where, event.style is None, one_line)
         elif isinstance(event, SequenceStartEvent):
             node = self.sequence(event, depth)
         else:
             node = self.mapping(event, depth)
-        if event.anchor is not None:  # only now: a node cannot hold itself
+        if event.anchor is not None:  # stored after its contents: a node cannot contain itself
             self.anchors[event.anchor] = node
             self.sizes[id(node)] = self.nodes - before
         return node
 
     def alias(self, event: Any) -> Node:
+        """Return the node for which an alias stands."""
         if event.anchor not in self.anchors:
             hint = "expected its anchor before it, and not around it"
-            raise NotYamlError(f"the alias *{event.anchor[:60]} has no anchor", self.place(event), hint)
+            raise NotYamlError(f"the alias *{event.anchor[:60]} has no anchor", self.location_of(event), hint)
         node = self.anchors[event.anchor]
         self.count(self.sizes[id(node)], event)
         return node
 
     def sequence(self, event: Any, depth: int) -> Items:
-        items = Items.make((), self.place(event))
+        """Return the sequence that begins with `event`."""
+        items = Items.make((), self.location_of(event))
         while not isinstance(inner := next(self.events), SequenceEndEvent):
-            items.append(self.node(self.events.whole(inner, False) if event.flow_style else inner, depth + 1))
+            items.append(self.node(self.events.join_pieces(inner, False) if event.flow_style else inner, depth + 1))
         return items
 
     def mapping(self, event: Any, depth: int) -> Map:
-        made, merged = Map.make((), self.place(event)), dict[str, Any]()
+        """Return the mapping that begins with `event`; errors of repeated and merge keys go to `duplicates`."""
+        made, merged = Map.make((), self.location_of(event)), dict[str, Any]()
         while not isinstance(inner := next(self.events), MappingEndEvent):
             key = self.node(inner, depth + 1)
             if not isinstance(key, Text):
                 raise NotYamlError(f"{kind_of(key)} as a key", key.where, "expected a name as the key")
             below = next(self.events)
-            value = self.node(self.events.whole(below, True) if event.flow_style else below, depth + 1)
+            value = self.node(self.events.join_pieces(below, True) if event.flow_style else below, depth + 1)
             if isinstance(value, Text) and not value and value.plain and not event.flow_style:
-                value.where = self.behind(inner)  # of nothing YAML knows the next thing's place
+                value.where = self.location_after(inner)  # an empty value has the location of the next node
             if key == "<<":
                 self.duplicates.append(UnknownKeyError(NO_MERGE, key.where, MERGED))
-                merged = value if isinstance(value, Map) else {}  # the rest is read as it is meant
+                merged = value if isinstance(value, Map) else {}  # the entries are merged as intended
             elif key in made:
                 first = made.key(key).where
                 self.duplicates.append(

@@ -1,1 +1,1 @@
-"""What a mechanism file may hold: its sections, the check of their shapes, overrides by address."""
+"""Declares what a mechanism file may contain, checks the shape of files, and applies overrides by address."""

@@ -1,4 +1,4 @@
-"""Overrides of a file before it is read: an address such as contacts.dry.normal.geometry gets another text."""
+"""Applies overrides to a file's tree before it is read: values at addresses such as contacts.dry.normal.geometry."""
 
 from __future__ import annotations
 
@@ -17,19 +17,20 @@ _AXES = {"x": 0, "y": 1}
 
 
 def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> Map:
-    """The tree with other texts at the given addresses; `root` itself stays as it is.
+    """Return the file's tree with other texts at the given addresses; `root` itself is not changed.
 
-    A parameter may be called by its name alone. Raises UnknownNameError for an address that the file
-    has not, with the nearest; a key that a shape or a law does not know is told when it is read.
+    The name of a parameter alone is an address, too. Raises UnknownNameError, with the nearest address, for one that
+    the file does not have; keys that a law or shape does not know are reported when they are read.
     """
     for address, value in overrides.items():
-        parts = _parts(root, address)
-        text = Text.make(_write(value, address), Location(OVERRIDE + address, 1, 1))
-        root = _put(root, parts, text, _Address(address, root), FILE, 0)
+        parts = _split_address(root, address)
+        text = Text.make(_as_file_text(value, address), Location(OVERRIDE + address, 1, 1))
+        root = _put_text(root, parts, text, _Address(address, root), FILE, 0)
     return root
 
 
-def _parts(root: Map, address: str) -> list[str]:
+def _split_address(root: Map, address: str) -> list[str]:
+    """Split an address into the keys on its path; names of coordinates and points stay whole."""
     if address in root.get("parameters", ()):
         return ["parameters", address]
     field: Field | None = FILE
@@ -44,8 +45,8 @@ def _parts(root: Map, address: str) -> list[str]:
     return parts
 
 
-def _write(value: object, address: str) -> str:
-    """A value as it would stand in the file."""
+def _as_file_text(value: object, address: str) -> str:
+    """Return a value as text, as it would stand in the file. Raises BadValueError for other types."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
@@ -59,21 +60,22 @@ def _write(value: object, address: str) -> str:
 
 @dataclass(frozen=True)
 class _Address:
-    """What an override is called, and the file in which it is looked for."""
+    """Represent the address of an override and the file's tree in which it is resolved."""
 
     text: str
     root: Map
 
     def unknown(self) -> InputError:
+        """Return the UnknownNameError for an address that the file does not have."""
         known = [*_addresses(self.root), *self.root.get("parameters", ())]
         return unknown_name("address", self.text, known, None)
 
 
-def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
-    """A copy of `node`, which `field` declares, with `text` at `parts`; what is not on the way is shared."""
+def _put_text(node: Any, parts: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
+    """Return a copy of `node`, which `field` declares, with `text` at the path `parts`; other subtrees are shared."""
     if not parts:
         if isinstance(node, (Map, Items)) and not (field is not None and field.kind == RESULTS):
-            raise BadValueError(f"{address.text} is {kind_of(node)}", None, _inside(address.text, node))
+            raise BadValueError(f"{address.text} is {kind_of(node)}", None, _inner_addresses_hint(address.text, node))
         return text
     head, rest = parts[0], parts[1:]
     if field is not None and field.kind == POINTS:
@@ -86,7 +88,9 @@ def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Fiel
         if head not in _AXES or _AXES[head] >= len(node):
             raise address.unknown()
         i = _AXES[head]
-        return Items.make([*node[:i], _put(node[i], rest, text, address, None, depth + 1), *node[i + 1 :]], node.where)
+        return Items.make(
+            [*node[:i], _put_text(node[i], rest, text, address, None, depth + 1), *node[i + 1 :]], node.where
+        )
     if not isinstance(node, Map):
         raise address.unknown()
     inner = field and field.below(head, node)
@@ -95,28 +99,29 @@ def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Fiel
     else:
         if not _may_add(field, inner, parts, depth) or rest and inner is not None and inner.kind in SCALARS:
             raise address.unknown()
-        key, below = Text.make(head, text.where), _new(inner, rest, text.where)
-    return Map.make({**node, key: _put(below, rest, text, address, inner, depth + 1)}, node.where)
+        key, below = Text.make(head, text.where), _new_node(inner, rest, text.where)
+    return Map.make({**node, key: _put_text(below, rest, text, address, inner, depth + 1)}, node.where)
 
 
 def _may_add(field: Field | None, inner: Field | None, parts: list[str], depth: int) -> bool:
-    """Whether an override may bring in a key that the file has not: a default, an inherited number, an axis.
+    """Return whether an override may add a key to the file: one with a default, an inherited number, a component.
 
-    What a section names, the file must name itself. Deeper in, a key that nothing declares is told when it is read.
+    Entries of a section must exist in the file. Unknown keys deeper in the tree are reported when they are read.
     """
     if depth == 0:
         return inner is not None and (inner.kind != MAPPING or len(parts) > 1 and parts[1] in inner.given)
     return depth > 1 or field is None or field.kind != MAPPING or parts[0] in field.given
 
 
-def _new(field: Field | None, rest: list[str], where: Location) -> Any:
-    """What holds a new text: a vector of zeros, or a mapping."""
+def _new_node(field: Field | None, rest: list[str], where: Location) -> Any:
+    """Return the node in which a new text is put: a vector of zeros, a mapping, or an empty text."""
     if rest and field is not None and field.kind == VECTOR:
         return Items.make([Text.make("0", where), Text.make("0", where)], where)
     return Map.make((), where) if rest else Text.make("", where)
 
 
 def _addresses(node: Any, prefix: str = "") -> Iterator[str]:
+    """Yield the addresses of all texts in a subtree."""
     if isinstance(node, Map):
         for key, below in node.items():
             yield from _addresses(below, f"{prefix}.{key}" if prefix else str(key))
@@ -127,5 +132,6 @@ def _addresses(node: Any, prefix: str = "") -> Iterator[str]:
         yield prefix
 
 
-def _inside(address: str, node: Map | Items) -> str:
+def _inner_addresses_hint(address: str, node: Map | Items) -> str:
+    """Return the hint that names addresses inside a mapping or list."""
     return f"expected one of: {', '.join(list(_addresses(node, address))[:8])}"

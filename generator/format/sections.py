@@ -1,6 +1,6 @@
-"""The sections of a mechanism file and their keys, each declared once.
+"""Declares the sections of a mechanism file and their keys, each once.
 
-What is open to new files (joints, forces, laws) is declared by these; here it is asked for by `kinds`.
+Joints, drives, forces and laws are declared in their own folders of generator/kinds; `kinds` of a field returns them.
 """
 
 from __future__ import annotations
@@ -128,21 +128,27 @@ RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 
 
 def _joints() -> Mapping[str, Kind]:
+    """Return the joint types as kinds of the section `joints`."""
     return {kind: Kind(of.title, of.fields, of.joins, (2,), of.also) for kind, of in joint_types().items()}
 
 
 def _forces() -> Mapping[str, Kind]:
+    """Return the force elements as kinds of the section `forces`."""
     return {kind: Kind(of.title, of.fields, of.targets, of.counts, of.also) for kind, of in element_types().items()}
 
 
 def _title(law: Law, name: str) -> str:
+    """Return a law's title, or for another name of the law the options that this name implies."""
     choices = law.also.get(name, {})
-    told = ", ".join(f"{key}: {value}" for key, value in choices.items())
-    return f"{law.name} with {told}" if choices else law.title
+    options = ", ".join(f"{key}: {value}" for key, value in choices.items())
+    return f"{law.name} with {options}" if choices else law.title
 
 
 def _law(role: str, meaning: str) -> Field:
+    """Return the field of a contact for the laws of one role."""
+
     def kinds() -> Mapping[str, Kind]:
+        """Return the laws of the role by each of their names."""
         return {
             name: Kind(_title(law, name), law.fields_as(name), like="" if name == law.name else law.name)
             for name, law in called(role).items()

@@ -1,7 +1,7 @@
-"""The check of a file's shape by its declaration: which keys there are, and what is text, list or mapping.
+"""Checks the shape of a file's tree: which keys exist, and which nodes are texts, lists or mappings.
 
-Findings come out as our errors, at the place in the file. What is open to new files (joints, drives, forces, laws)
-is some mapping here: the reader checks it, once it knows the kind.
+Findings are reported as errors at their location. Entries of joints, drives, forces and laws are checked by the reader
+once it knows their kind.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.names import known_hint, nearest, unknown_name
 
-MOST_FINDINGS = 50
+MAX_FINDINGS = 50
 OVERRIDE = "override of "  # the "file" of a text that comes from an override
-ANY_NAME = "*"  # left out is a section whose names nobody knows
+ANY_NAME = "*"  # in `left_out`: a section was left out whose names are not known
 
 Path = tuple[str | int, ...]
-_SECTIONS = {  # what others call a section
+_SECTIONS = {  # names of other programs for a section
     "links": "bodies",
     "parts": "bodies",
     "constraints": "joints",
@@ -47,12 +47,12 @@ _SECTIONS = {  # what others call a section
     "initial": "start",
     "variables": "parameters",
 }
-_OPTIONS = ("method", "rtol", "formulation")  # of a run, no part of a file
+_OPTIONS = ("method", "rtol", "formulation")  # options of a run, which a file does not contain
 
 
 @dataclass(frozen=True)
 class Checked:
-    """The file without the entries that are wrong in `errors`; `left_out` are their names."""
+    """Contain the file's tree without the wrong entries, the `errors`, and the names of entries that were left out."""
 
     root: Map
     errors: tuple[InputError, ...] = ()
@@ -60,35 +60,35 @@ class Checked:
 
 
 def check_shape(root: Map) -> Checked:
-    """What can be read of a file, and what is wrong with the shape of the rest.
+    """Return the valid part of a file's tree and the errors of the rest.
 
-    Raises UnknownKeyError, MissingKeyError, BadValueError, or several at once, if nothing can be read.
+    Raises UnknownKeyError, MissingKeyError or BadValueError, or several at once, if nothing can be read.
     """
     check_format(root)
-    # a section with nothing in it (all of it commented out) is as good as none
+    # an empty section, for example with all lines commented out, counts as absent
     sections = {k: v for k, v in root.items() if not (isinstance(v, Text) and v.is_nothing and k in _MAY_BE_EMPTY)}
     document = Map.make(sections, root.where)
     errors: list[InputError] = []
     left_out: set[str] = set()
-    while len(errors) < MOST_FINDINGS:
-        findings = list(islice(_findings(FILE, document, ()), MOST_FINDINGS))
+    while len(errors) < MAX_FINDINGS:
+        findings = list(islice(_findings(FILE, document, ()), MAX_FINDINGS))
         if not findings:
             return Checked(document, tuple(errors), frozenset(left_out))
         errors += _errors(findings, document)
         if any(found.path[0] in _NEEDED and len(found.path) == 1 for found in findings):
             break
         for found in findings:
-            document = _without(document, found, left_out)
+            document = _leave_out(document, found, left_out)
     raise together(errors)
 
 
-STUDIES = "gudgeon-study/"  # begins the format of files that are read elsewhere
+STUDIES = "gudgeon-study/"  # prefix of the format of study files
 _NEEDED = frozenset(field.name for field in FILE.fields if field.required)
 _MAY_BE_EMPTY = frozenset(field.name for field in FILE.fields if not field.required and field.kind not in SCALARS)
 
 
 def check_format(root: Map) -> None:
-    """Raise unless the file says that it is of this format: another version has other keys."""
+    """Raise an InputError unless the file's `format` is this version."""
     found = root.get("format")
     if found is None:
         raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
@@ -100,10 +100,10 @@ def check_format(root: Map) -> None:
 
 @dataclass(frozen=True)
 class _Finding:
-    """Something wrong at `path`: a key that is missing, one that is unknown, or not what was `wanted`."""
+    """Represent an error at `path`: a missing key, an unknown key, or a node that is not what was `expected`."""
 
     path: Path
-    wanted: str = ""
+    expected: str = ""
     unknown: tuple[str, ...] | None = None  # the keys that are known instead
     missing: bool = False
 
@@ -112,14 +112,14 @@ _TWO = "two: [x, y]"
 
 
 def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
-    """What is wrong in the shape of a node, in the order of the declaration."""
+    """Yield the errors in the shape of a node, in the order of the declaration."""
     if field.kind in SCALARS:
         if not isinstance(node, Text):
             yield _Finding(path, "a number or a text")
     elif field.kind == VECTOR or field.kind == PLACE and isinstance(node, Items):
-        yield from _in_vector(node, path)
+        yield from _findings_in_vector(node, path)
     elif field.kind == POINTS:
-        yield from _in_points(node, path)
+        yield from _findings_in_points(node, path)
     elif field.kind == DEPTHS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
             yield _Finding(path, "depths at equal angles: [0 mm, 0.1 mm, …], or how many of them there are")
@@ -150,7 +150,8 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
         assert field.kind in (KINDS, LAW)
 
 
-def _in_vector(node: Any, path: Path) -> Iterator[_Finding]:
+def _findings_in_vector(node: Any, path: Path) -> Iterator[_Finding]:
+    """Yield the errors of a node that must be a list of two texts."""
     if not isinstance(node, Items):
         yield _Finding(path, "a list of two: [x, y]")
     elif len(node) != 2:
@@ -159,16 +160,17 @@ def _in_vector(node: Any, path: Path) -> Iterator[_Finding]:
         yield from (_Finding((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
 
 
-def _in_points(node: Any, path: Path) -> Iterator[_Finding]:
+def _findings_in_points(node: Any, path: Path) -> Iterator[_Finding]:
+    """Yield the errors of a node that must be a list of points."""
     if not isinstance(node, Items):
         yield _Finding(path, "a list of points: [[x, y], …]")
     else:
         for i, pair in enumerate(node):
-            yield from _in_vector(pair, (*path, i))
+            yield from _findings_in_vector(pair, (*path, i))
 
 
-def _without(document: Map, finding: _Finding, left_out: set[str]) -> Map:
-    """The file without an unknown key, or without the whole entry in which something is wrong."""
+def _leave_out(document: Map, finding: _Finding, left_out: set[str]) -> Map:
+    """Return the tree without an unknown key, or without the entry that contains an error; names go to `left_out`."""
     path, section = finding.path, SECTIONS.get(str(finding.path[0]))
     has_names = section is None or section.kind == MAPPING
     if finding.unknown is None:
@@ -182,6 +184,7 @@ def _without(document: Map, finding: _Finding, left_out: set[str]) -> Map:
 
 
 def _remove(node: Map, path: Path) -> Map:
+    """Return the mapping without the node at `path`."""
     head, rest = str(path[0]), path[1:]
     if head not in node or rest and not isinstance(node[head], Map):
         return node
@@ -191,29 +194,29 @@ def _remove(node: Map, path: Path) -> Map:
 
 
 def _errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
-    """Our errors; a missing key is not told where a mistyped one stands in its place."""
+    """Return the findings as errors; a missing key is not reported if a mistyped one stands in its place."""
     mistyped = {(*f.path[:-1], nearest(str(f.path[-1]), f.unknown)) for f in findings if f.unknown is not None}
     return [_error(f, document) for f in findings if not (f.missing and f.path in mistyped)]
 
 
 def _error(finding: _Finding, document: Map) -> InputError:
-    """One finding as an error at its place."""
+    """Return one finding as an error at its location."""
     path, owner = finding.path, finding.path[:-1]
     if finding.unknown is not None:
-        key = _walk(document, owner).key(str(path[-1]))
-        return unknown_key(key, finding.unknown, _title(owner), _meant(owner, key.lower()))
+        key = _node_at(document, owner).key(str(path[-1]))
+        return unknown_key(key, finding.unknown, _address(owner), _hint_from_other_programs(owner, key.lower()))
     if finding.missing:
-        return missing_key(str(path[-1]), _walk(document, owner).where, _title(owner))
-    node = _walk(document, path)
+        return missing_key(str(path[-1]), _node_at(document, owner).where, _address(owner))
+    node = _node_at(document, path)
     place = node.where
     if isinstance(node, Text) and node.is_nothing and path and isinstance(path[-1], str):
-        place = _walk(document, owner).key(path[-1]).where  # nothing has no place of its own
-    what = f"has {len(node)} component{'s' * (len(node) != 1)}" if finding.wanted == _TWO else f"is {kind_of(node)}"
-    return BadValueError(f"{_title(path)} {what}", place, f"expected {finding.wanted}")
+        place = _node_at(document, owner).key(path[-1]).where  # an empty node has no location: the key's is used
+    what = f"has {len(node)} component{'s' * (len(node) != 1)}" if finding.expected == _TWO else f"is {kind_of(node)}"
+    return BadValueError(f"{_address(path)} {what}", place, f"expected {finding.expected}")
 
 
-def _meant(owner: Path, key: str) -> str:
-    """A hint about a key that other programs have there; "" for what is mistyped."""
+def _hint_from_other_programs(owner: Path, key: str) -> str:
+    """Return a hint about a key that other programs use there; "" for a mistyped one."""
     if not owner and key in _SECTIONS:
         return f"{key!r} is called {_SECTIONS[key]} here"
     if owner and owner[-1] == "simulate" and key in _OPTIONS:
@@ -222,9 +225,9 @@ def _meant(owner: Path, key: str) -> str:
 
 
 def unknown_key(key: Text, known: Iterable[str], owner: str, hint: str = "") -> InputError:
-    """The error for a key that its mapping does not know; for an override's address, UnknownNameError.
+    """Return the error for a key that its mapping does not know; for the address of an override, UnknownNameError.
 
-    `hint` says more than the nearest key would.
+    `hint` replaces the list of the nearest keys.
     """
     if key.where.file.startswith(OVERRIDE):
         address = key.where.file.removeprefix(OVERRIDE)
@@ -233,15 +236,17 @@ def unknown_key(key: Text, known: Iterable[str], owner: str, hint: str = "") -> 
 
 
 def missing_key(name: str, where: Location, owner: str) -> MissingKeyError:
-    """The error for a key that a mapping needs."""
+    """Return the error for a key that a mapping needs."""
     return MissingKeyError(f"{owner} has no {name}", where, f"expected the key {name!r}")
 
 
-def _title(path: Path) -> str:
+def _address(path: Path) -> str:
+    """Return a path as an address for messages."""
     return ".".join(str(part) for part in path) or "the file"
 
 
-def _walk(node: Any, path: Path) -> Any:
+def _node_at(node: Any, path: Path) -> Any:
+    """Return the node at a path, or the text at which the path ends early."""
     for part in path:
         if not isinstance(node, (Map, Items)):
             return node

@@ -1,4 +1,4 @@
-"""One-file extensions, found by being in their folder: a new joint, law or force element is one new file."""
+"""Finds extensions of one file each: a new joint, law or force element is one new file in its folder."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 def declared(package: str, attribute: str, kind: type[T]) -> Iterator[T]:
-    """`attribute` of every module of `package` that has one of that kind, in the order of their names."""
+    """Yield `attribute` of each module of `package` whose value is of type `kind`, in the order of module names."""
     for info in pkgutil.iter_modules(importlib.import_module(package).__path__):
         value = getattr(importlib.import_module(f"{package}.{info.name}"), attribute, None)
         if isinstance(value, kind):

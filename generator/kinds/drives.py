@@ -1,4 +1,4 @@
-"""What a drive may prescribe: an angle, a coordinate or a distance, as an expression of t."""
+"""Declares the kinds of drives: a prescribed angle, coordinate or distance as an expression of t."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
 
 
 def _value(dimension: Dimension | None, meaning: str = "where it is at each time, without jumps") -> tuple[Field, ...]:
+    """Return the field of the prescribed value."""
     return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
 
 

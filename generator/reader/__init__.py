@@ -1,1 +1,1 @@
-"""The file's tree to a Mechanism, section by section, all mistakes at once."""
+"""Reads a file's tree into a Mechanism, section by section; all errors are reported at once."""

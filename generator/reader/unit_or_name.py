@@ -1,4 +1,4 @@
-"""What a product such as `400 N/m` means where `m` is also a name of the file.
+"""Decides what a product such as `400 N/m` means if `m` is also a name of the file.
 
 A name of the file takes precedence over a unit in a product (parser.py): `0.1 m*N*mu` is a length times two parameters.
 Two things limit that rule:

@@ -1,1 +1,1 @@
-"""What a study file says: which runs of a mechanism, and what is measured of them; no SymPy, nothing loaded."""
+"""Reads study files: the runs of a mechanism and their measures; nothing is derived or loaded."""

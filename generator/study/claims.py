@@ -1,4 +1,4 @@
-"""`claims:` of a study file: published numbers and trends, each with the runs that it is about."""
+"""Reads `claims:` of a study file: published numbers and trends, each with the runs that it concerns."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from gudgeon.language.shown import counted
 
 KEYS = ("source", "numbers", "trends")
 NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
-TOLD = ("says", "figure", "note", "heading")  # of a trend, whatever it is judged by
+TOLD = ("says", "figure", "note", "heading")  # keys that every trend may have
 COMMON = ("measure", "part", "at")
 MORE = {
     "grows_along": ("by",),
@@ -45,7 +45,7 @@ TREND = (*TOLD, *TRIAL, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
-    """None where the file makes none."""
+    """Read the claims of a study file; empty Claims if it makes none."""
     if "claims" not in root:
         return Claims()
     with reader.collect():
@@ -55,33 +55,36 @@ def read_claims(reader: Reader, root: Map) -> Claims:
         with reader.collect():
             source = line(node, "source", "claims")
         numbers, trends = list[NumberClaim](), list[TrendClaim]()
-        for name, below in _each(reader, node, "numbers"):
+        for name, below in _claim_entries(reader, node, "numbers"):
             with reader.collect():
-                numbers.append(_number(reader, name, mapping(below, f"claims.numbers.{name}", name)))
-        for name, below in _each(reader, node, "trends"):
+                numbers.append(_read_number(reader, name, mapping(below, f"claims.numbers.{name}", name)))
+        for name, below in _claim_entries(reader, node, "trends"):
             with reader.collect():
-                trends.append(_trend(name, mapping(below, f"claims.trends.{name}", name)))
-        _once(reader, [*(one.name for one in numbers), *(one.name for one in trends)])
-        _beside(reader, numbers)
+                trends.append(_read_trend(name, mapping(below, f"claims.trends.{name}", name)))
+        _check_names_once(reader, [*(one.name for one in numbers), *(one.name for one in trends)])
+        _check_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
     return Claims()
 
 
-def _each(reader: Reader, node: Map, section: str) -> Sequence[tuple[Text, Any]]:
+def _claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tuple[Text, Any]]:
+    """Return the entries of a section of claims, none if the section is missing or wrong."""
     with reader.collect():
         if section in node:
             return mapping(node[section], f"claims.{section}", node.key(section)).pairs()
     return ()
 
 
-def _once(reader: Reader, names: Sequence[Text]) -> None:
+def _check_names_once(reader: Reader, names: Sequence[Text]) -> None:
+    """Collect an error for each claim whose name was used before."""
     for k, name in enumerate(names):
         if name in names[:k]:
             first = names[names.index(name)].where
             reader.errors.append(BadNameError(f"claim {str(name)[:60]!r} is there twice", name.where, f"once: {first}"))
 
 
-def _number(reader: Reader, name: Text, node: Map) -> NumberClaim:
+def _read_number(reader: Reader, name: Text, node: Map) -> NumberClaim:
+    """Read a claim about one number."""
     owner = f"claims.numbers.{name}"
     label(name, "claim")
     if not check_keys(reader, node, NUMBER, owner, ("measure",)):
@@ -92,11 +95,11 @@ def _number(reader: Reader, name: Text, node: Map) -> NumberClaim:
     if value is not None and beside is not None:
         raise BadValueError(f"{owner} has both value and beside", node.key("beside").where, "expected one of both")
     figure, says, note, heading = (line(node, key, owner) for key in ("figure", "says", "note", "heading"))
-    return NumberClaim(name, figure, measure, _selection(node, owner, name), value, says, note, beside, heading)
+    return NumberClaim(name, figure, measure, _read_selection(node, owner, name), value, says, note, beside, heading)
 
 
-def _beside(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
-    """What a number stands beside is another one, of the same measure."""
+def _check_references(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
+    """Collect an error unless the claim that a number refers to (`beside`) exists and has the same measure."""
     measures = {str(one.name): one.measure for one in numbers}
     for one in numbers:
         with reader.collect():
@@ -106,31 +109,33 @@ def _beside(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
             if other not in measures:
                 raise unknown_name("number", other, list(measures), other.where)
             if measures[other] != one.measure:
-                told = f"{other} is about {measures[other]}, {one.name} about {one.measure}"
-                raise BadValueError(told, other.where, "expected a number of the same measure")
+                message = f"{other} is about {measures[other]}, {one.name} about {one.measure}"
+                raise BadValueError(message, other.where, "expected a number of the same measure")
 
 
-def _selection(node: Map, owner: str, where: Text) -> Selection:
-    """`part` and `at`."""
+def _read_selection(node: Map, owner: str, where: Text) -> Selection:
+    """Read `part` and `at`: the runs that a claim concerns."""
     part = text(node["part"], f"{owner}.part", node.key("part"), "the name of a part") if "part" in node else None
-    at = _values(mapping(node["at"], f"{owner}.at", node.key("at")), f"{owner}.at") if "at" in node else {}
+    at = _read_values(mapping(node["at"], f"{owner}.at", node.key("at")), f"{owner}.at") if "at" in node else {}
     return Selection(part, at, where)
 
 
-def _values(node: Map, owner: str) -> dict[Text, Text]:
+def _read_values(node: Map, owner: str) -> dict[Text, Text]:
+    """Read a mapping of coordinates to single values."""
     return {key: text(value, f"{owner}.{key}", key, "one value") for key, value in node.pairs()}
 
 
-def _other(node: Map, key: str, owner: str, base: Selection) -> Selection:
-    """A selection that stands at a key: {part: …, c: 0.3 mm}, over that of the trend."""
+def _read_other_selection(node: Map, key: str, owner: str, base: Selection) -> Selection:
+    """Read the selection at a key, {part: …, c: 0.3 mm}, merged over the selection `base` of the trend."""
     own = mapping(node[key], f"{owner}.{key}", node.key(key))
-    values = _values(own, f"{owner}.{key}")
+    values = _read_values(own, f"{owner}.{key}")
     part = next((value for name, value in values.items() if name == "part"), base.part)
     kept = {name: value for name, value in base.at.items() if name not in values}
     return Selection(part, kept | {name: value for name, value in values.items() if name != "part"}, node.key(key))
 
 
-def _trend(name: Text, node: Map) -> TrendClaim:
+def _read_trend(name: Text, node: Map) -> TrendClaim:
+    """Read a claim about a trend, with its trials or the reason why it is not computed."""
     owner = f"claims.trends.{name}"
     label(name, "claim")
     figure, says, note, heading = (line(node, key, owner) for key in ("figure", "says", "note", "heading"))
@@ -142,13 +147,13 @@ def _trend(name: Text, node: Map) -> TrendClaim:
         if extra := [key for key in own.names() if key != "not_computed"]:
             raise BadValueError(f"{owner} is not computed, and has {extra[0]}", extra[0].where, "expected one of both")
         return TrendClaim(name, figure, says, (), why, note, heading)
-    return TrendClaim(name, figure, says, tuple(_trials(name, own, owner)), "", note, heading)
+    return TrendClaim(name, figure, says, tuple(_read_trials(name, own, owner)), "", note, heading)
 
 
-def _trials(name: Text, node: Map, owner: str) -> list[Trial]:
-    """One, or those of `all`, each over the keys beside it."""
+def _read_trials(name: Text, node: Map, owner: str) -> list[Trial]:
+    """Read the trials of a trend: one, or each of `all`, whose keys override those next to `all`."""
     if "all" not in node:
-        return [_trial(name, node, owner)]
+        return [_read_trial(name, node, owner)]
     every = node["all"]
     if not isinstance(every, Items) or not every:
         raise BadValueError(f"{owner}.all is {kind_of(every)}", node.key("all").where, "expected a list of trials")
@@ -158,24 +163,25 @@ def _trials(name: Text, node: Map, owner: str) -> list[Trial]:
         if strange := [key for key in own.names() if key not in TRIAL]:
             raise unknown_key(strange[0], TRIAL, f"{owner}.all[{k}]")
         kept = [(key, value) for key, value in node.pairs() if key != "all" and key not in own]
-        found.append(_trial(name, Map.make([*kept, *own.pairs()], own.where), f"{owner}.all[{k}]"))
+        found.append(_read_trial(name, Map.make([*kept, *own.pairs()], own.where), f"{owner}.all[{k}]"))
     return found
 
 
-def _trial(name: Text, node: Map, owner: str) -> Trial:
+def _read_trial(name: Text, node: Map, owner: str) -> Trial:
+    """Read one trial: its kind, measures, selections and limits. Raises an InputError."""
     chosen = [key for key in node.names() if key in KINDS]
     if len(chosen) != 1:
-        told = f"{owner} has {'nothing to judge it by' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
+        message = f"{owner} has {'nothing to judge it by' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
-        raise BadValueError(told, place_of(node, name), hint)
+        raise BadValueError(message, place_of(node, name), hint)
     kind, known = chosen[0], (chosen[0], *COMMON, *MORE.get(chosen[0], ()))
     if strange := [key for key in node.names() if key not in known]:
         raise unknown_key(strange[0], known, owner)
     if (needed := NEEDED.get(kind)) and needed not in node:
         raise missing_key(needed, node.where, owner)
-    base = _selection(node, owner, kind)
+    base = _read_selection(node, owner, kind)
     if kind == COUNTS:
-        counts = _counts(mapping(node[kind], f"{owner}.{kind}", kind), f"{owner}.{kind}")
+        counts = _read_counts(mapping(node[kind], f"{owner}.{kind}", kind), f"{owner}.{kind}")
         return Trial(kind, (), base, kind, counts=counts)
     if "measure" not in node:
         raise missing_key("measure", node.where, owner)
@@ -184,7 +190,7 @@ def _trial(name: Text, node: Map, owner: str) -> Trial:
         (text(node[key], f"{owner}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node), None
     )
     if kind in BETWEEN:
-        return _between(node, owner, kind, measures, base, by)
+        return _read_comparison(node, owner, kind, measures, base, by)
     of = text(node[kind], f"{owner}.{kind}", kind, "a dimension" if kind in ALONG else "a measure or a number")
     others = (
         texts(node["more_than"], f"{owner}.more_than", node.key("more_than"), "measures")
@@ -202,16 +208,35 @@ def _trial(name: Text, node: Map, owner: str) -> Trial:
     return Trial(kind, measures, base, of, None, others, by)
 
 
-def _between(node: Map, owner: str, kind: Text, measures: tuple[Text, ...], base: Selection, by: Text | None) -> Trial:
+def _read_comparison(
+    node: Map, owner: str, kind: Text, measures: tuple[Text, ...], base: Selection, by: Text | None
+) -> Trial:
+    """Read a trial that compares two selections."""
     if kind == "larger":
-        return Trial(kind, measures, _other(node, kind, owner, base), kind, _other(node, "than", owner, base), (), by)
+        return Trial(
+            kind,
+            measures,
+            _read_other_selection(node, kind, owner, base),
+            kind,
+            _read_other_selection(node, "than", owner, base),
+            (),
+            by,
+        )
     if lacking := [key for key in ("from", "to") if key not in node]:
         raise missing_key(lacking[0], node.where, owner)
     others = texts(node[kind], f"{owner}.{kind}", kind, "other measures, which are lowered less")
-    return Trial(kind, measures, _other(node, "from", owner, base), kind, _other(node, "to", owner, base), others)
+    return Trial(
+        kind,
+        measures,
+        _read_other_selection(node, "from", owner, base),
+        kind,
+        _read_other_selection(node, "to", owner, base),
+        others,
+    )
 
 
-def _counts(node: Map, owner: str) -> dict[Text, int]:
+def _read_counts(node: Map, owner: str) -> dict[Text, int]:
+    """Read the expected counts of bodies, joints and others in a scene."""
     if strange := [key for key in node.names() if key not in COUNTED]:
         raise unknown_key(strange[0], COUNTED, owner)
     return {key: whole(value, f"{owner}.{key}", key, 0) for key, value in node.pairs()}

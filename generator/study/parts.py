@@ -1,4 +1,4 @@
-"""What the parts of a study file share, mappings, words, counts, seeds, expressions; its titles and its wear."""
+"""Contains readers that all parts of a study file share, and reads its titles, its description and its wear."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from gudgeon.language.names import LABEL, check_not_null, known_hint, nearest, u
 from gudgeon.language.parser import parse
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
-MOST_TEXT = 1000  # characters of words for people
+MOST_TEXT = 1000  # characters of a descriptive text
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
 
 
 def mapping(node: Any, owner: str, where: Any) -> Map:
-    """A mapping. Raises BadValueError."""
+    """Return the node if it is a mapping. Raises BadValueError."""
     if not isinstance(node, Map):
         raise BadValueError(f"{owner} is {kind_of(node)}", place_of(node, where), "expected a mapping")
     return node
 
 
 def place_of(node: Any, otherwise: Any) -> Any:
-    """Where a node stands; nothing has no place of its own, its key has."""
+    """Return the location of a node; for an empty node, that of its key `otherwise`."""
     nothing = isinstance(node, Text) and node.is_nothing
     return otherwise.where if nothing else getattr(node, "where", otherwise.where)
 
 
 def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str, needed: Sequence[str] = ()) -> bool:
-    """Whether all keys that are needed are there; an error is collected for each that is not, and for strange ones."""
+    """Return whether all needed keys are present; an error is collected for each missing and each unknown key."""
     strange = [key for key in node.names() if key not in known]
     reader.errors.extend(unknown_key(key, known, owner) for key in strange)
     meant, missing = {nearest(key, known) for key in strange}, [name for name in needed if name not in node]
@@ -42,30 +42,30 @@ def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str, need
 
 
 def text(node: Any, owner: str, where: Any, what: str = "a number or a text") -> Text:
-    """A scalar on one line that holds something. Raises BadValueError."""
+    """Return the node if it is a nonempty text on one line. Raises BadValueError."""
     if not isinstance(node, Text) or node.is_nothing or not node.one_line:
-        told = "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {kind_of(node)}"
-        raise BadValueError(f"{owner} {told}", place_of(node, where), f"expected {what}")
+        message = "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {kind_of(node)}"
+        raise BadValueError(f"{owner} {message}", place_of(node, where), f"expected {what}")
     return node
 
 
 def line(node: Map, key: str, owner: str) -> str:
-    """Words for people, on as many lines as YAML folds; "" where there are none. Raises BadValueError."""
+    """Return the descriptive text at a key on one line; "" if there is none. Raises BadValueError."""
     return words(node[key], f"{owner}.{key}", node.key(key)) if key in node else ""
 
 
 def words(found: Any, owner: str, where: Any) -> str:
-    """The same of what stands there."""
+    """Return a node as a descriptive text on one line. Raises BadValueError."""
     if not isinstance(found, Text) or found.is_nothing:
         raise BadValueError(f"{owner} is {kind_of(found)}", place_of(found, where), "expected a text")
-    told = " ".join(found.split())
-    if len(told) > MOST_TEXT or not told.isprintable():
-        raise BadValueError(f"{owner} has {len(told)} characters", found.where, f"at most {MOST_TEXT}, visible")
-    return told
+    joined = " ".join(found.split())
+    if len(joined) > MOST_TEXT or not joined.isprintable():
+        raise BadValueError(f"{owner} has {len(joined)} characters", found.where, f"at most {MOST_TEXT}, visible")
+    return joined
 
 
 def texts(node: Any, owner: str, where: Any, what: str) -> tuple[Text, ...]:
-    """A list of scalars, at least one, or a text alone. Raises BadValueError."""
+    """Return the texts of a nonempty list, or a text alone. Raises BadValueError."""
     if isinstance(node, Text):
         return (text(node, owner, where, what),)
     if not isinstance(node, Items) or not node:
@@ -76,7 +76,7 @@ def texts(node: Any, owner: str, where: Any, what: str) -> tuple[Text, ...]:
 
 
 def word(node: Any, owner: str, where: Any, words: Iterable[str]) -> str:
-    """One of some words. Raises BadValueError."""
+    """Return the node if it is one of the allowed words. Raises BadValueError."""
     known, found = list(words), text(node, owner, where, "a word")
     if found not in known:
         raise BadValueError(f"{owner} is {kind_of(found)}", found.where, known_hint(found, known, 20))
@@ -84,7 +84,7 @@ def word(node: Any, owner: str, where: Any, words: Iterable[str]) -> str:
 
 
 def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MOST_COUNT) -> int:
-    """A whole number. Raises BadValueError."""
+    """Return a whole number from `least` to `most`. Raises BadValueError."""
     what = f"a whole number from {least} to {most}"
     found = text(node, owner, where, what)
     if not _WHOLE.fullmatch(found) or not least <= int(found) <= most:
@@ -93,12 +93,12 @@ def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MOST_CO
 
 
 def seed(node: Map, owner: str) -> int:
-    """The seed of a mapping, 0 if it says none."""
+    """Return the seed of the random numbers of a section, 0 by default."""
     return whole(node["seed"], f"{owner}.seed", node.key("seed"), 0, MOST_SEED) if "seed" in node else 0
 
 
 def label(name: Text, what: str) -> str:
-    """A name of a dimension, an option, a window or a measure. Raises BadNameError."""
+    """Return the name of an option, window or measure if it is allowed. Raises BadNameError."""
     if not re.fullmatch(LABEL, name):
         hint = "expected letters, digits and _ in ASCII, at most 64, no digit first"
         raise BadNameError(f"{str(name)[:60]!r} cannot name a {what}", name.where, hint)
@@ -107,7 +107,7 @@ def label(name: Text, what: str) -> str:
 
 
 def dimension_name(name: Text, what: str) -> str:
-    """The same of what the dataset will have under this name. Raises BadNameError for one of its own."""
+    """Return the name of a dimension of the dataset if it is allowed. Raises BadNameError for a reserved one."""
     if name in RESERVED:
         hint = "take another name" if what != "parameter" else f"write parameters.{name}"
         raise BadNameError(f"{str(name)!r} is what the study's dataset calls something of its own", name.where, hint)
@@ -115,7 +115,7 @@ def dimension_name(name: Text, what: str) -> str:
 
 
 def written(node: Any, owner: str, where: Any) -> Written:
-    """An expression, as yet without dimension. Raises InputError at its column."""
+    """Parse an expression, whose dimension is not yet known. Raises InputError at its column."""
     found = text(node, owner, where, "an expression: 2*pi/omega")
     return Written(parse(found, found.where), found)
 
@@ -124,25 +124,25 @@ MOST = 80  # characters
 
 
 def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]) -> dict[str, str]:
-    """{name: title} of what the file's parts have; an error is collected for a name that none has."""
+    """Return the titles of names in the study's parts; an error is collected for an unknown name."""
     found: dict[str, str] = {}
     with reader.collect():
         node = mapping(root["titles"], "titles", root.key("titles")) if "titles" in root else root.part("titles")
-        known = list(dict.fromkeys(name for key, part in parts.items() if part for name in (key, *_names(part))))
+        known = list(dict.fromkeys(name for key, part in parts.items() if part for name in (key, *_titled_names(part))))
         for name, below in node.pairs():
             with reader.collect():
                 if name not in known and None not in parts.values():
                     raise unknown_name("name", name, known, name.where)
-                told = text(below, f"titles.{name}", name, "a line")
-                if len(told) > MOST or not told.isprintable():
+                title = text(below, f"titles.{name}", name, "a line")
+                if len(title) > MOST or not title.isprintable():
                     hint = f"expected one line of at most {MOST} characters that can be seen"
-                    raise BadValueError(f"titles.{name} has {len(told)} characters", told.where, hint)
-                found[str(name)] = str(told)
+                    raise BadValueError(f"titles.{name} has {len(title)} characters", title.where, hint)
+                found[str(name)] = str(title)
     return found
 
 
 def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
-    """Paragraphs: a text, or a list of them."""
+    """Return the paragraphs of `about:`, which is a text or a list of texts."""
     with reader.collect():
         if "about" not in root:
             return ()
@@ -152,8 +152,8 @@ def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
     return ()
 
 
-def _names(part: StudyFile) -> Iterator[str]:
-    """Scenes, measures, series, ensembles, choices and what varies, with its words."""
+def _titled_names(part: StudyFile) -> Iterator[str]:
+    """Yield the names of a part that may have a title, such as scenes, measures, ensembles and varied parameters."""
     yield from map(str, (*part.scenes, *part.keep, *part.fixed))
     yield from (one.name for one in part.measures)
     yield from ("ensemble", "start", *part.starts.ensembles) if part.starts else ()
@@ -171,7 +171,7 @@ MOST_ROUNDS = 1000
 
 
 def read_wear(reader: Reader, root: Map) -> WearRounds | None:
-    """None where nothing wears."""
+    """Read `wear:`, the rounds of wear before the measured runs; None if there are none."""
     if "wear" not in root:
         return None
     with reader.collect():
@@ -181,12 +181,13 @@ def read_wear(reader: Reader, root: Map) -> WearRounds | None:
         joints = texts(node["joints"], "wear.joints", node.key("joints"), "names of joints")
         rounds = whole(node["rounds"], "wear.rounds", node.key("rounds"), 1, MOST_ROUNDS)
         law = word(node["law"], "wear.law", node.key("law"), WEAR_LAWS) if "law" in node else WEAR_LAWS[0]
-        k, hardness, scale = (_number(node, name) for name in ("k", "hardness", "scale"))
+        k, hardness, scale = (_number_text(node, name) for name in ("k", "hardness", "scale"))
         if k is None:
             raise MissingKeyError("wear has no k", node.where, "expected k: 1e-4, and hardness: 1 GPa")
         return WearRounds(joints, rounds, k, hardness, scale, law)
     return None
 
 
-def _number(node: Map, name: str) -> Text | None:
+def _number_text(node: Map, name: str) -> Text | None:
+    """Return the text of a number of `wear`, None if it is not given."""
     return text(node[name], f"wear.{name}", node.key(name), "a number") if name in node else None

@@ -1,4 +1,4 @@
-"""A study file, or a mapping of Python, to a StudyFile: all mistakes at once, each at its place."""
+"""Reads a study file, or a mapping in Python, into a StudyFile; all errors are reported at once."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from gudgeon.generator.study.parts import (
     word,
     written,
 )
-from gudgeon.generator.study.settings import plain, short, tree_of, varied
+from gudgeon.generator.study.settings import apply_settings, plain_texts, short_name, tree_of
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
@@ -45,36 +45,38 @@ from gudgeon.generator.study.spec import (
 from gudgeon.generator.yaml import Map, Text, kind_of, parse_yaml
 from gudgeon.language.names import unknown_name
 
-_SET = "value of "  # where what the command line sets was read
+_SET = "value of "  # prefix of locations of values from the command line
 
 
 def check_names(reader: Reader, study: StudyFile, root: Map) -> None:
-    """All mistakes at once."""
+    """Collect an error for each name of the dataset that is reserved or used twice."""
     numbers = [*study.fixed, *(key for axis in study.axes for key in axis.columns)]
     numbers += list(study.draw.numbers) if study.draw else []
     seen: dict[str, Text] = {}
     for key in numbers:
-        called = short(str(key))
+        called = short_name(str(key))
         if called in seen:
             with reader.collect():
-                told = f"{str(key)[:60]!r} is said twice"
-                raise BadNameError(told, key.where, f"expected once; the first is at {seen[called].where}")
+                message = f"{str(key)[:60]!r} is said twice"
+                raise BadNameError(message, key.where, f"expected once; the first is at {seen[called].where}")
         seen.setdefault(called, key)
     twice = set(_check_choices(reader, study, seen))
     groups = [Text.make(axis.name, axis.where) for axis in study.axes if axis.grouped]
     used = {str(key): ("a number of the runs", key) for key in numbers}
-    for what, key in _names(study, root, groups):
+    for what, key in _dataset_names(study, root, groups):
         own = key in RESERVED and not (key == "run" and key in groups)
         if (key in used or own) and key not in twice:
             with reader.collect():
-                by, first = (used[key][0], f"the first is at {_place(used[key][1].where)}") if key in used else ("", "")
-                told = f"the name {str(key)[:60]!r} is taken, by {by or 'the dataset itself'}"
-                raise BadNameError(told, key.where, f"take another one{first and ': '}{first}")
+                by, first = (
+                    (used[key][0], f"the first is at {_location_text(used[key][1].where)}") if key in used else ("", "")
+                )
+                message = f"the name {str(key)[:60]!r} is taken, by {by or 'the dataset itself'}"
+                raise BadNameError(message, key.where, f"take another one{first and ': '}{first}")
         used.setdefault(str(key), (what, key))
 
 
-def _names(study: StudyFile, root: Map, groups: list[Text]) -> Iterator[tuple[str, Text]]:
-    """What the dataset calls by names of the file's beside numbers, and what it is."""
+def _dataset_names(study: StudyFile, root: Map, groups: list[Text]) -> Iterator[tuple[str, Text]]:
+    """Yield (what it is, name) for the dataset's names that are not parameters."""
     yield from (("numbers that go together", key) for key in groups)
     yield from (("a choice", Text.make(choice.name, choice.where)) for choice in study.choices)
     if isinstance(root.get("measures"), Map):
@@ -83,23 +85,25 @@ def _names(study: StudyFile, root: Map, groups: list[Text]) -> Iterator[tuple[st
 
 
 def _check_choices(reader: Reader, study: StudyFile, given: dict[str, Text]) -> Iterator[str]:
-    """Names of choices that change what runs are given as a number too: one of the two would do nothing."""
+    """Yield the names of choices that change a parameter which all runs are given; an error is collected for each."""
     for choice in study.choices:
-        varied = (short(address) for own in choice.options.values() for address in own)
-        both = next((key for key in varied if key in given), None)
+        apply_settings = (short_name(address) for own in choice.options.values() for address in own)
+        both = next((key for key in apply_settings if key in given), None)
         if both is None:
             continue
         yield choice.name
         first = given[both].where
         with reader.collect():
-            gives = _place(first) if first.file.startswith(_SET) else f"a number, at {first},"
+            gives = _location_text(first) if first.file.startswith(_SET) else f"a number, at {first},"
             what = f"choices: {both}" if choice.name == both else f"choices: {choice.name}, by {both},"
-            told = f"{what[:120]} varies what {gives[:120]} gives to all runs"
-            raise BadNameError(told, choice.where, "leave one of the two out: what is set for all runs does not vary")
+            message = f"{what[:120]} varies what {gives[:120]} gives to all runs"
+            raise BadNameError(
+                message, choice.where, "leave one of the two out: what is set for all runs does not vary"
+            )
 
 
-def _place(where: Location) -> str:
-    """Where a name stands first: in a file, or on the command line."""
+def _location_text(where: Location) -> str:
+    """Return where a name was used first: a location in a file, or an argument of the command line."""
     return where.file.removeprefix(_SET) if where.file.startswith(_SET) else str(where)
 
 
@@ -128,25 +132,25 @@ KEYS = (
     "titles",
     "about",
 )
-WHOLE = ("format", "parts", "claims", "titles", "about")  # of a file, not of its parts
+WHOLE = ("format", "parts", "claims", "titles", "about")  # keys of a file, which its parts do not have
 PART = tuple(key for key in KEYS if key not in WHOLE)
-ALONE = ""  # the name of a study that is all of its file
+ALONE = ""  # name of the only part of a file without parts
 AUTO, MAX_TITLE = "auto", 200
 WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS, *FOLLOWED)
-OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # what may be less another scene's
+OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # statistics that can subtract the series of another scene
 
 
 def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudyFile:
-    """The same of a file without parts."""
+    """Read a study file without parts; arguments and errors as `read_studies`."""
     return read_studies(data, file, settings).parts[ALONE]
 
 
 def read_studies(
     data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None
 ) -> StudySet:
-    """What the bytes of a file say, or a mapping; `settings` are numbers of all runs, over its own.
+    """Read the studies of a file from its bytes or a mapping; `settings` are values for all runs that override it.
 
-    Raises an InputError at file:line:column, or InputErrors with all that are wrong.
+    Raises an InputError at file:line:column, or InputErrors with all errors.
     """
     reader = Reader(file)
     root = parse_yaml(data, file, reader.errors, FORMAT) if isinstance(data, bytes) else tree_of(data)
@@ -155,20 +159,25 @@ def read_studies(
     claims, titles, about = Claims(), dict[str, str](), tuple[str, ...]()
     try:
         _check_format(root, isinstance(data, bytes))
-        found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
+        found = {
+            name: _read_part(reader, node, file, settings or {}, owner)
+            for name, owner, node in _split_parts(reader, root)
+        }
         claims, titles = read_claims(reader, root), read_titles(reader, root, found)
         about = read_about(reader, root)
     except TooManyErrors:
         found = {}
-    reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
+    reader.errors = list(
+        {str(error): error for error in reader.errors}.values()
+    )  # parts repeat the errors of shared keys
     reader.raise_errors()
     parts = {name: part for name, part in found.items() if part is not None}
     title = str(root["title"]) if "title" in root else ""
     return StudySet(file, title, parts, "parts" in root, claims, titles, about)
 
 
-def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
-    """Name, owner and keys of each part: its own over those of the file, each whole."""
+def _split_parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
+    """Yield name, owner for messages, and keys of each part; keys of a part override those of the file."""
     if "parts" not in root:
         yield ALONE, "the study", root
         return
@@ -187,20 +196,22 @@ def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
 
 
 def _check_format(root: Map, needed: bool) -> None:
+    """Raise an InputError unless the format is that of study files."""
     if "format" not in root:
         if needed:
             raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
     elif root["format"] != FORMAT:
         is_mechanism = root["format"] == MECHANISM
         more = "; this file is a mechanism, which `gudgeon run FILE` runs" if is_mechanism else ""
-        told = f"format is {kind_of(root['format'])}"
-        raise BadValueError(told, root.key("format").where, f"expected {FORMAT}{more}")
+        message = f"format is {kind_of(root['format'])}"
+        raise BadValueError(message, root.key("format").where, f"expected {FORMAT}{more}")
 
 
-def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], owner: str) -> StudyFile | None:
+def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str], owner: str) -> StudyFile | None:
+    """Read one study, or one part of a file with several; None if a needed key is missing."""
     if not check_keys(reader, root, KEYS if owner == "the study" else PART, owner, ("mechanism",)):
         return None
-    numbers = varied(*read_parameters(reader, root), read_draw(reader, root), settings)
+    numbers = apply_settings(*read_parameters(reader, root), read_draw(reader, root), settings)
     starts, choices = read_starts(reader, root), read_choices(reader, root)
     title = mechanism = Text.make("", root.where)
     one, scenes = True, (*[Text.make("ideal", root.where)],)
@@ -213,11 +224,11 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
             raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
     with reader.collect():
         if "scenes" in root:
-            scenes = _once(texts(root["scenes"], "scenes", root.key("scenes"), "names of scenes"), "scene")
+            scenes = _check_once(texts(root["scenes"], "scenes", root.key("scenes"), "names of scenes"), "scene")
             one = isinstance(root["scenes"], Text)
-    times = {name: _written(reader, root, name) for name in ("t_end", "output", "step")}
-    windows = _windows(reader, root)
-    measures, keep = _measures(reader, root, windows), _keep(reader, root)
+    times = {name: _read_expression(reader, root, name) for name in ("t_end", "output", "step")}
+    windows = _read_windows(reader, root)
+    measures, keep = _read_measures(reader, root, windows), _read_keep(reader, root)
     with reader.collect():
         if not (root.get("measures") or root.get("keep")):
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
@@ -239,10 +250,10 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
         windows,
         measures,
         keep,
-        _method(reader, root),
-        _rtol(reader, root),
-        _stop(reader, root),
-        _said(root) | {"settings": dict(sorted(settings.items()))},
+        _read_method(reader, root),
+        _read_rtol(reader, root),
+        _read_stop(reader, root),
+        _result_settings(root) | {"settings": dict(sorted(settings.items()))},
         read_wear(reader, root),
         numbers.left_out,
     )
@@ -250,25 +261,28 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
     return found
 
 
-def _said(root: Map) -> dict[str, Any]:
-    """What decides the results: not what is claimed of them."""
-    return {key: said for key, said in plain(root).items() if key not in ("claims", "titles", "about")}
+def _result_settings(root: Map) -> dict[str, Any]:
+    """Return the tree as plain texts without the keys that do not affect the results."""
+    return {key: said for key, said in plain_texts(root).items() if key not in ("claims", "titles", "about")}
 
 
-def _once(names: tuple[Text, ...], what: str) -> tuple[Text, ...]:
+def _check_once(names: tuple[Text, ...], what: str) -> tuple[Text, ...]:
+    """Return the names if each occurs once. Raises BadNameError."""
     for k, name in enumerate(names):
         if name in names[:k]:
             raise BadNameError(f"the {what} {str(name)[:60]!r} is given twice", name.where, "expected each once")
     return names
 
 
-def _written(reader: Reader, root: Map, name: str) -> Written | None:
+def _read_expression(reader: Reader, root: Map, name: str) -> Written | None:
+    """Read the expression at a key; None if it is missing or wrong."""
     with reader.collect():
         return written(root[name], name, root.key(name)) if name in root else None
     return None
 
 
-def _method(reader: Reader, root: Map) -> Text:
+def _read_method(reader: Reader, root: Map) -> Text:
+    """Read the integration method, `auto` by default."""
     with reader.collect():
         if "method" in root:
             name = word(root["method"], "method", root.key("method"), (*OFFERED, KINEMATIC))
@@ -276,19 +290,22 @@ def _method(reader: Reader, root: Map) -> Text:
     return Text.make(AUTO, root.where)
 
 
-def _rtol(reader: Reader, root: Map) -> Text | None:
+def _read_rtol(reader: Reader, root: Map) -> Text | None:
+    """Read the tolerance; None if it is not given."""
     with reader.collect():
         return text(root["rtol"], "rtol", root.key("rtol"), "a tolerance: 1e-8") if "rtol" in root else None
     return None
 
 
-def _stop(reader: Reader, root: Map) -> bool:
+def _read_stop(reader: Reader, root: Map) -> bool:
+    """Read whether runs stop at events, true by default."""
     with reader.collect():
         return "stop" not in root or word(root["stop"], "stop", root.key("stop"), ("true", "false")) == "true"
     return True
 
 
-def _windows(reader: Reader, root: Map) -> dict[str, Window]:
+def _read_windows(reader: Reader, root: Map) -> dict[str, Window]:
+    """Read the named windows of time."""
     found: dict[str, Window] = {}
     with reader.collect():
         node = mapping(root["windows"], "windows", root.key("windows")) if "windows" in root else root.part("windows")
@@ -304,35 +321,36 @@ def _windows(reader: Reader, root: Map) -> dict[str, Window]:
     return found
 
 
-def _measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple[Measure, ...]:
-    """NAME: {STATISTIC: SERIES, window: NAME}."""
+def _read_measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple[Measure, ...]:
+    """Read the measures: NAME: {STATISTIC: SERIES, window: NAME}."""
     found = []
     with reader.collect():
         node, key = root.part("measures"), "measures"
         every = mapping(node, key, root.key(key)) if key in root else node
         for name, below in every.pairs():
             with reader.collect():
-                found.append(_measure(name, mapping(below, f"measures.{name}", name), windows, root))
+                found.append(_read_measure(name, mapping(below, f"measures.{name}", name), windows, root))
                 _check_one_origin(found)
     return tuple(found)
 
 
 def _check_one_origin(measures: Sequence[Measure]) -> None:
-    """Over all steps a run goes beside one other scene."""
+    """Raise BadValueError if statistics of all steps subtract series of different scenes."""
     origins = [one.origin for one in measures if one.origin is not None and one.statistic not in WINDOWED]
     if origins and origins[-1] != origins[0]:
-        told = f"over all steps runs go beside scene {origins[0]} and scene {origins[-1]}"
-        raise BadValueError(told, origins[-1].where, f"expected from: {origins[0]}, or a statistic of samples")
+        message = f"over all steps runs go beside scene {origins[0]} and scene {origins[-1]}"
+        raise BadValueError(message, origins[-1].where, f"expected from: {origins[0]}, or a statistic of samples")
 
 
-def _measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
+def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
+    """Read one measure: statistic, series, window and the scene whose series is subtracted."""
     owner, known = f"measures.{name}", (*STATISTICS, "window", "from")
     if strange := [key for key in node.names() if key not in known]:
         raise unknown_key(strange[0], known, owner)
     chosen = [key for key in node.names() if key in STATISTICS]
     if len(chosen) != 1:
-        told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
-        raise BadValueError(told, name.where, f"expected one of: {', '.join(STATISTICS)}")
+        message = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
+        raise BadValueError(message, name.where, f"expected one of: {', '.join(STATISTICS)}")
     (statistic,) = chosen
     what = "the name of a series, a joint or an event, or a section"
     of = text(node[statistic], f"{owner}.{statistic}", statistic, what)
@@ -345,11 +363,11 @@ def _measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) ->
         if at not in root.get("windows", ()):
             raise unknown_name("window", at, windows, at.where)
         window = str(at)
-    return Measure(label(name, "measure"), str(statistic), of, window, _origin(name, node, statistic))
+    return Measure(label(name, "measure"), str(statistic), of, window, _read_origin(name, node, statistic))
 
 
-def _origin(name: Text, node: Map, statistic: Text) -> Text | None:
-    """The scene whose series is subtracted."""
+def _read_origin(name: Text, node: Map, statistic: Text) -> Text | None:
+    """Read the scene whose series a measure subtracts; None if there is none."""
     owner = f"measures.{name}"
     if "from" not in node:
         if statistic in DEVIATIONS:
@@ -361,8 +379,9 @@ def _origin(name: Text, node: Map, statistic: Text) -> Text | None:
     return text(node["from"], f"{owner}.from", node.key("from"), "the name of a scene")
 
 
-def _keep(reader: Reader, root: Map) -> tuple[Text, ...]:
+def _read_keep(reader: Reader, root: Map) -> tuple[Text, ...]:
+    """Read the names of series that are stored for each run."""
     with reader.collect():
         if "keep" in root and root["keep"] != []:
-            return _once(texts(root["keep"], "keep", root.key("keep"), "names of series"), "series")
+            return _check_once(texts(root["keep"], "keep", root.key("keep"), "names of series"), "series")
     return ()

@@ -1,6 +1,6 @@
-"""The format of study files as a JSON Schema (draft 2020-12), for editors.
+"""Writes the format of study files as a JSON Schema (draft 2020-12) for editors.
 
-It sees keys, kinds and shapes; units, names and ranges are told by the reader alone.
+The schema covers keys, kinds and shapes; units, names and ranges are checked by the reader only.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _SPACING: Json = {"enum": [LINEAR, GEOMETRIC]}
 
 
 def schema() -> Json:
-    """The schema of a study file."""
+    """Return the JSON Schema of a study file."""
     row = _record({"from": _NUMBER, "to": _NUMBER, "count": _count(2), "spacing": _SPACING}, "from", "to", "count")
     values = {"anyOf": [*_LIST["anyOf"], row]}
     names = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
@@ -70,19 +70,23 @@ def schema() -> Json:
 
 
 def _record(properties: Json, *required: str) -> Json:
+    """Return the schema of a mapping with known keys, of which some are required."""
     return {"type": "object", "properties": properties, "required": list(required), "additionalProperties": False}
 
 
 def _map(values: Json, names: str = "") -> Json:
+    """Return the schema of a mapping of names to values of one schema; `names` is a pattern of the names."""
     found = {"type": "object", "additionalProperties": values}
     return found | {"propertyNames": {"pattern": f"^{names}$"}} if names else found
 
 
 def _count(least: int) -> Json:
+    """Return the schema of a whole number of at least `least`."""
     return {"type": "integer", "minimum": least, "maximum": MOST_COUNT}
 
 
 def _draw() -> Json:
+    """Return the schema of `draw`."""
     normal = _record({"mean": _NUMBER, "std": _NUMBER}, "mean", "std")
     between = _record({"from": _NUMBER, "to": _NUMBER, "spacing": _SPACING}, "from", "to")
     seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
@@ -92,6 +96,7 @@ def _draw() -> Json:
 
 
 def _wear() -> Json:
+    """Return the schema of `wear`."""
     numbers = dict.fromkeys(("k", "hardness", "scale"), _NUMBER)
     joints = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
     rounds = {"type": "integer", "minimum": 1, "maximum": MOST_ROUNDS}
@@ -100,6 +105,7 @@ def _wear() -> Json:
 
 
 def _starts() -> Json:
+    """Return the schema of `starts`."""
     sizes = {"relative": _map(_NUMBER), "absolute": _map(_NUMBER)}
     seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
     own = {"count": _count(1), "seed": seed, "distribution": {"enum": [UNIFORM, NORMAL]}}
@@ -107,15 +113,18 @@ def _starts() -> Json:
 
 
 def _about() -> Json:
-    told = {"type": "string", "minLength": 1, "maxLength": MOST_TEXT}
-    return {"anyOf": [told, {"type": "array", "items": told, "minItems": 1}]}
+    """Return the schema of `about`."""
+    paragraph = {"type": "string", "minLength": 1, "maxLength": MOST_TEXT}
+    return {"anyOf": [paragraph, {"type": "array", "items": paragraph, "minItems": 1}]}
 
 
 def _claims() -> Json:
-    """Numbers, and trends of one trial, of several, or of none."""
+    """Return the schema of `claims`: numbers, and trends with one trial, several or none."""
     at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
-    told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in TOLD}
-    number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure")
+    descriptive = {key: {"type": "string", "maxLength": MOST_TEXT} for key in TOLD}
+    number = _record(
+        descriptive | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure"
+    )
     counts = {
         "type": "object",
         "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
@@ -124,13 +133,13 @@ def _claims() -> Json:
     own: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(("larger", "than", "from", "to", "at"), at)
     own |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
     several = {"all": {"type": "array", "items": _record(own), "minItems": 1}, "not_computed": _TEXT}
-    trend = _record(told | own | several)
+    trend = _record(descriptive | own | several)
     source = {"type": "string", "maxLength": MOST_TEXT}
     return _record({"source": source, "numbers": _map(number, LABEL), "trends": _map(trend, LABEL)})
 
 
 def _measure() -> Json:
-    """One statistic; those of samples, contacts and events with a window, those of series less another scene's."""
+    """Return the schema of a measure: one statistic, with a window or another scene where the statistic allows it."""
     each = []
     for name in STATISTICS:
         own = {name: _TEXT} | {key: _TEXT for key, of in (("window", WINDOWED), ("from", OF_SERIES)) if name in of}

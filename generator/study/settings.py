@@ -1,4 +1,4 @@
-"""A study as a tree of texts, from a mapping of Python too; numbers that `--set` puts over those of its file."""
+"""Converts a study given in Python to a tree of texts, and applies values of `--set` over those of the file."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ MOST_DEPTH, MOST_VALUES = 16, 1_000_000
 
 
 def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
-    """Mappings, lists, arrays, numbers and texts as a file would have them; their places are their addresses.
+    """Return a file's tree for mappings, lists, arrays, numbers and texts; locations are addresses.
 
-    Raises BadValueError for anything else.
+    Raises BadValueError for other types.
     """
     where = Location(f"value of {address}" if address else "the study", 1, 1)
     if depth > MOST_DEPTH:
@@ -47,12 +47,12 @@ def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
         raise BadValueError(f"{address or 'the study'} is {told(value)}", where, hint) from None
 
 
-def plain(node: Any) -> Any:
-    """The tree as JSON has it, of texts alone."""
+def plain_texts(node: Any) -> Any:
+    """Return a tree as JSON values that contain texts only."""
     if isinstance(node, Map):
-        return {str(key): plain(below) for key, below in node.items()}
+        return {str(key): plain_texts(below) for key, below in node.items()}
     if isinstance(node, Items):
-        return [plain(below) for below in node]
+        return [plain_texts(below) for below in node]
     return " ".join(str(node).split())
 
 
@@ -60,7 +60,7 @@ DRAW = "draw"
 
 
 class Varied(NamedTuple):
-    """What all runs have, what varies, and what of the file does not because it is set."""
+    """Contain the values of all runs, the dimensions, the draw, and the dimensions that `--set` removed."""
 
     fixed: Mapping[Text, Text]
     axes: tuple[Axis, ...]
@@ -68,27 +68,31 @@ class Varied(NamedTuple):
     left_out: tuple[Axis, ...] = ()
 
 
-def short(name: str) -> str:
-    """A parameter may be called with its section or without."""
+def short_name(name: str) -> str:
+    """Return a parameter's name without the section `parameters.`."""
     return name.removeprefix("parameters.")
 
 
-def varied(fixed: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]) -> Varied:
-    """The file's numbers under those that are set: its values of these go, whether they vary or not.
+def apply_settings(
+    fixed: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
+) -> Varied:
+    """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.
 
-    What goes together with them, in a zip or a draw, stays as it is.
+    Parameters that vary together with them, in a zip or a draw, are not changed.
     """
-    given = {short(name) for name in settings}
+    given = {short_name(name) for name in settings}
     own = tree_of({f"--set {name}": value for name, value in settings.items()})
-    found = {key: value for key, value in fixed.items() if short(key) not in given}
+    found = {key: value for key, value in fixed.items() if short_name(key) not in given}
     found |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in own.items()}
-    split = [(axis, {key: numbers for key, numbers in axis.columns.items() if short(key) in given}) for axis in axes]
+    split = [
+        (axis, {key: numbers for key, numbers in axis.columns.items() if short_name(key) in given}) for axis in axes
+    ]
     kept = (
-        replace(axis, columns={key: numbers for key, numbers in axis.columns.items() if key not in gone})
-        for axis, gone in split
+        replace(axis, columns={key: numbers for key, numbers in axis.columns.items() if key not in removed})
+        for axis, removed in split
     )
-    left_out = [replace(axis, columns=gone) for axis, gone in split if gone]
-    if draw is not None and (drawn := {key: one for key, one in draw.numbers.items() if short(key) in given}):
+    left_out = [replace(axis, columns=removed) for axis, removed in split if removed]
+    if draw is not None and (drawn := {key: one for key, one in draw.numbers.items() if short_name(key) in given}):
         columns = {key: Numbers(spread.ends, draw.count) for key, spread in drawn.items()}
         left_out.append(Axis(DRAW, next(iter(drawn)).where, columns, grouped=True))
         others = {key: spread for key, spread in draw.numbers.items() if key not in drawn}

@@ -1,7 +1,6 @@
-"""A study as its file says it: frozen values, numbers still as texts with their places.
+"""Defines a study as its file describes it: frozen values whose numbers are still texts with locations.
 
-What a number's unit is, and whether a name exists, only the loaded scenes know (runtime/studies/ensemble/plan.py). Its
-claims are published numbers and trends.
+Units and the existence of names are known only to the loaded scenes (runtime/studies/ensemble/plan.py).
 """
 
 from __future__ import annotations
@@ -14,18 +13,18 @@ from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.yaml import Text
 from gudgeon.language.tree import Expr
 
-ALONG = ("grows_along", "alike_along", "spreads_along")  # a dimension
-BETWEEN = ("larger", "most_lowered")  # of two selections, and how measures change from one to the other
-SAME = ("exceeds",)  # another measure of the same runs
-AGAINST = ("above", "below", "near")  # a number
-COUNTS = "counts"  # what the scene has
+ALONG = ("grows_along", "alike_along", "spreads_along")  # kinds of trials along a dimension
+BETWEEN = ("larger", "most_lowered")  # kinds that compare two selections of runs
+SAME = ("exceeds",)  # kinds that compare two measures of the same runs
+AGAINST = ("above", "below", "near")  # kinds that compare with a number
+COUNTS = "counts"  # the kind that counts parts of the scene
 KINDS = (*ALONG, *BETWEEN, *SAME, *AGAINST, COUNTS)
 COUNTED = ("bodies", "joints", "drives", "freedoms", "rows", "coordinates", "play")
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Runs of a part with these values of its coordinates, and of all others; `text` is where it stands."""
+    """Represent runs of a part with given coordinate values, and any value of other coordinates; `where` locates it."""
 
     part: Text | None
     at: Mapping[Text, Text]
@@ -34,10 +33,9 @@ class Selection:
 
 @dataclass(frozen=True)
 class NumberClaim:
-    """A number that somebody published, beside a measure of ours; without a value ours alone is told.
+    """Represent a published number that is compared with a measure; without a value only the measure is reported.
 
-    `beside`: another one of these, of the same measure, from which ours is told to be off then. `heading`: under which
-    it stands on a page.
+    `beside`: another claim of the same measure, from which the deviation is reported. `heading`: its heading on a page.
     """
 
     name: Text
@@ -53,21 +51,21 @@ class NumberClaim:
 
 @dataclass(frozen=True)
 class Trial:
-    """One thing that a trend says: its kind, of which measures, of which runs."""
+    """Represent one testable statement of a trend: its kind, its measures and the runs that it concerns."""
 
     kind: str
     measures: tuple[Text, ...]
     selection: Selection
-    text: Text  # what stands at the kind: a dimension, a measure, a number
+    text: Text  # value of the kind's key: a dimension, a measure, a number
     than: Selection | None = None
-    others: tuple[Text, ...] = ()  # measures beside
-    by: Text | None = None  # so many times, or within such a share
+    others: tuple[Text, ...] = ()  # measures to compare with
+    by: Text | None = None  # a factor, or a relative tolerance
     counts: Mapping[Text, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class TrendClaim:
-    """What somebody says of runs in words; without trials it is one that no run can judge, and says why."""
+    """Represent a published statement about runs in words; without trials it is not computed, for the reason given."""
 
     name: Text
     figure: str
@@ -80,7 +78,7 @@ class TrendClaim:
 
 @dataclass(frozen=True)
 class Claims:
-    """All of a file."""
+    """Contain all claims of a study file and their source."""
 
     source: str = ""
     numbers: tuple[NumberClaim, ...] = ()
@@ -106,7 +104,7 @@ FOLLOWED = (
     "believable",
     "motion",
     "motion_confidence",
-)  # of a neighbour of the run, or of its returns to a section, in a window
+)  # statistics of a neighbouring run, or of the returns to a section, in a window
 STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS, *FOLLOWED)
 RESERVED = (
     "run",
@@ -119,12 +117,12 @@ RESERVED = (
     "ensemble",
     "failure",
     "t_last",
-)  # what a dataset has of its own
+)  # names that the dataset itself uses
 
 
 @dataclass(frozen=True)
 class Written:
-    """An expression and its text."""
+    """Contain an expression and its text."""
 
     expr: Expr
     text: Text
@@ -132,7 +130,7 @@ class Written:
 
 @dataclass(frozen=True)
 class Numbers:
-    """A list of values, or `count` of them from the first text to the second one."""
+    """Represent the values of a parameter: a list, or `count` values from the first text to the second."""
 
     texts: tuple[Text, ...]
     count: int = 0
@@ -141,23 +139,23 @@ class Numbers:
 
 @dataclass(frozen=True)
 class Axis:
-    """A dimension of the study: numbers that change together, by their addresses, all of one length."""
+    """Represent a dimension of the study: parameters that vary together, by address, with equally many values."""
 
     name: str
     where: Location
     columns: Mapping[Text, Numbers]
-    grouped: bool = False  # of `zip`: the dimension's name is no number's
+    grouped: bool = False  # from `zip`: the dimension's name is not that of a parameter
 
     @property
     def length(self) -> int:
-        """How many values it has."""
+        """Return the number of values along the dimension."""
         numbers = next(iter(self.columns.values()))
         return numbers.count or len(numbers.texts)
 
 
 @dataclass(frozen=True)
 class Spread:
-    """How a number is drawn: normal by mean and standard deviation, uniform or geometric between two ends."""
+    """Represent the distribution of a drawn parameter: normal by mean and deviation, else by its two ends."""
 
     kind: str
     ends: tuple[Text, Text]
@@ -165,18 +163,18 @@ class Spread:
 
 @dataclass(frozen=True)
 class Draw:
-    """Random points, the same every time."""
+    """Represent random points in parameter space, which are the same in every run of the study."""
 
     count: int
     seed: int
     method: str
     numbers: Mapping[Text, Spread]
-    names: tuple[str, ...]  # of all that the file draws: the points of one are the same where another one is set
+    names: tuple[str, ...]  # all drawn parameters of the file: the points of one do not change if another one is set
 
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far a number is off: by a share of itself, or by so much."""
+    """Represent the perturbation of a number: relative to its value, or absolute."""
 
     relative: bool
     size: Text
@@ -184,7 +182,7 @@ class Deviation:
 
 @dataclass(frozen=True)
 class Starts:
-    """Each run again `count` times, its numbers a little off; once for each ensemble."""
+    """Represent perturbed starts: `count` runs with slightly perturbed parameters, for each ensemble."""
 
     count: int
     seed: int
@@ -195,7 +193,7 @@ class Starts:
 
 @dataclass(frozen=True)
 class Choice:
-    """A dimension of structure: options by name, each some overrides with which the mechanism is loaded."""
+    """Represent a dimension of structure: options by name, each a set of overrides for loading the mechanism."""
 
     name: str
     where: Location
@@ -204,7 +202,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Window:
-    """A span of time; None: the run's own begin or end."""
+    """Represent a span of time; None is the begin or the end of the run."""
 
     begin: Written | None
     end: Written | None
@@ -212,9 +210,9 @@ class Window:
 
 @dataclass(frozen=True)
 class Measure:
-    """One number a run: a statistic of a series, a joint or an event, in a window ("": the whole run).
+    """Represent one number of a run: a statistic of a series, joint or event in a window ("": the whole run).
 
-    `origin`: the scene whose series is subtracted, at the same times and with the same numbers.
+    `origin`: the scene whose series is subtracted, at the same times and with the same parameters.
     """
 
     name: str
@@ -226,7 +224,7 @@ class Measure:
 
 @dataclass(frozen=True)
 class WearRounds:
-    """What bearings with contours wear before the runs that are measured, by a law, `scale` runs each round."""
+    """Represent the rounds of wear of bearings with contours before the measured runs, `scale` runs a round."""
 
     joints: tuple[Text, ...]
     rounds: int
@@ -238,13 +236,13 @@ class WearRounds:
 
 @dataclass(frozen=True)
 class StudyFile:
-    """All of a file; `said` is its tree as plain texts, by which two studies are compared."""
+    """Contain one study; `said` is its tree as plain texts, by which two studies are compared."""
 
     file: str  # "" for a mapping of Python
     title: str
     mechanism: Text
     scenes: tuple[Text, ...]
-    one_scene: bool  # named as a text, not as a list: no dimension
+    one_scene: bool  # the file names one scene, not a list: no dimension
     choices: tuple[Choice, ...]
     fixed: Mapping[Text, Text]
     axes: tuple[Axis, ...]
@@ -261,10 +259,10 @@ class StudyFile:
     stop: bool
     said: Mapping[str, Any]
     wear: WearRounds | None = None
-    left_out: tuple[Axis, ...] = ()  # what varies in the file, and is set for all runs
+    left_out: tuple[Axis, ...] = ()  # dimensions of the file that `--set` replaces by one value
 
     def begun(self, count: int | None, seed: int | None) -> StudyFile:
-        """With another count or seed of its starts, if it has any."""
+        """Return the study with another count or seed of its perturbed starts, if it has any."""
         told = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
         if self.starts is None or not told:
             return self
@@ -274,7 +272,7 @@ class StudyFile:
 
 @dataclass(frozen=True)
 class StudySet:
-    """A whole file: one study, named "", or its parts by name."""
+    """Contain a whole study file: one study, named "", or several parts by name."""
 
     file: str
     title: str
@@ -285,7 +283,10 @@ class StudySet:
     about: tuple[str, ...] = ()  # paragraphs, for people
 
     def begun(self, count: int | None, seed: int | None) -> StudySet:
-        """With so many perturbed starts, by another seed, in every part that has any. BadValueError where none has."""
+        """Return the studies with another count or seed of their perturbed starts.
+
+        Raises BadValueError if no part has any.
+        """
         told = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
         if told and not any(part.starts for part in self.parts.values()):
             hint = "starts: in the file says which number is how far off"

@@ -1,1 +1,1 @@
-"""What is written from a Model: C, documents, a JSON Schema."""
+"""Writes a Model in other languages: C, NumPy, JavaScript, documents, a JSON Schema."""

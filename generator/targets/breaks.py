@@ -1,4 +1,4 @@
-"""Where a long line of code is broken: as far out of brackets as it can be, and as late."""
+"""Breaks long lines of code: as far outside brackets, and as late in the line, as possible."""
 
 from __future__ import annotations
 
@@ -11,24 +11,27 @@ _TIGHT = "*"  # in a product that is written without spaces: where there is noth
 
 
 def broken(line: str, width: int, within: int | None = None) -> list[str]:
-    """A line of code as lines of at most `width`; what goes on stands four spaces further in.
+    """Return a line of code as lines of at most `width`; continuation lines are indented by four more spaces.
 
-    `within`: at least so many brackets are open wherever it is broken.
+    `within`: each break has at least this number of open brackets before it (1 for Python).
     """
     indent = line[: len(line) - len(line.lstrip())]
     lines: list[str] = []
-    while len(line) > width and (place := _place(line, len(indent), width, within)):
-        lines.append(line[:place].rstrip())
+    while len(line) > width and (index := _find_break(line, len(indent), width, within)):
+        lines.append(line[:index].rstrip())
         if within is not None:
             within -= sum((c in "([{") - (c in ")]}") for c in lines[-1])  # of those that were open before
-        line = f"{indent}{_INDENT}{line[place:].lstrip()}"
+        line = f"{indent}{_INDENT}{line[index:].lstrip()}"
     return [*lines, line]
 
 
-def _place(line: str, first: int, width: int, within: int | None) -> int:
-    """Where a line is broken: in its latter half if it can be, as far out of brackets and as late as it can be."""
+def _find_break(line: str, first: int, width: int, within: int | None) -> int:
+    """Return the index at which a line is broken; 0 if there is none.
+
+    A break in the latter half is preferred, then the one with the fewest open brackets, then the latest.
+    """
     found: list[tuple[float, int]] = []
-    for depth, place in _places(line):
+    for depth, place in _possible_breaks(line):
         if place > width and found:
             break  # of a line of a megabyte no more is read than of a short one
         if place > first + len(_INDENT) and (within is None or depth >= within):
@@ -37,8 +40,8 @@ def _place(line: str, first: int, width: int, within: int | None) -> int:
     return min(late, key=lambda x: (x[0], -x[1]))[1] if late else 0
 
 
-def _places(line: str) -> Iterator[tuple[float, int]]:
-    """(How many brackets are open, where) of each place at which a line may be broken."""
+def _possible_breaks(line: str) -> Iterator[tuple[float, int]]:
+    """Yield (number of open brackets, index) of each place at which a line may be broken."""
     depth = 0
     for k, c in enumerate(line):
         if c in ")]}":

@@ -1,4 +1,4 @@
-"""The tables of docs/format.md: every key that a file may have, from the declarations that the reader reads by."""
+"""Writes the tables of docs/format.md: every key that a file may have, from the reader's declarations."""
 
 from __future__ import annotations
 
@@ -33,18 +33,19 @@ _HEAD = ("key", "holds", "without it", "condition", "meaning")
 
 
 def tables() -> str:
-    """All tables as Markdown, a heading each."""
+    """Return all tables as Markdown with headings."""
     return "\n".join((*_of_functions(), *_of_record("The file", FILE, "", set())))
 
 
 def _of_functions() -> Iterator[str]:
-    """The table of what expressions may call."""
+    """Yield the lines of the table of functions that expressions may call."""
     rows = [(f"`{f.call(*f.arguments)}`", f.meaning, f.units.value, _domain(f)) for f in FUNCTIONS.values()]
     head = ("function", "value", "dimensions", "defined for")
     yield from _table("Functions", "what expressions may call", head, rows)
 
 
 def _domain(function: Function) -> str:
+    """Return the domain of a function as text; "" for all numbers."""
     low, high = function.domain
     if math.isinf(low) and math.isinf(high):
         return ""
@@ -52,7 +53,7 @@ def _domain(function: Function) -> str:
 
 
 def _of_record(heading: str, of: Field, path: str, seen: set[str]) -> Iterator[str]:
-    """The table of a mapping with known keys, then those of what it holds."""
+    """Yield the table of a mapping with known keys, then the tables of mappings inside it."""
     seen.add(of.name)
     yield from _table(heading, of.meaning, _HEAD, [_row(field) for field in of.fields])
     for field in of.fields:
@@ -66,7 +67,7 @@ def _of_record(heading: str, of: Field, path: str, seen: set[str]) -> Iterator[s
 
 
 def _of_kinds(heading: str, of: Field) -> Iterator[str]:
-    """The table of what is one of several kinds: a row a kind, then one for each of its keys."""
+    """Yield the table of an entry that is one of several kinds: a row for each kind, then one for each of its keys."""
     rows: list[Row] = []
     for name, kind in of.kinds().items() if of.kinds else ():
         itself = ("`law`", f"`{name}`") if of.kind == LAW else (f"`{name}`", _targets(kind))
@@ -80,19 +81,23 @@ def _of_kinds(heading: str, of: Field) -> Iterator[str]:
 
 
 def _table(heading: str, meaning: str, head: Row, rows: Sequence[Row]) -> Iterator[str]:
+    """Yield the lines of a table with heading and meaning."""
     yield from (f"## {heading}", "", f"{meaning[0].upper()}{meaning[1:]}.", "")
     yield from (_line(head), "|" + "---|" * len(head), *map(_line, rows), "")
 
 
 def _line(cells: Row) -> str:
+    """Return a row of a Markdown table."""
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
 def _row(field: Field) -> Row:
+    """Return the cells of a field: key, values, default, condition, meaning."""
     return f"`{field.name}`", _holds(field), _without(field), condition(field), field.meaning
 
 
 def _holds(field: Field) -> str:
+    """Return the cell that says what a field holds."""
     if field.kind == NUMBER:
         words = "".join(f" or `{word}`" for word in field.words)
         return f"number, {_unit(field.dimension)}{words}" + (f"; of {field.varies}" if field.varies else "")
@@ -122,17 +127,20 @@ def _holds(field: Field) -> str:
 
 
 def _unit(of: Dimension | None) -> str:
+    """Return the cell of a unit."""
     if of is None:
         return "any unit"
     return si_unit(of) or "no unit or an angle"
 
 
 def _targets(kind: Kind) -> str:
+    """Return the form of a kind's targets."""
     one = {"points": "BODY.POINT", "bodies": "BODY", "coordinates": "BODY.x, .y or .theta"}[kind.targets]
     return " or ".join(one if count == 1 else f"[{', '.join([one] * count)}]" for count in kind.counts)
 
 
 def _without(field: Field) -> str:
+    """Return what applies if a key is missing."""
     if field.required:
         return "needed"
     if field.default is not None:
@@ -141,11 +149,12 @@ def _without(field: Field) -> str:
 
 
 def _word(value: float | str | bool) -> str:
+    """Return a value as a file writes it."""
     return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else value
 
 
 def condition(field: Field) -> str:
-    """Its bounds, and whether it is whole, in signs."""
+    """Return the bounds of a field as text, and whether it is whole."""
     limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
     found = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
     return ", ".join([*found, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])

@@ -1,6 +1,6 @@
-"""The format as a JSON Schema (draft 2020-12), for editors: written from the declarations that the reader reads by.
+"""Writes the format of mechanism files as a JSON Schema (draft 2020-12) for editors, from the reader's declarations.
 
-A schema sees names, kinds and shapes; units, references and ranges are told by the reader alone.
+A schema covers names, kinds and shapes; units, references and ranges are checked by the reader only.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _NUMBER: Json = {
 
 
 def schema() -> Json:
-    """The schema of a mechanism file, as JSON."""
+    """Return the JSON Schema of a mechanism file."""
     families = (SECTIONS[name].entry for name in ("joints", "drives", "forces"))
     roles = [field for field in CONTACT.fields if field.kind == LAW]
     return {
@@ -65,19 +65,23 @@ def schema() -> Json:
 
 
 def _reference(name: str) -> Json:
+    """Return a reference to a definition."""
     return {"$ref": f"#/$defs/{name}"}
 
 
 def _list(item: Json, count: int) -> Json:
+    """Return the schema of a list with a fixed number of items."""
     return {"type": "array", "items": item, "minItems": count, "maxItems": count}
 
 
 def _of_bodies(kind: str, keys: Mapping[str, object]) -> Json:
+    """Return the schema of keys or texts BODY.key."""
     pattern = {"pattern": f"^{_NAME}\\.({'|'.join(keys)})$"}
     return {"type": kind, **pattern} if kind else pattern
 
 
 def _object(properties: Mapping[str, Any], required: Sequence[str] = ()) -> Json:
+    """Return the schema of a mapping with known keys, of which some are required."""
     return {
         "type": "object",
         "properties": dict(properties),
@@ -87,11 +91,12 @@ def _object(properties: Mapping[str, Any], required: Sequence[str] = ()) -> Json
 
 
 def _required(fields: Sequence[Field]) -> list[str]:
+    """Return the keys that are required."""
     return [field.name for field in fields if field.required]
 
 
 def _described(fields: Sequence[Field], filled_in: bool = True) -> dict[str, Json]:
-    """Keys with what they hold, what they mean and what is `filled_in`, where nothing may be inherited."""
+    """Return the schema of each key with its meaning, and its default if `filled_in` (nothing is inherited)."""
     found = {field.name: {**_field(field), "description": field.meaning} for field in fields}
     if not filled_in:
         return found
@@ -99,7 +104,7 @@ def _described(fields: Sequence[Field], filled_in: bool = True) -> dict[str, Jso
 
 
 def _field(field: Field) -> Json:
-    """What a field holds."""
+    """Return the schema of a field's values."""
     if field.kind == RECORD:
         return _record(field)
     if field.kind == MAPPING:
@@ -125,7 +130,7 @@ _SIMPLE: Mapping[str, Json] = {
 
 
 def _record(field: Field) -> Json:
-    """A mapping with known keys; an optional section with nothing in it is null."""
+    """Return the schema of a mapping with known keys; an empty optional section is null."""
     properties = _described(field.fields, field.below("extends") is None)
     for below in field.fields if field is FILE else ():
         if below.kind in (MAPPING, RECORD) and not below.required:
@@ -136,7 +141,7 @@ def _record(field: Field) -> Json:
     if either := [below for below in field.fields if below.either]:
         made["oneOf"] = [{"required": [name]} for below in either for name in (below.name, below.either)]
     roles = [below.name for below in field.fields if below.kind == LAW]
-    if roles:  # what a contact inherits it need not give itself
+    if roles:  # an inherited key is not required
         made["if"] = {"required": ["extends"]}
         made["then"] = {"properties": {role: _reference(f"{role}_part") for role in roles}}
         made["else"] = {"properties": {role: _reference(f"{role}_whole") for role in roles}}
@@ -144,6 +149,7 @@ def _record(field: Field) -> Json:
 
 
 def _mapping(field: Field) -> Json:
+    """Return the schema of a mapping with user-defined names."""
     assert field.entry is not None
     keys = _reference("name") if field.keys is None else _of_bodies("", field.keys)
     if field.addresses:
@@ -157,11 +163,12 @@ def _mapping(field: Field) -> Json:
 
 
 def _kinds(family: Field) -> list[tuple[str, Kind]]:
+    """Return the kinds of a family of entries by name."""
     return list(family.kinds().items()) if family.kinds else []
 
 
 def _kind(name: str, kind: Kind) -> Json:
-    """One entry a kind: its targets and its own fields. One target is written alone, two as a list."""
+    """Return the schema of one kind of entry: its targets and its fields; one target is a text, two are a list."""
     item = _reference(kind.targets)
     forms = [item if count == 1 else _list(item, count) for count in kind.counts]
     targets = forms[0] if len(forms) == 1 else {"anyOf": forms}
@@ -170,7 +177,7 @@ def _kind(name: str, kind: Kind) -> Json:
 
 
 def _law(role: Field, whole: bool) -> Json:
-    """A law of a contact; `whole`: with all its numbers, since nothing is inherited."""
+    """Return the schema of a law of a contact; `whole` requires all its numbers, since nothing is inherited."""
     own = _kinds(role)
     known: dict[str, Json] = {field.name: {} for _, law in own for field in law.fields}
     made = _object({**known, "law": {"enum": [name for name, _ in own]}}, ["law"] if whole else [])

@@ -1,6 +1,6 @@
-"""What SymPy's printers of code ask over and over, asked once: which method prints a class, in which order terms stand.
+"""Makes SymPy's code printers faster: caches the method that prints a class, and the order of the terms of a sum.
 
-The text is theirs to the letter.
+The printed text is the same as SymPy's.
 """
 
 from __future__ import annotations
@@ -20,22 +20,25 @@ Method = Callable[..., str]
 
 
 class Quick:
-    """Before one of SymPy's printers of code among the bases of a class."""
+    """Provide cached versions of methods of SymPy's code printers; a base class before one of these."""
 
     def doprint(self, expr: sp.Expr) -> str:
-        """One expression, without a statement around it. Raises ValueError for one that the language has not."""
+        """Return one expression as code, without a statement. Raises ValueError if the language has no counterpart."""
         return self._print(sp.sympify(expr))
 
     def _print(self, expr: Any, **settings: Any) -> str:
+        """Print an expression by the method of its class, which is cached."""
         key = (type(self), type(expr))
         if (method := _METHODS.get(key)) is None:
-            method = _METHODS[key] = _method(*key)
+            method = _METHODS[key] = _find_method(*key)
         return method(self, expr, **settings)
 
     def _print_not_supported(self, expr: sp.Expr) -> str:
+        """Raise ValueError for an expression that the language does not have."""
         raise ValueError(f"{type(self).__name__} does not know {expr}")
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        """Print the sum of terms in SymPy's order."""
         text = ""
         for term in ordered_terms(expr):
             own = self._print(term)
@@ -47,7 +50,7 @@ class Quick:
         return text
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """What is divided by stands behind, in brackets where it is several factors."""
+        """Print a product; divisors come last, in brackets if there are several."""
         number, rest = expr.as_coeff_Mul()
         factors = list(rest.as_ordered_factors())
         negative = number.is_extended_negative
@@ -73,7 +76,7 @@ class Quick:
         return f"{text}/{divisors[0]}" if len(below) == 1 else f"{text}/({'*'.join(divisors)})"
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """In brackets where it binds less than that."""
+        """Print an expression, in brackets if its operator binds less than `level`."""
         binds = _precedence(item)
         return f"({self._print(item)})" if binds < level or (not strict and binds <= level) else self._print(item)
 
@@ -84,8 +87,8 @@ _UNARY_MINUS = (PRECEDENCE["Pow"] + PRECEDENCE["Mul"]) / 2
 _METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that is printed
 
 
-def _method(printer: type, kind: type) -> Method:
-    """As SymPy finds it: the class's own, or that of the first of its bases; of functions by their own name alone."""
+def _find_method(printer: type, kind: type) -> Method:
+    """Return the printer's method for a class, found as SymPy does; functions match by their own name only."""
     if kind in CLASSES and (of_table := getattr(printer, "_print_of_table", None)):
         return of_table
     classes = kind.__mro__
@@ -103,7 +106,7 @@ def _method(printer: type, kind: type) -> Method:
 
 @lru_cache(20_000)
 def ordered_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Terms of a sum in the order in which SymPy prints them: by powers of what is in them, higher ones first."""
+    """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first."""
     terms = total.args
     if not total.is_Add or any(
         isinstance(term, (sp.Number, sp.NumberSymbol)) or not term.is_commutative for term in terms
@@ -113,6 +116,7 @@ def ordered_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
     bases = sorted({base for powers, _ in parts.values() for base in powers}, key=sp.default_sort_key)
 
     def key(term: sp.Expr) -> tuple[list[int], bool, float, float]:
+        """Return the sort key of a term."""
         powers, number = parts[term]
         return [-powers.get(base, 0) for base in bases], bool(number.imag), number.imag, number.real
 
@@ -120,7 +124,7 @@ def ordered_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
 
 
 def _powers(term: sp.Expr) -> tuple[dict[sp.Expr, int], complex]:
-    """Whole powers of what a term is a product of, and its number."""
+    """Return the whole powers of a term's factors by base, and its numerical coefficient."""
     number, rest = term.as_coeff_Mul()
     size = complex(float(number)) if number.is_Rational or number.is_Float else complex(number)
     powers = {}

@@ -1,1 +1,1 @@
-"""One file a force element: what `forces:` of a file may hold."""
+"""Contains one file for each force element: what `forces:` of a file may contain."""

@@ -21,7 +21,7 @@ from gudgeon.language.units import DIMENSIONLESS, FORCE, VELOCITY
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """The slip; the force follows from it and from whether it sticks."""
+    """Return the slip; the force follows from it and from whether it sticks."""
     import sympy as sp
 
     first, second = targets

@@ -14,7 +14,7 @@ from gudgeon.language.units import FORCE
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """The force and its power F · ṙ."""
+    """Return the force and its power F · ṙ."""
     import sympy as sp
 
     (point,) = targets

@@ -1,7 +1,7 @@
-"""What a force element declares. One file in this folder is one kind; it exports `ELEMENT`.
+"""Defines what a force element declares. Each other file of this folder is one kind and exports `ELEMENT`.
 
-As with joints and laws nothing here imports SymPy at the top. `build(targets, fields)` gets one
-PointFrame a target and the element's own numbers, and returns a `Loads`.
+As with joints and laws, nothing here imports SymPy at the top. `build(targets, fields)` gets one PointFrame for each
+target and the element's numbers, and returns a `Loads`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gudgeon.language.units import Dimension
 
 @dataclass(frozen=True)
 class Load:
-    """Force (N, ground axes) and moment (N·m, about the point) on the body of one target."""
+    """Represent the force (N, ground axes) and moment (N·m, about the point) on the body of one target."""
 
     target: int
     x: Any
@@ -28,9 +28,9 @@ class Load:
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip velocity that friction may hold at zero: v (m/s), the surface's own speed, limits in N.
+    """Represent a slip velocity that friction may hold at zero: v (m/s), speed of the surface, limits in N.
 
-    `falls` (m/s): the slip in which friction falls from static to kinetic, by a Gaussian; 0: at once.
+    `falls` (m/s): slip in which friction falls from static to kinetic (Stribeck, Gaussian); 0: at once.
     """
 
     v: Any
@@ -40,7 +40,7 @@ class Slip:
     falls: Any = 0
 
     def kinetic_at(self, v: Any) -> Any:
-        """The friction (N) of a slip v, either way."""
+        """Return the friction force (N) at a slip v of either sign."""
         import sympy as sp
 
         if self.falls == 0:
@@ -50,9 +50,9 @@ class Slip:
 
 @dataclass(frozen=True)
 class Loads:
-    """What an element does: loads, the energy it stores, the power of what it does not store.
+    """Contain the effect of an element: its loads, its potential energy, and the power of its other forces.
 
-    `series` are results by name ("F", "length"), with their units.
+    `series` are results by name ("F", "length") with their units.
     """
 
     loads: tuple[Load, ...]
@@ -64,7 +64,7 @@ class Loads:
 
 @dataclass(frozen=True)
 class ElementType:
-    """A kind of force element: the YAML key `kind: target` or `kind: [target, target]`."""
+    """Declare a kind of force element: the YAML key `kind: target` or `kind: [target, target]`."""
 
     kind: str
     title: str
@@ -79,5 +79,5 @@ class ElementType:
 
 @cache
 def element_types() -> Mapping[str, ElementType]:
-    """All the kinds in this folder."""
+    """Return all kinds of force elements by name."""
     return {e.kind: e for e in declared("gudgeon.generator.kinds.forces", "ELEMENT", ElementType)}

@@ -13,7 +13,7 @@ from gudgeon.language.units import DIMENSIONLESS, TORQUE, dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """The pair of moments, ½ k (θ − θ_0)² and −d ω²."""
+    """Return the pair of moments, ½ k (θ − θ_0)² and −d ω²."""
     import sympy as sp
 
     first, second = targets

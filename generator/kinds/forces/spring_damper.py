@@ -16,7 +16,7 @@ from gudgeon.language.units import DAMPING, FORCE, LENGTH, STIFFNESS
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """The pair of forces, ½ k (l − l_0)² and −d l̇²."""
+    """Return the pair of forces, ½ k (l − l_0)² and −d l̇²."""
     import sympy as sp
 
     P, Q = targets

@@ -14,7 +14,7 @@ from gudgeon.language.units import TORQUE
 
 
 def build(targets: Any, fields: Any) -> Loads:
-    """The torque and its power."""
+    """Return the torque and its power."""
     import sympy as sp
 
     zero = sp.Integer(0)

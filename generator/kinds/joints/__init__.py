@@ -1,1 +1,1 @@
-"""One file a joint type."""
+"""Contains one file for each joint type."""

@@ -21,7 +21,7 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """One row: how far the follower's point is from its profile, along the axis (m)."""
+    """Return one row: how far the follower's point is from its profile, along the axis (m)."""
     u_x, u_y = fields.direction_on("axis", "carrier")
     along = u_x * (second.x - first.x) + u_y * (second.y - first.y)
     return [along - fields.profile("profile", first.theta, fields.body_angle("carrier"))]

@@ -16,7 +16,7 @@ from gudgeon.language.units import LENGTH
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """One row (m): zero where the distance is `length`, and growing with it at the same rate."""
+    """Return one row (m): zero where the distance is `length`, and growing with it at the same rate."""
     x, y, length = second.x - first.x, second.y - first.y, fields.quantity("length", 0)
     return [(x**2 + y**2) * fields.derive("half_inverse_length", 1 / (2 * length)) - length / 2]
 

@@ -18,7 +18,7 @@ from gudgeon.language.units import LENGTH
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """One row: the arc by which the wheels have slipped (m)."""
+    """Return one row: the arc by which the wheels have slipped (m)."""
     radius_1, radius_2 = fields.vector("radii")
     sign = -1 if fields.option("internal") == "true" else 1
     carrier = fields.body_angle("carrier")

@@ -1,6 +1,6 @@
-"""What a joint type declares. One file in this folder is one joint type; it exports `JOINT`.
+"""Defines what a joint type declares. Each other file of this folder is one joint type and exports `JOINT`.
 
-As with the laws, nothing here imports SymPy at the top: the reader needs only the YAML fields.
+As with laws, nothing here imports SymPy at the top: the reader needs only the YAML fields.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 from gudgeon.generator.field import BODY, Field
 from gudgeon.generator.kinds import declared
 
-# Of a slider with play: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or the right.
+# Corners of a slider with play: front (1) or rear along the axis; at the wall to the left of the axis (1) or the right.
 CORNERS: Mapping[str, tuple[int, int]] = {
     "front_upper": (1, 1),
     "front_lower": (1, -1),
@@ -29,28 +29,28 @@ def draw_squares(pen: Any) -> None:
 
 
 def place_at_second(at: Any) -> Any:
-    """Return the second body's point."""
+    """Return the second body's point, where a joint's name stands in drawings."""
     return at.second
 
 
 def place_at_slider(at: Any) -> Any:
-    """Return the point that slides, of a joint that declares `slides`."""
+    """Return the sliding point of a joint that declares `slides`."""
     return at.slider
 
 
 def gap_between_points(at: Any, left: Any) -> Any:
-    """Return the two points, of a joint that holds them together."""
+    """Return the two points of a joint that holds them together, as the ends of its gap."""
     return at.first, at.second
 
 
 def gap_to_line(at: Any, left: Any) -> Any:
-    """Return the point that slides and the place of the line that is nearest to it."""
+    """Return the sliding point and the nearest point of its line, as the ends of a joint's gap."""
     return at.slider, at.on_line + float((at.slider - at.on_line) @ at.along) * at.along
 
 
 @dataclass(frozen=True)
 class Symbol:
-    """How drawings show a joint. Places are arrays (2,) in ground axes, m.
+    """Declare how drawings show a joint. Positions are arrays (2,) in ground axes, m.
 
     The functions get the joint at a posture, a JointAt (runtime/drawing/joint_at.py); `draw` gets a Pen
     (runtime/drawing/pen.py), which is a JointAt with primitives to draw by.
@@ -67,7 +67,7 @@ class Symbol:
 
 @dataclass(frozen=True)
 class Slide:
-    """The line on which one body slides: the field that is its direction, and which body has it: "first", "second"."""
+    """Declare the line on which one body slides: the field of its direction, and its body, "first" or "second"."""
 
     direction: str
     guide: str
@@ -75,11 +75,11 @@ class Slide:
 
 @dataclass(frozen=True)
 class JointType:
-    """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows, how it is shown.
+    """Declare a joint type: the YAML key `kind: [first.point, second.point]`, its fields and constraint equations.
 
     `rows(first, second, fields)` gets two PointFrames (generator/equations/geometry.py) and the JointFields
-    (generator/equations/constraints.py) and returns one SymPy expression a row name. No row changes when both bodies,
-    and further ones that fields name, move together: so the reaction is a pair of opposite wrenches.
+    (generator/equations/constraints.py) and returns one SymPy expression for each row name. No row changes if both
+    bodies, and further ones that fields name, move together: the reaction is a pair of opposite wrenches.
     """
 
     kind: str
@@ -101,26 +101,26 @@ class JointType:
 
     @property
     def is_pivot(self) -> bool:
-        """Whether its rows hold two points together and nothing else: the bodies turn on each other."""
+        """Return whether the joint only holds two points together, so that the bodies turn on each other."""
         return self.holds_points and self.carries == self.row_names
 
     @property
     def holds_points(self) -> bool:
-        """Whether its two points are one place."""
+        """Return whether the joint's two points coincide."""
         return len(self.carries) == 2
 
     @property
     def keeps_angle(self) -> bool:
-        """Whether the bodies do not turn to each other."""
+        """Return whether the bodies cannot turn relative to each other."""
         return "rad" in self.row_units
 
     @property
     def further_bodies(self) -> tuple[str, ...]:
-        """The fields that name a third body, such as a gear's carrier."""
+        """Return the fields that name a third body, such as a gear's carrier."""
         return tuple(own.name for own in self.fields if own.kind == BODY)
 
 
 @cache
 def joint_types() -> Mapping[str, JointType]:
-    """All the joint types in this folder by kind."""
+    """Return all joint types of this folder by kind."""
     return {joint.kind: joint for joint in declared("gudgeon.generator.kinds.joints", "JOINT", JointType)}

@@ -15,7 +15,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """One row: the distance of the point from the line (m)."""
+    """Return one row: the distance of the point from the line (m)."""
     u_x, u_y = second.direction(fields.direction("direction"))
     return [u_x * (first.y - second.y) - u_y * (first.x - second.x)]
 

@@ -15,7 +15,7 @@ from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, gap_bet
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Two rows: the two points' coordinates in ground axes are equal (m)."""
+    """Return two rows: the two points' coordinates in ground axes are equal (m)."""
     return [first.x - second.x, first.y - second.y]
 
 

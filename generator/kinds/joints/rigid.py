@@ -13,7 +13,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Three rows: the two points' coordinates are equal (m), the angle between the bodies (rad)."""
+    """Return three rows: the two points' coordinates are equal (m), the angle between the bodies (rad)."""
     turned = second.theta - first.theta - fields.quantity("angle", 0)
     return [first.x - second.x, first.y - second.y, turned]
 

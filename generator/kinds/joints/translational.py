@@ -16,7 +16,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
-    """Two rows: the offset from the axis (m), the angle between the bodies (rad)."""
+    """Return two rows: the offset from the axis (m), the angle between the bodies (rad)."""
     axis = fields.direction("axis")
     axis_x, axis_y = first.direction(axis)
     offset = axis_x * (second.y - first.y) - axis_y * (second.x - first.x)

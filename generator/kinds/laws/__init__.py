@@ -1,1 +1,1 @@
-"""One file a law of contact, friction or film."""
+"""Contains one file for each law of contact, friction or film."""

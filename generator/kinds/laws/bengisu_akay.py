@@ -18,12 +18,13 @@ from gudgeon.language.units import VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t."""
+    """Return the friction force F_t (N) on the journal along t."""
     import sympy as sp
 
     mu, mu_s, v0, decay = (s.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))
 
     def forward(u: Any) -> Any:
+        """Return the friction coefficient for a positive slip u."""
         rising = mu_s * (1 - sp.Min(u / v0 - 1, 0) ** 2)
         return rising - (mu_s - mu) * (1 - sp.exp(-sp.Max(u - v0, 0) / decay))
 

@@ -14,7 +14,7 @@ from gudgeon.generator.kinds.laws.roles import MU, MU_S, friction, slip_of
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t; x is the slip over that of the peak."""
+    """Return the friction force F_t (N) on the journal along t; x is the slip over that of the peak."""
     import sympy as sp
 
     mu, mu_s = s.parameters["mu"], s.parameters["mu_s"]

@@ -29,14 +29,14 @@ _CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 @dataclass(frozen=True)
 class Probe:
-    """A law in symbols of its own: its steps, and what its numbers are derived from."""
+    """Contain a law in symbols of its own: its steps, and the expressions of its derived constants."""
 
     steps: Mapping[str, Any]
     derived: Mapping[str, Any]
 
 
 def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
-    """Its abbreviations and results as SymPy, in their order. Raises LawError for what it may not give or use."""
+    """Return a law's abbreviations and results in SymPy, in order. Raises LawError for names or symbols not allowed."""
     import sympy as sp
 
     for name in (*(own.name for own in law.parameters), *(state.name for state in law.states)):
@@ -46,6 +46,7 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     written = frozenset(type(part) for x in inputs.parameters.values() for part in _parts(x))  # in the file: C has them
 
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
+        """Check a derived constant and return its symbol."""
         if not isinstance(name, str) or not isinstance(meaning, str):
             raise _error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
         _need_name(law, name)
@@ -79,12 +80,13 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
 
 
 def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -> Probe:
-    """A law by itself: for the names that it uses, and for what tells it from another one."""
+    """Build a law by itself, to find the names that it uses and to compute its key."""
     import sympy as sp
 
     derived: dict[str, Any] = {}
 
     def derive(name: str, expression: Any, meaning: str) -> Any:
+        """Record a derived constant and return its symbol."""
         derived[name] = expression
         return _real(f"probe_{name}")
 
@@ -99,9 +101,9 @@ def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -
 
 
 def key_of_law(law: Law) -> str:
-    """What a law that has no file says: its declaration, and what `build` derives to for every choice of its keys.
+    """Return the key of a law without a file: its declaration and its equations for every choice of its options.
 
-    Of too many choices, or where one fails, it is another one in each process: never what another process derived.
+    The key differs in each process if there are too many choices or one of them fails: nothing is then cached.
     """
     import sympy as sp
 
@@ -122,7 +124,7 @@ def key_of_law(law: Law) -> str:
 
 
 def _choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
-    """Every combination of its options, and of its numbers that may be left out."""
+    """Yield every combination of a law's options and of its optional numbers."""
     needed = [own.name for own in law.parameters if own.required or own.default is not None]
     free = [own.name for own in law.parameters if own.name not in needed]
     names = [own.name for own in law.options]
@@ -133,7 +135,7 @@ def _choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]
 
 
 def _checked_names(law: Law, steps: Any) -> frozenset[str]:
-    """The role's results, all of which are there, by names."""
+    """Return the results by name. Raises LawError if one of the role's results is missing."""
     results = law.results
     expected = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
     if not isinstance(steps, Mapping) or not all(isinstance(name, str) for name in steps):
@@ -144,13 +146,14 @@ def _checked_names(law: Law, steps: Any) -> frozenset[str]:
 
 
 def _need_name(law: Law, name: str) -> None:
-    """Raise LawError for a name as only the generator makes them (symbols.py)."""
+    """Raise LawError for a name that only the generator may use (symbols.py)."""
     if name.endswith("_"):
         hint = f"write {name.rstrip('_') or 'x'}; a number's `symbol` may be any letter"
         raise _error(law, f"{name!r} ends in '_', as names of emitted code do", hint)
 
 
 def _value(law: Law, what: str, value: Any) -> Any:
+    """Return a value as a SymPy expression. Raises LawError for other types."""
     import sympy as sp
 
     if isinstance(value, (bool, str)) or not isinstance(value, (sp.Expr, int, float)):
@@ -159,7 +162,7 @@ def _value(law: Law, what: str, value: Any) -> Any:
 
 
 def _check(law: Law, what: str, value: Any, known: set[Any], may: str, written: Set[type]) -> None:
-    """Raise LawError for a symbol that is not known, a function that C has not, what is not finite or not real."""
+    """Raise LawError for an unknown symbol, a function that C does not have, or a value not finite or not real."""
     import sympy as sp
 
     if strange := sorted(str(symbol) for symbol in value.free_symbols - known):
@@ -179,28 +182,31 @@ def _check(law: Law, what: str, value: Any, known: set[Any], may: str, written: 
 
 
 def _offered(law: Law) -> str:
-    """What `build` may use, in words."""
+    """Return a phrase that lists what `build` may use."""
     numbers = ", ".join(own.name for own in law.parameters) or "none"
     return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR)}"
 
 
 def _error(law: Law, message: str, hint: str = "", place: Any = None) -> LawError:
+    """Return the LawError about a law, with its file and name."""
     named = prefix(law.name, None if place else ORIGINS.get(law.name))
     return LawError(f"{named}{message}", place, hint)
 
 
 def _symbols(value: Any) -> set[Any]:
+    """Return the free symbols of a value."""
     return set(getattr(value, "free_symbols", ()))
 
 
 def _parts(value: Any) -> Iterable[Any]:
-    """Of an expression that the file gives; of a number nothing."""
+    """Return the parts of an expression that the file gives; nothing for a number."""
     import sympy as sp
 
     return sp.preorder_traversal(value) if isinstance(value, sp.Expr) else ()
 
 
 def _real(name: str) -> Any:
+    """Return a real symbol."""
     import sympy as sp
 
     return sp.Symbol(name, real=True)
@@ -212,11 +218,12 @@ Results = dict[str, NDArray[np.float64]]
 def alone(
     law: Law, numbers: Mapping[str, Any], options: Mapping[str, str | bool], pair: Mapping[str, float]
 ) -> Callable[..., Results]:
-    """Its results by name, SI, of arrays that broadcast: variables of its role, those that it reads besides, states.
+    """Return a law by itself as a function of arrays: variables of its role, further ones, inner states.
 
-    numbers: by key, those that may be left out left out; expressions of a variable as SymPy.
-    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. What it reads
-    besides is given whether it reads it or not. Raises LawError for what is not computed here.
+    The function returns the law's results by name in SI units.
+    numbers: by key, without optional ones that are left out; expressions of a variable as SymPy.
+    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. Further variables are arguments whether the law reads them or not.
+    Raises LawError if the law cannot be computed.
     """
     import sympy as sp
 
@@ -234,6 +241,7 @@ def alone(
         known.append(sp.Symbol(name, real=True))
 
     def results(*state: ArrayLike) -> Results:
+        """Return the law's results for arrays of its variables."""
         arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in state))
         values, found = list(arrays), dict[str, Any]()
         for name, function in functions:
@@ -248,5 +256,5 @@ def alone(
 
 
 def reads_besides(law: Law) -> int:
-    """How many variables stand between those of its role and its states."""
+    """Return the number of further variables between those of the role and the inner states."""
     return len(law.further)

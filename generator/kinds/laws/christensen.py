@@ -19,7 +19,7 @@ from gudgeon.generator.kinds.laws.roles import ROUGHNESS, overlap
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """The share of the dry contact, for δ > 0."""
+    """Return the fraction of the load that the dry contact carries, for δ > 0."""
     import sympy as sp
 
     gone, left = sp.symbols("gone left", real=True)

@@ -19,7 +19,7 @@ from gudgeon.language.units import LENGTH
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t; z_rate (m/s)."""
+    """Return the friction force F_t (N) on the journal along t, and z_rate (m/s), the rate of the bristle state."""
     import sympy as sp
 
     v_t, z = s.variables["v_t"], s.variables["z"]

@@ -70,7 +70,7 @@ DISSIPATION = word("dissipation", "whose hysteresis damping factor", (*FACTORS, 
 
 
 def hysteresis(s: LawInputs, factor: str) -> Any:
-    """1 + a δ̇/δ̇⁻, never negative unless the law `pulls`; with the restitution asked for, `restitution`.
+    """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution; it is not negative unless the law `pulls`.
 
     Where nothing drives the surfaces apart it stays above 0 by itself, for a e < 1. The corner is that of this factor
     alone: with the elastic force in it, it would be one at every separation.
@@ -85,12 +85,12 @@ def hysteresis(s: LawInputs, factor: str) -> Any:
 
 
 def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
-    """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law of Hertz's form with hysteresis damping is."""
+    """Return the normal force K δⁿ (1 + a δ̇/δ̇⁻), not negative, of Hertz's form with hysteresis damping."""
     return K * s.variables["delta"] ** s.parameters["exponent"] * hysteresis(s, factor)
 
 
 def delivered(a: float) -> float:
-    """The restitution e of a free impact: a (1 + e) = ln[(1 + a)/(1 − a e)], a ≥ 0."""
+    """Return the restitution e of a free impact: a (1 + e) = ln[(1 + a)/(1 − a e)], a ≥ 0."""
     from scipy.optimize import brentq
 
     if a == 0.0:
@@ -100,7 +100,7 @@ def delivered(a: float) -> float:
 
 
 def _solved(s: LawInputs, c_e: Any) -> Any:
-    """a with 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, the identity above with e = c_e, by Newton's method.
+    """Solve 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, the identity above with e = c_e, for a by Newton's method.
 
     Hu and Guo's factor lies above it by half at most, and 1e-5 of it at c_e = .99; from above the steps go one way, and
     four of them leave rounding. Where a is so small that rounding is all there is, a third of it is the longest step.
@@ -116,6 +116,7 @@ def _solved(s: LawInputs, c_e: Any) -> Any:
 
 
 def _exp(x: Any) -> Any:
+    """Return the exponential in SymPy."""
     import sympy as sp
 
     return sp.exp(x)

@@ -35,7 +35,7 @@ GEOMETRY = word(
 
 
 def pair_stiffness(s: LawInputs) -> Any:
-    """K (N/m^1.5), by the law's option `geometry`."""
+    """Return the contact stiffness K (N/m^1.5) of Hertz, for the law's option `geometry`."""
     import sympy as sp
 
     pair = s.pair
@@ -51,7 +51,7 @@ def pair_stiffness(s: LawInputs) -> Any:
 
 
 def contact_modulus(s: LawInputs) -> Any:
-    """E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j."""
+    """Return the contact modulus E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j."""
     pair = s.pair
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         return pair.E_i / (2 * (1 - pair.nu_i**2))
@@ -66,7 +66,10 @@ _END = 1e-9  # beyond the end, where no run goes on, ln(…) + k − 1 tends to 
 
 
 def cylinder_force(s: LawInputs, k: int, deepest: Any) -> dict[str, Any]:
-    """The steps to F_n (N) for δ > 0; no run goes deeper than `deepest` clearances."""
+    """Return the steps to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
+
+    `k` is the constant of the law; a run stops beyond `deepest` clearances.
+    """
     import sympy as sp
 
     delta = s.variables["delta"]

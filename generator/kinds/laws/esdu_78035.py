@@ -17,7 +17,7 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_n (N), compressive, for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
     return cylinder_force(s, 1, sp.Rational(37, 10))

@@ -18,7 +18,7 @@ from gudgeon.language.units import FORCE, LENGTH
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_n (N), compressive, for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
     force, delta = s.parameters["force"], s.variables["delta"]

@@ -35,12 +35,15 @@ REST = 0.0084  # r
 
 
 def around(s: Any, ratio: Any, n: Sequence[float]) -> Any:
-    """g0 or g1, of symbols, numbers or arrays; ratio = Λ."""
+    """Return g0 or g1 of symbols, numbers or arrays, for the ratio Λ."""
     return n[0] + s * (n[1] / (ratio + n[2] * s) + n[3] + s * (n[4] + n[5] * ratio))
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_r along n, F_t along t (N, on the journal); T0 is the shear torque per unit ω_j − ω_i (N·m·s)."""
+    """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
+
+    T0 is the shear torque per unit ω_j − ω_i (N·m·s).
+    """
     import sympy as sp
 
     epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))

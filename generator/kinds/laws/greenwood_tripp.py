@@ -21,7 +21,7 @@ POWER = 6.804
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """The share of the dry contact, for δ > 0."""
+    """Return the fraction of the load that the dry contact carries, for δ > 0."""
     import sympy as sp
 
     part = sp.Symbol("part", real=True)

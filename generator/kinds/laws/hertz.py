@@ -19,7 +19,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_n (N), compressive, for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0."""
     given = s.parameters.get("stiffness")
     K = pair_stiffness(s) if given is None else s.derive("K", given, "contact stiffness")
     return {"F_n": normal_force(s, K, str(s.options["dissipation"]))}

@@ -22,7 +22,7 @@ from gudgeon.language.units import DAMPING, STIFFNESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_n (N), compressive, for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0."""
     import sympy as sp
 
     K = s.derive("spring", s.parameters["stiffness"], "stiffness")

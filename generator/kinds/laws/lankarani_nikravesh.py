@@ -17,7 +17,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_n (N), compressive, for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0."""
     return {"F_n": normal_force(s, pair_stiffness(s), LAW.name)}
 
 

@@ -1,7 +1,6 @@
-"""What a force law declares. One file in this folder is one law; it exports `LAW`.
+"""Defines what a force law declares. Each other file of this folder is one law and exports `LAW`.
 
-This module and the top level of every law file import no SymPy: reading a YAML file needs a law's
-parameters and options, not its equations. Equations are built inside functions.
+Law files import no SymPy at the top: reading a YAML file needs a law's parameters and options, not its equations.
 """
 
 from __future__ import annotations
@@ -19,9 +18,9 @@ from gudgeon.generator.kinds import declared
 
 @dataclass(frozen=True)
 class PairSymbols:
-    """Journal j in bearing i, as SymPy symbols: radii R_i, R_j, radial clearance c, length L, E and ν.
+    """Contain the symbols of journal j in bearing i: radii R_i, R_j, radial clearance c, length L, E and ν.
 
-    A slider's corner at a wall of its guide: R_i = ∞, R_j the corner's radius, c the gap; there is no L.
+    For a slider's corner at a wall of its guide: R_i = ∞, R_j is the corner's radius, c the gap; there is no L.
     """
 
     R_i: Any
@@ -36,10 +35,10 @@ class PairSymbols:
 
 @dataclass(frozen=True)
 class LawInputs:
-    """What a law's `build` may use: its own parameters, the pair, and the state variables of its role.
+    """Contain the arguments of a law's `build`: its parameters, the pair, and the variables of its role.
 
-    `derive(name, expression, meaning)` gives the symbol of a constant that is computed once a run; `whole(x)` is x
-    that SymPy does not take apart (symbols/wholes.py).
+    `derive(name, expression, meaning)` returns the symbol of a constant that is computed once a run; `whole(x)` keeps
+    SymPy from expanding x (symbols/wholes.py).
     """
 
     parameters: Mapping[str, Any]
@@ -50,14 +49,14 @@ class LawInputs:
     whole: Callable[[Any], Any] = lambda x: x
 
 
-# The state variables that a role's law is written in, and what it returns.
+# The variables of the laws of a role.
 VARIABLES: Mapping[str, tuple[str, ...]] = {
     "normal": ("delta", "ratio"),  # δ > 0 (m), δ̇/δ̇⁻
     "friction": ("F_n", "v_t"),  # normal force (N), slip (m/s)
     "film": ("epsilon", "w_n", "w_t"),  # ε < 1, effective squeeze velocity over c (1/s)
     "mixed": ("delta",),  # δ > 0 (m)
 }
-# What a law of the role may read besides: it is an argument of those that do.
+# Further variables of the role that a law may read.
 FURTHER: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
 HELD = ("held_force",)  # N, what a law of surfaces that do not give reads in place of it: the force that keeps e = c
 RESULTS: Mapping[str, tuple[str, ...]] = {
@@ -66,9 +65,9 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
     "film": ("F_r", "F_t", "T0"),
     "mixed": ("share",),  # of the dry contact: 0 at δ = 0, never falling, 1 where no film is left
 }
-# What a mixed law may derive: the film's clearance, between the mean surfaces.
+# Constant that a mixed law may derive: the film's clearance, between the mean surfaces.
 MEAN_CLEARANCE = "mean_clearance"
-# What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.
+# Constant that a normal law may derive: the penetration (m) beyond which it is not valid and a run stops.
 DEEPEST = "deepest"
 # What a law with an inner state may derive: the deflection (m) at which its friction slides, which errors of the state
 # are measured by; without it they are measured by the lengths of the linkage.
@@ -79,7 +78,7 @@ SECANT_DEPTH = 0.05
 
 @dataclass(frozen=True)
 class State:
-    """An inner state of a law, a length (m): 0 at each onset, then integrated with the motion while in contact.
+    """Declare an inner state of a law, a length (m), 0 at each onset and integrated while in contact.
 
     `build` reads it as a variable of that name and returns its rate (m/s) as `<name>_rate`.
     """
@@ -90,7 +89,7 @@ class State:
 
 @dataclass(frozen=True)
 class Limits:
-    """What of a film law's validity is numbers: a run's report holds a run against them."""
+    """Contain the numerical limits of a film law's validity, with which a run's report compares the run."""
 
     l_over_d: tuple[float, float] = (0.0, math.inf)
     epsilon: float = 1.0
@@ -99,9 +98,9 @@ class Limits:
 
 @dataclass(frozen=True)
 class Law:
-    """A force law. `build(inputs: LawInputs)` returns the role's RESULTS by name, as SymPy.
+    """Declare a force law. `build(inputs: LawInputs)` returns the RESULTS of its role by name, in SymPy.
 
-    Local abbreviations, if any, are returned first under their own names, in order of use.
+    Local abbreviations precede them under their own names, in the order of use.
     """
 
     name: str
@@ -112,7 +111,7 @@ class Law:
     fields: tuple[Field, ...]  # the keys beside `law`
     build: Callable[..., Any]
     states: tuple[State, ...] = ()
-    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
+    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the options that they fix
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
     equation: tuple[str, ...] = ()  # LaTeX, a line each: the law as its source writes it, for docs/laws.md
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
@@ -122,36 +121,36 @@ class Law:
 
     @property
     def variables(self) -> tuple[str, ...]:
-        """What `build` is given by name: what all of its role are, what it may read besides, then states."""
+        """Return the names of the variables of `build`: those of its role, further ones, inner states."""
         return (*VARIABLES[self.role], *self.further, *(state.name for state in self.states))
 
     @property
     def further(self) -> tuple[str, ...]:
-        """What `build` may read besides what all of its role do."""
+        """Return the variables that `build` may read in addition to those of its role."""
         return HELD if self.rigid else FURTHER.get(self.role, ())
 
     @property
     def results(self) -> tuple[str, ...]:
-        """What `build` returns: what all of its role do, then rates."""
+        """Return the names of the results of `build`: those of its role, then rates of inner states."""
         return (*RESULTS[self.role], *(f"{state.name}_rate" for state in self.states))
 
     @property
     def parameters(self) -> tuple[Field, ...]:
-        """Its numbers: run-time slots `contacts.<contact>.<role>.<name>`."""
+        """Return the law's numbers: run-time parameters `contacts.<contact>.<role>.<name>`."""
         return tuple(own for own in self.fields if own.kind == NUMBER)
 
     @property
     def expressions(self) -> tuple[Field, ...]:
-        """Those of its numbers that are expressions of a variable, which a run has no slot for."""
+        """Return the law's keys that are expressions of a variable and thus no run-time parameters."""
         return tuple(own for own in self.parameters if own.varies)
 
     @property
     def options(self) -> tuple[Field, ...]:
-        """Its structural choices: words, and flags with the values False and True."""
+        """Return the law's structural options: words, and flags with the values False and True."""
         return tuple(own for own in self.fields if own.kind != NUMBER)
 
     def check(self, numbers: Mapping[str, float]) -> None:
-        """Raise BadValueError for a number, by its key, that the law's bounds forbid."""
+        """Raise BadValueError for a number that violates the law's bounds; `numbers` is by key."""
         for own in self.fields:
             for bound in own.bounds if own.name in numbers else ():
                 value, limit = numbers[own.name], numbers.get(bound.limit, bound.limit)  # type: ignore[arg-type]
@@ -160,7 +159,10 @@ class Law:
                     raise BadValueError(f"{own.name} is {value:g}: {expected}")
 
     def fields_as(self, name: str) -> tuple[Field, ...]:
-        """The keys beside `law: name`: under another name its choices are made, and the restitution must be given."""
+        """Return the keys of the law under one of its names.
+
+        Another name fixes some options and requires the restitution.
+        """
         if name == self.name:
             return self.fields
         return tuple(
@@ -170,22 +172,22 @@ class Law:
         )
 
 
-OWN: dict[str, Law] = {}  # laws of the user's own (registered.py)
+OWN: dict[str, Law] = {}  # user-defined laws (registered.py)
 
 
 @cache
 def house() -> Mapping[str, Law]:
-    """The laws in this folder by name."""
+    """Return the laws in this folder by name."""
     return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
 
 
 def laws() -> Mapping[str, Law]:
-    """All the laws by name: those in this folder, and the user's own."""
+    """Return all laws by name: those in this folder and user-defined ones."""
     return {**house(), **OWN}
 
 
 def called(role: str) -> Mapping[str, Law]:
-    """The laws of a role by every name that they have: their own ones first, and the user's last."""
+    """Return the laws of a role by each of their names: those of this folder first, user-defined ones last."""
     found: dict[str, Law] = {}
     for some in (house(), OWN):
         fitting = {law.name: law for law in some.values() if law.role == role}

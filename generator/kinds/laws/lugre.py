@@ -22,7 +22,7 @@ from gudgeon.language.units import dimension
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t; z_rate (m/s)."""
+    """Return the friction force F_t (N) on the journal along t, and z_rate (m/s), the rate of the bristle state."""
     import sympy as sp
 
     names = ("mu", "mu_s", "v_s", "stiffness", "damping")

@@ -20,7 +20,7 @@ from gudgeon.language.units import VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t."""
+    """Return the friction force F_t (N) on the journal along t."""
     v0, v1, v_t = s.parameters["v0"], s.parameters["v1"], s.variables["v_t"]
     slope = s.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
     forward, backward = (_share((v - v0) * slope) for v in (v_t, -v_t))
@@ -29,7 +29,7 @@ def build(s: LawInputs) -> dict[str, Any]:
 
 @lru_cache(64)
 def _share(x: Any) -> Any:
-    """x from 0 to 1. SymPy takes a while to compare it with both, and joints of one contact ask the same."""
+    """Return x limited to the range from 0 to 1; cached, since SymPy's comparisons are slow."""
     import sympy as sp
 
     return sp.Max(sp.Min(x, 1), 0)

@@ -28,7 +28,7 @@ from gudgeon.language.units import DIMENSIONLESS, VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_n (N) of a closed contact: whatever keeps its surfaces together, which a run finds out."""
+    """Return the normal force F_n (N) of a closed contact: the force that keeps e = c, which a run determines."""
     return {"F_n": s.variables["held_force"]}
 
 

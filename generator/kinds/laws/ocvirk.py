@@ -25,7 +25,10 @@ from gudgeon.generator.kinds.laws.roles import CAVITATION, OIL_FIELDS, TINY, fil
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_r along n, F_t along t (N, on the journal); T0 is the shear torque per unit ω_j − ω_i (N·m·s)."""
+    """Return the film forces F_r along n and F_t along t (N, on the journal), and T0.
+
+    T0 is the shear torque per unit ω_j − ω_i (N·m·s).
+    """
     import sympy as sp
 
     epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))

@@ -1,7 +1,7 @@
-"""Laws of the user's own: a file that exports `LAW`, as those of this folder do, or a Law made in Python.
+"""Registers user-defined laws: a file that exports `LAW`, like the files of this folder, or a Law made in Python.
 
-Only the command line and Python name such a file, for it is run as Python: no text of a mechanism does. A scene that
-uses a law is kept in the cache under the law's key: edited, it is derived anew.
+Such a file is run as Python, so that only the command line and Python name it, never a mechanism file. A scene that
+uses a law is cached under the law's key: an edited law is derived anew.
 """
 
 from __future__ import annotations
@@ -32,9 +32,10 @@ WHOLE = "docs/describing.md has one whole"
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a law comes from: its file as it was typed, and where that is; "" of one that was made in Python.
+    """Represent where a law comes from: its path as given, and its absolute path; "" for a law made in Python.
 
-    `key`: the SHA-256 of the file and of what it imports from beside it, else of what it derives to; "": not asked yet.
+    `key`: SHA-256 of the file and of modules next to it that it imports, else of its derived equations; "": not
+    computed.
     """
 
     typed: str
@@ -46,15 +47,15 @@ ORIGINS: dict[str, Origin] = {}  # of the laws in OWN
 
 
 def register(law: str | os.PathLike[str] | Law) -> Law:
-    """Makes a force law of your own known to every mechanism that is read from now on; it is returned.
+    """Register a user-defined force law for every mechanism that is read afterwards, and return it.
 
-    law: a Python file that exports `LAW`, which is run, or a Law. To register it again, edited, replaces it.
+    law: a Python file that exports `LAW`, which is run, or a Law. A law of the same origin is replaced.
     Raises LawError, an InputError, for a file that cannot be read, fails or has no LAW, a name that another law has,
-    and a declaration that is none; what `build` gives is looked at when a scene uses it.
+    and a wrong declaration; the results of `build` are checked when a scene uses it.
     """
-    own, origin = (law, Origin("", "", "")) if isinstance(law, Law) else _of_file(path(law, "law"))
+    own, origin = (law, Origin("", "", "")) if isinstance(law, Law) else _load_file(path(law, "law"))
     try:
-        _check(own, origin)
+        _check_declaration(own, origin)
     except LawError as error:
         raise LawError(f"{prefix(own.name, origin)}{error.message}", hint=error.hint) from None
     except Exception as error:  # a field of a type that nobody thought of
@@ -66,13 +67,13 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
 
 
 def prefix(name: object, origin: Origin | None) -> str:
-    """What begins an error about a law: its file and name."""
+    """Return the beginning of an error about a law: its file and name."""
     file = f"{origin.typed}: " if origin is not None and origin.typed else ""
     return f"{file}law {name}: " if isinstance(name, str) else file
 
 
 def key_of(name: str) -> str:
-    """What a law of the user's own says now, as a SHA-256; "" where there is none of that name."""
+    """Return the key of a user-defined law, a SHA-256 of its content; "" if there is none of that name."""
     if name not in OWN:
         return ""
     if not ORIGINS[name].key:
@@ -83,15 +84,15 @@ def key_of(name: str) -> str:
 
 
 def place_in(error: BaseException, file: str) -> Location | None:
-    """Where in a file an error arose; None: not there."""
+    """Return the location in a file at which an error arose; None if it arose elsewhere."""
     if isinstance(error, SyntaxError) and error.filename == file:
         return Location(file, error.lineno or 1, error.offset or 1)
     lines = [line for frame, line in traceback.walk_tb(error.__traceback__) if frame.f_code.co_filename == file]
     return Location(file, lines[-1], 1) if lines else None
 
 
-def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
-    """Runs a file. What it does at its top is the user's own business."""
+def _load_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
+    """Run a law's file and return its law. Raises LawError."""
     shown, hint = shortened(typed), f"expected a Python file that exports LAW; {WHOLE}"
     if not os.fspath(typed):
         raise LawError("a law's file has no name: ''", hint=hint)
@@ -116,13 +117,13 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     if not isinstance(law, Law):
         what = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
         raise LawError(f"{shown} has {what}", hint=f"expected LAW = Law(name=…, role=…, build=build); {WHOLE}")
-    for other in _beside(module, {module}):
+    for other in _imported_modules(module, {module}):
         digest.update(Path(str(other.__file__)).read_bytes())
     return law, Origin(shown, str(module.__file__), digest.hexdigest())
 
 
 def told(error: BaseException) -> str:
-    """An error of Python's as one line."""
+    """Return a Python error as one line."""
     try:
         text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
     except Exception:  # its own words fail
@@ -130,8 +131,8 @@ def told(error: BaseException) -> str:
     return f"{type(error).__name__}{': ' if text else ''}{text}"
 
 
-def _beside(module: ModuleType, seen: set[ModuleType]) -> Iterator[ModuleType]:
-    """The user's own modules that a law's file imports at its top: neither Python's, nor installed ones, nor ours."""
+def _imported_modules(module: ModuleType, seen: set[ModuleType]) -> Iterator[ModuleType]:
+    """Yield the user's modules that a law's file imports: not Python's, installed or gudgeon's."""
     installed = tuple(sysconfig.get_paths()[name] for name in ("stdlib", "platstdlib", "purelib", "platlib"))
     for value in list(vars(module).values()):
         other = value if isinstance(value, ModuleType) else sys.modules.get(getattr(value, "__module__", None) or "")
@@ -141,17 +142,17 @@ def _beside(module: ModuleType, seen: set[ModuleType]) -> Iterator[ModuleType]:
         file = getattr(other, "__file__", None)
         if file and not other.__name__.startswith("gudgeon") and not os.path.abspath(file).startswith(installed):
             yield other
-            yield from _beside(other, seen)
+            yield from _imported_modules(other, seen)
 
 
-def _check(law: Law, origin: Origin) -> None:
-    """Raise LawError for a declaration that is none, or a name that is another's."""
+def _check_declaration(law: Law, origin: Origin) -> None:
+    """Raise LawError for a wrong declaration, or a name that another law has."""
     for name in ("name", "title", "source", "validity"):
         _need(isinstance(getattr(law, name), str), f"its {name} is no text")
     check_name(law.name, "law")
     for what in (law.name, *law.also):
-        taken = {name for other in house().values() for name in (other.name, *other.also)}
-        _need(what not in taken, f"{what} is a law of gudgeon's", "give yours another name")
+        used = {name for other in house().values() for name in (other.name, *other.also)}
+        _need(what not in used, f"{what} is a law of gudgeon's", "give yours another name")
         others = [other for other in OWN.values() if other.name != law.name]
         _need(all(what not in (o.name, *o.also) for o in others), f"{what} is another registered law's name")
     known = ORIGINS.get(law.name)
@@ -164,7 +165,7 @@ def _check(law: Law, origin: Origin) -> None:
 
 
 def _check_keys(law: Law) -> None:
-    """Its fields and states."""
+    """Raise LawError for wrong fields, states or options of a law."""
     _need(all(isinstance(own, Field) for own in law.fields), "a field is none", "expected number(…), word(…), flag(…)")
     kinds = {own.name: own.kind for own in law.fields}
     names = [*(own.name for own in law.fields), *(state.name for state in law.states if isinstance(state, State))]
@@ -184,7 +185,7 @@ def _check_keys(law: Law) -> None:
 
 
 def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
-    """What one key declares, and its default by that; a default that is a key's own is looked at with the file."""
+    """Raise LawError for a wrong declaration of a key; defaults that name other keys are checked with the file."""
     for what in ("meaning", "symbol", "otherwise"):
         _need(isinstance(getattr(own, what), str), f"the {what} of {own.name} is no text")
     if own.kind != NUMBER:
@@ -220,20 +221,22 @@ def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
 
 
 def _is_number(value: object) -> TypeGuard[float]:
+    """Return whether a value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def check_name(name: Any, what: str) -> None:
-    """Raise LawError unless it is an identifier that emitted code keeps for nothing else."""
+    """Raise LawError unless the name is an identifier that emitted code does not reserve."""
     _need(isinstance(name, str), f"the name of a {what} is no text")
     try:
         check_label(name, what, None)
     except BadNameError as error:
         raise LawError(error.message, hint=error.hint) from None
-    kept = "__" in name
-    _need(not kept, f"{name!r} is kept for emitted code", "choose another name")
+    reserved = "__" in name
+    _need(not reserved, f"{name!r} is kept for emitted code", "choose another name")
 
 
 def _need(fine: bool, message: str, hint: str = "") -> None:
+    """Raise LawError unless a condition holds."""
     if not fine:
         raise LawError(message, hint=hint)

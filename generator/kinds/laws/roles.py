@@ -29,19 +29,19 @@ MU_S = number(
 
 
 def slip_of(name: str, meaning: str, symbol: str) -> Field:
-    """A slip (m/s) above 0 that a law names."""
+    """Declare a positive slip velocity (m/s) of a law."""
     return number(name, meaning, VELOCITY, symbol=symbol, required=True, bounds=(Bound(">", 0.0),))
 
 
 def both_ways(v_t: Any, forward: Callable[[Any], Any]) -> Any:
-    """An odd function of the slip from what it is for u = max(v_t, 0); `forward(0)` is 0."""
+    """Return an odd function of the slip from `forward` of u = max(v_t, 0), which is 0 at 0."""
     import sympy as sp
 
     return forward(sp.Max(v_t, 0)) - forward(sp.Max(-v_t, 0))
 
 
 def friction(s: LawInputs, coefficient: Any) -> dict[str, Any]:
-    """F_t (N) on the journal, along t, by an odd coefficient of the slip."""
+    """Return the friction force F_t (N) on the journal along t, from an odd coefficient of the slip."""
     return {"F_t": -coefficient * s.variables["F_n"]}
 
 
@@ -75,12 +75,14 @@ OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCI
 
 
 def film_clearance(s: LawInputs) -> Any:
-    """c + e_t (m)."""
+    """Return the clearance of the film, c + e_t (m)."""
     return s.derive("film_clearance", s.pair.c + s.parameters["extra_clearance"], "clearance of the film")
 
 
 def shear_torque(s: LawInputs, c: Any, root: Any) -> Any:
-    """T0 per unit ω_j − ω_i (N·m·s) of a gap that is full: 2π μ R_j³ L/(c √(1 − ε²)); 0 without `shear`."""
+    """Return the shear torque of a full gap per unit ω_j − ω_i (N·m·s), 0 without the option `shear`.
+
+    T0 = 2π μ R_j³ L/(c √(1 − ε²))"""
     import sympy as sp
 
     if not s.options["shear"]:
@@ -100,7 +102,7 @@ ROUGHNESS = number(
 
 
 def overlap(s: LawInputs, first: int, last: int) -> Any:
-    """How much of the way from Λ = `first`, where tips touch, to `last`, where all does, is gone: δ's share, 1 at most.
+    """Return δ's fraction of the way from Λ = `first`, where tips touch, to `last`, where all do; at most 1.
 
     The film's clearance follows from `first`.
     """

@@ -15,7 +15,7 @@ from gudgeon.generator.kinds.laws.roles import MU, both_ways, friction, slip_of
 
 
 def build(s: LawInputs) -> dict[str, Any]:
-    """F_t (N) on the journal, along t."""
+    """Return the friction force F_t (N) on the journal along t."""
     import sympy as sp
 
     v_r = s.parameters["v_r"]

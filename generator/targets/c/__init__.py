@@ -1,1 +1,1 @@
-"""C: printing, which templates, names for the runtime."""
+"""Writes a scene as C: printers, templates and the description for the runtime."""

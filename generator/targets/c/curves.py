@@ -1,4 +1,4 @@
-"""The tables of a file's curves as C: those that the other texts call, for engine/scene/curves.h."""
+"""Writes the tables of a file's curves as C, for engine/scene/curves.h; only curves that other files call."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NAME = "curves.c"
 
 
 def curves_code(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
-    """The file; "" where nothing calls a curve."""
+    """Return the text of curves.c; "" if no text calls a curve."""
     called = [curve for curve in curves.values() if any(f"({c_name(curve.name)}," in text for text in texts)]
     if not called:
         return ""
@@ -30,16 +30,16 @@ def curves_code(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
 
 
 def _table(curve: Curve) -> str:
-    """Knots, and the coefficients of the pieces between them."""
-    told = comment_text(f"{curve.name}: {curve.told()}")
+    """Return the C tables of one curve: knots, and the coefficients of the pieces between them."""
+    description = comment_text(f"{curve.name}: {curve.told()}")
     if curve.is_long:
-        tables = _bytes("knots", curve.name, curve.x) + _bytes("pieces", curve.name, curve.coefficients)
-        return "\n".join([f"/* {told} */", _LITTLE_ENDIAN, *tables, ""])
+        tables = _byte_table("knots", curve.name, curve.x) + _byte_table("pieces", curve.name, curve.coefficients)
+        return "\n".join([f"/* {description} */", _LITTLE_ENDIAN, *tables, ""])
     knots = [", ".join(map(repr, curve.x[k : k + 4])) for k in range(0, len(curve.x), 4)]
     pieces = [f"    {{{', '.join(map(repr, piece))}}}," for piece in curve.coefficients]
     return "\n".join(
         [
-            f"/* {told} */",
+            f"/* {description} */",
             f"static const double knots_of_{curve.name}[] = {{",
             *(f"    {line}," for line in knots),
             "};",
@@ -51,8 +51,8 @@ def _table(curve: Curve) -> str:
     )
 
 
-def _bytes(what: str, name: str, table: Any) -> list[str]:
-    """A long table as the bytes of its numbers, which a compiler reads far sooner than the numbers themselves."""
+def _byte_table(what: str, name: str, table: Any) -> list[str]:
+    """Return a long table as the bytes of its numbers, which a compiler reads much faster than numbers."""
     data = np.asarray(table, "<f8")
     shape = "".join(f"[{n}]" for n in data.shape)
     octal = np.array([f"\\{k:03o}".encode() for k in range(256)])[np.frombuffer(data.tobytes(), np.uint8)]

@@ -1,4 +1,4 @@
-"""The names of everything in the emitted C, for the runtime: a KernelSource."""
+"""Describes the contents of the emitted C for the runtime: a KernelSource."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from gudgeon.language.defined import is_defined_everywhere
 from gudgeon.language.tree import Expr, names, to_json
 from gudgeon.language.units import Dimension
 
-UNTOLD = Story()
+EMPTY_STORY = Story()
 
 
 def describe(
@@ -52,14 +52,14 @@ def describe(
     closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (),
     formulation: str = "full",
-    story: Story = UNTOLD,
+    story: Story = EMPTY_STORY,
     lanes: str = "",
     chain: Chain | None = None,
     stages: bool = False,
 ) -> KernelSource:
-    """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
+    """Return everything that the runtime must know of a scene; facts about the code are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
-    place = {symbol: k for k, symbol in enumerate(_prepared(model))}
+    place = {symbol: k for k, symbol in enumerate(_parameter_symbols(model))}
     body_of = {name: k for k, name in enumerate(model.geometry.bodies)} | {GROUND: -1}
     row_of = {row.name: r for r, row in enumerate(model.rows)}
     unit_of = {row.name: row.unit for row in model.all_rows}
@@ -75,13 +75,13 @@ def describe(
         stages=stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
-        points=_points(model, place, body_of),
-        rows=tuple(map(_row, model.rows)),
-        joints=_joints(model, body_of, row_of),
+        points=_point_infos(model, place, body_of),
+        rows=tuple(map(_row_info, model.rows)),
+        joints=_joint_infos(model, body_of, row_of),
         drives=tuple(DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives),
-        clearances=_clearances(model, place, body_of),
+        clearances=_clearance_infos(model, place, body_of),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
-        start_rows=tuple(map(_row, model.all_rows)),
+        start_rows=tuple(map(_row_info, model.all_rows)),
         start_guess=tuple(start.guess),
         start_set=tuple(start.set),
         start_rates=tuple(start.rates),
@@ -90,11 +90,11 @@ def describe(
         start_pivots=start_pivots,
         indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
-        slots=tuple(_slots(model)),
+        slots=tuple(_parameter_slots(model)),
         derived=tuple(symbol.name.removesuffix("_") for symbol in model.slots.derived),
         conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
-        simulate=_simulate(model),
+        simulate=_default_settings(model),
         operations=dict(operations),
         notes=scene_notes(model),
         gravity=any(c != 0 for c in model.gravity),
@@ -105,55 +105,57 @@ def describe(
         chain=chain.names if chain else (),
         chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        lines=_lines(mechanism),
+        lines=_file_lines(mechanism),
         massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)),
-        written=tuple(_written(model)),
-        expressions=tuple(_info(one, one.written) for one in mechanism.expressions.values()),
-        simulate_written=tuple(_simulate_written(model)),
-        states=_states(model),
+        written=tuple(_written_expressions(model)),
+        expressions=tuple(_written_info(one, one.written) for one in mechanism.expressions.values()),
+        simulate_written=tuple(_written_settings(model)),
+        states=_inner_states(model),
         story=story,
         lanes=lanes,
-        parts=tuple(_parts(mechanism)),
+        parts=tuple(_connections(mechanism)),
         rigid=model.rigid,
-        contours=tuple(_contours(model)),
+        contours=tuple(_contour_infos(model)),
     )
 
 
-def _slots(model: Model) -> Iterator[Slot]:
+def _parameter_slots(model: Model) -> Iterator[Slot]:
+    """Yield the run-time parameters with address, unit, default and their expression if it may be undefined."""
     for e in model.slots.entries.values():
         exponents = _exponents(e.dimension)
         tree = "" if e.written is None or is_defined_everywhere(e.written) else json.dumps(to_json(e.written))
         yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words, tree)
 
 
-def _lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
-    """Where joints and drives stand in the file."""
+def _file_lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
+    """Return the lines of joints and drives in the file."""
     joints = [(name, joint.where.line) for name, joint in mechanism.joints.items()]
     return (*joints, *((name, drive.where.line) for name, drive in mechanism.drives.items()))
 
 
-def _parts(mechanism: Mechanism) -> Iterator[PartInfo]:
-    """What the file joins, drives and loads, and where."""
+def _connections(mechanism: Mechanism) -> Iterator[PartInfo]:
+    """Yield joints, drives and forces with the points that they connect."""
     for joint in mechanism.joints.values():
-        yield PartInfo("joints", joint.name, joint.kind, _ends(joint.first, joint.second), dict(joint.options))
+        yield PartInfo("joints", joint.name, joint.kind, _point_names(joint.first, joint.second), dict(joint.options))
     for drive in mechanism.drives.values():
-        ends = _ends(*drive.points) or tuple(f"{body}.com" for body in (drive.body, drive.reference) if body)
+        ends = _point_names(*drive.points) or tuple(f"{body}.com" for body in (drive.body, drive.reference) if body)
         options = {"coordinate": drive.coordinate} if drive.kind == "coordinate" else {}
         yield PartInfo("drives", drive.name, drive.kind, ends, options)
     for force in mechanism.forces.values():
-        yield PartInfo("forces", force.name, force.kind, _ends(*force.targets), dict(force.options))
+        yield PartInfo("forces", force.name, force.kind, _point_names(*force.targets), dict(force.options))
 
 
-def _ends(*points: PointRef) -> tuple[str, ...]:
+def _point_names(*points: PointRef) -> tuple[str, ...]:
+    """Return points as "body.point"."""
     return tuple(f"{point.body}.{point.point}" for point in points)
 
 
-def _states(model: Model) -> tuple[str, ...]:
-    """As C has them in discrete, as many for each joint: "" is none."""
+def _inner_states(model: Model) -> tuple[str, ...]:
+    """Return the inner states of laws in the order of DiscreteState, equally many for each joint; "" for none."""
     return tuple(
         f"{c.name}.{c.states[k].name}" if k < len(c.states) else ""
         for c in model.clearances
@@ -161,15 +163,15 @@ def _states(model: Model) -> tuple[str, ...]:
     )
 
 
-def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
-    """Joints without play."""
+def _joint_infos(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
+    """Return the joints without play, with their bodies and constraint equations."""
     return tuple(
         JointInfo(
             joint.name,
             joint.kind,
             body_of[joint.first.body],
             body_of[joint.second.body],
-            _ends(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
+            _point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
             tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in kept_joints(model)
@@ -177,7 +179,7 @@ def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int])
 
 
 def _conditions(model: Model) -> tuple[Condition, ...]:
-    """The file's, of numbers that this scene has; and of signs that its equations take for granted."""
+    """Return the file's conditions on parameters of this scene, and those on signs that its equations assume."""
     used = set(model.slots.entries)
     return tuple(
         Condition(c.address, c.relation, c.bound, c.message)
@@ -189,8 +191,8 @@ def _conditions(model: Model) -> tuple[Condition, ...]:
     )
 
 
-def _written(model: Model) -> Iterator[WrittenInfo]:
-    """Expressions of t and motion, and literal zeros, for what a run says of one that is no number."""
+def _written_expressions(model: Model) -> Iterator[WrittenInfo]:
+    """Yield expressions of t and motion and literal zeros, for messages about addresses that are not parameters."""
     mechanism, scene = model.scene.mechanism, model.scene
     found = [drive.value for drive in mechanism.drives.values()]
     for force in mechanism.forces.values():
@@ -198,45 +200,53 @@ def _written(model: Model) -> Iterator[WrittenInfo]:
     found += [event.zero for event in scene.events.values()]
     for quantity in found:
         if any(name.path == "t" or "." in name.path for name in names(quantity.value)):
-            yield _info(quantity)
+            yield _written_info(quantity)
     zeros = {one.address: one for one in quantities(scene) if one.is_zero and one.address not in model.slots.entries}
-    yield from map(_info, zeros.values())
+    yield from map(_written_info, zeros.values())
 
 
-def _info(quantity: Quantity, tree: Expr | None = None) -> WrittenInfo:
+def _written_info(quantity: Quantity, tree: Expr | None = None) -> WrittenInfo:
+    """Return an expression of the file with its location."""
     where, tree = quantity.where, tree or quantity.value
     return WrittenInfo(quantity.address, json.dumps(to_json(tree)), where.line, where.column)
 
 
-def _prepared(model: Model) -> list[sp.Symbol]:
-    """The members of `Parameters` in their order."""
+def _parameter_symbols(model: Model) -> list[sp.Symbol]:
+    """Return the members of `Parameters` in their order."""
     return [entry.symbol for entry in model.slots.entries.values()] + list(model.slots.derived)
 
 
-def _row(row: Row) -> RowInfo:
+def _row_info(row: Row) -> RowInfo:
+    """Return the description of a constraint equation."""
     return RowInfo(row.name, row.owner, row.kind, row.unit)
 
 
-def _index(place: Mapping[sp.Symbol, int], value: sp.Expr) -> tuple[int, int]:
-    """(index into p, sign) of a number that is a symbol, its negative, or zero (−1)."""
+def _parameter_index(place: Mapping[sp.Symbol, int], value: sp.Expr) -> tuple[int, int]:
+    """Return (index in p, sign) of a value that is a parameter, its negative, or zero (index −1)."""
     if value == 0:
         return -1, 1
     return (place[value], 1) if value in place else (place[-value], -1)
 
 
-def _points(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[PointInfo, ...]:
+def _point_infos(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[PointInfo, ...]:
+    """Return the points of bodies and ground with the indices of their coordinates in p."""
     points = []
     for (body, name), (x, y) in model.geometry.local.items():
-        (ix, sx), (iy, sy) = _index(place, x), _index(place, y)
+        (ix, sx), (iy, sy) = _parameter_index(place, x), _parameter_index(place, y)
         points.append(PointInfo(f"{body}.{name}", body_of[body], ix, iy, sx, sy))
     for name, vector in model.scene.mechanism.ground.items():
         x, y = model.geometry.ground_vector(vector)
         if all(value == 0 or value in place for value in (x, y)):
-            points.append(PointInfo(f"{GROUND}.{name}", -1, _index(place, x)[0], _index(place, y)[0], 1, 1))
+            points.append(
+                PointInfo(f"{GROUND}.{name}", -1, _parameter_index(place, x)[0], _parameter_index(place, y)[0], 1, 1)
+            )
     return tuple(points)
 
 
-def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[ClearanceInfo, ...]:
+def _clearance_infos(
+    model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]
+) -> tuple[ClearanceInfo, ...]:
+    """Return the joints with play, with their bodies, laws and constants."""
     return tuple(
         ClearanceInfo(
             c.name,
@@ -252,7 +262,8 @@ def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[s
     )
 
 
-def _contours(model: Model) -> Iterator[ContourInfo]:
+def _contour_infos(model: Model) -> Iterator[ContourInfo]:
+    """Yield the contours of bearings with the index of their first depth in p."""
     place = {entry.symbol: k for k, entry in enumerate(model.slots.entries.values())}
     for clearance in model.clearances:
         if clearance.contour:
@@ -260,7 +271,8 @@ def _contours(model: Model) -> Iterator[ContourInfo]:
             yield ContourInfo(clearance.name, place[first], clearance.contour.count)
 
 
-def _simulate(model: Model) -> dict[str, float]:
+def _default_settings(model: Model) -> dict[str, float]:
+    """Return the default values of t_end, output and step."""
     from gudgeon.language.tree import evaluate
 
     defaults = {e.address: e.default for e in model.slots.entries.values()}
@@ -270,15 +282,15 @@ def _simulate(model: Model) -> dict[str, float]:
     }
 
 
-def _simulate_written(model: Model) -> Iterator[WrittenInfo]:
-    """What of the scene's own t_end, output and step follows parameters."""
+def _written_settings(model: Model) -> Iterator[WrittenInfo]:
+    """Yield the scene's t_end, output and step that depend on parameters."""
     for quantity in model.scene.simulate.values():
         if next(names(quantity.value), None) is not None:
-            yield _info(quantity)
+            yield _written_info(quantity)
 
 
 def _exponents(dimension: Dimension) -> tuple[float, float, float]:
-    """Exponents of m, kg, s: whole, or halves (N/m^1.5); a number with another one takes bare numbers only."""
+    """Return the exponents of m, kg and s; zeros for exponents finer than halves, which accept bare numbers only."""
     if not dimension.has_halves_at_most:
         return 0, 0, 0
     length, mass, time = (int(x) if x.denominator == 1 else float(x) for x in vars(dimension).values())

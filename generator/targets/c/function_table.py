@@ -1,4 +1,4 @@
-"""engine/scene/function_table.h: what C needs of functions that follow one pattern, from gudgeon.language.functions."""
+"""Writes engine/scene/function_table.h: the functions that follow one pattern, from gudgeon.language.functions."""
 
 from __future__ import annotations
 
@@ -45,10 +45,12 @@ def function_table() -> str:
 
 
 def _macro(head: str, calls: list[str]) -> str:
+    """Return a macro that lists calls, one a line."""
     return " \\\n".join((f"#define {head}", *(f"    {call}" for call in calls))) + "\n"
 
 
 def _rising(function: Function) -> str:
+    """Return the entry of a rising function: its domain, the extremum of its slope and the slope."""
     assert function.bounds
     x, f = sp.Symbol("x", real=True), sp.Symbol(f"{function.in_c}(x)", real=True)
     slope = function.bounds.slope or printer.expression(derivative_at(function.derivative, x, f))
@@ -57,7 +59,7 @@ def _rising(function: Function) -> str:
 
 
 def _number(value: float) -> str:
-    """A number as C has it."""
+    """Return a number as C."""
     if math.isnan(value):
         return "NAN"
     return repr(value) if math.isfinite(value) else "-INFINITY" if value < 0.0 else "INFINITY"

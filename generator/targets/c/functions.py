@@ -1,4 +1,4 @@
-"""Lines of functions, and whole functions, as C11."""
+"""Prints lines of functions, and whole functions, as C11."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import Place, key_of
 from gudgeon.generator.targets.c.printer import WIDTH, CPrinter, Text, broken, comment_text, expression
 
-# Functions that engine/scene/kernels.h declares: the engine calls them from a unit of its own.
+# Functions that engine/scene/kernels.h declares: the engine calls them from another compilation unit.
 CALLED_BY_ENGINE = frozenset(
     {
         "prepare",
@@ -88,19 +88,20 @@ _PLAIN: dict[type, str] = {
 
 
 class Lines(Text):
-    """Lines of one function as C; `number` is the type of its locals."""
+    """Print the lines of one function as C; `number` is the type of its locals."""
 
     def __init__(self, printer: CPrinter, number: str = "double") -> None:
         super().__init__(printer)
         self.number = number
 
     def line(self, item: Line) -> str:
-        """Any line, as long as it must be."""
+        """Return any line of a kernel as C, broken where it is too long."""
         if isinstance(item, Statement):
             return self.statement(item)
         return "\n".join(part for text in self._lines(item) for part in broken(f"    {text}"))
 
     def _lines(self, item: Line) -> Sequence[str]:
+        """Return one line of a kernel as lines of C without indent."""
         match item:
             case Branch():
                 return self._branch(item)
@@ -121,7 +122,7 @@ class Lines(Text):
             case Ended():
                 return [f"if ({item.status})", f"    {'goto dependent' if item.jumps else f'return {item.status}'};"]
             case Branches():
-                return _sides(item)
+                return _branch_arrays(item)
             case Sines():
                 return self._sines(item)
             case Rescue():
@@ -144,6 +145,7 @@ class Lines(Text):
         return [_PLAIN[type(item)]]
 
     def _branch(self, item: Branch) -> list[str]:
+        """Return an if statement that assigns one of two values by the sign of a condition."""
         target = self.printer.called(item.target)
         declared = [f"{self.number} {target};"] if item.defines else []
         comment = [f"/* {comment_text(item.comment)} */"] if item.comment else []
@@ -157,19 +159,21 @@ class Lines(Text):
         ]
 
     def _call(self, item: Call) -> str:
-        given = [self.handed_over(x) if isinstance(x, Place) else self._number(x) for x in item.given]
-        return f"{item.function}({', '.join([*given, *map(self.handed_over, item.results)])})"
+        """Return the call of a function."""
+        given = [self.as_argument(x) if isinstance(x, Place) else self._number(x) for x in item.given]
+        return f"{item.function}({', '.join([*given, *map(self.as_argument, item.results)])})"
 
     def _number(self, value: sp.Basic) -> str:
-        """A count, or 0, is no double."""
+        """Return an argument as C; integers are not written as doubles."""
         return str(value) if isinstance(value, sp.Integer) else self.expression(value)
 
-    def handed_over(self, place: Place) -> str:
-        """A struct within another one by its address, all else as it is."""
+    def as_argument(self, place: Place) -> str:
+        """Return a place as an argument: a struct inside another by its address, others as they are."""
         text = self.printer.called(place)
         return f"&{text}" if place.path else text
 
     def _guard(self, item: Guard) -> list[str]:
+        """Return the code that returns, or jumps to the fallback, if a pivot fails its test."""
         fails = self._call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
         only = f"{self.test(item.only)} && " if item.only else ""
         if not item.jumps:
@@ -177,6 +181,7 @@ class Lines(Text):
         return [f"if ({only}{fails}) {{", f"    pivot = {item.number};", "    goto dependent;", "}"]
 
     def _sines(self, item: Sines) -> list[str]:
+        """Return the calls that compute sines and cosines of several angles in vectors."""
         names, of = [self.expression(angle) for angle in item.angles], item.suffix
         if item.lanes:
             call = f"sines_and_cosines({names[0]}, &sines_{of}, &cosines_{of}, rare);"
@@ -196,6 +201,7 @@ class Lines(Text):
         ]
 
     def _rescue(self, item: Rescue) -> list[str]:
+        """Return the code after a vanished pivot: a solution with dependent constraint equations."""
         if not item.force:
             return ["dependent:", "pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);", "powers:"]
         given = (("force", item.force), ("gamma_stab", item.rhs))
@@ -210,6 +216,7 @@ class Lines(Text):
         ]
 
     def _largest_row(self, item: LargestRow) -> list[str]:
+        """Return the code that finds the row of the largest absolute value."""
         first, *others = map(self.expression, item.values)
         lines = ["*row = 1;", *([f"double most = fabs({first});"] if others else [])]
         for r, value in enumerate(others, 2):
@@ -217,7 +224,7 @@ class Lines(Text):
         return lines
 
     def statement(self, item: Statement) -> str:
-        """One assignment; its comment behind it where there is room, else in front."""
+        """Return one assignment; its comment follows if it fits in the line, else precedes."""
         target = self.printer.called(item.target)
         head = f"const {self.number} {target}" if item.defines else target
         code = broken(f"    {head} = {self.expression(item.value)};")
@@ -229,7 +236,8 @@ class Lines(Text):
         return "\n".join([f"    {comment}", *code])
 
 
-def _sides(item: Branches) -> list[str]:
+def _branch_arrays(item: Branches) -> list[str]:
+    """Return the declarations of the arrays of active branches and of switching functions."""
     held = (
         "discrete->held ? discrete->branch : NULL;"
         if item.held
@@ -240,36 +248,38 @@ def _sides(item: Branches) -> list[str]:
 
 
 def statements(items: Sequence[Statement]) -> str:
-    """Those that stand in a function of a template."""
+    """Return statements as lines within a function of a template."""
     return "\n".join(text for text, _ in one_by_one(items))
 
 
 def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
-    """The text of each, and the branches in front of it, with the line that it is."""
+    """Return each statement as text, with branches before it, and the line that it prints."""
     own = lines(items)
     writer = Lines(CPrinter(own))
     return [(writer.line(line), line) for section in own.sections for line in section.statements]
 
 
 def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str]) -> str:
-    """A joint's call of a function that joints share."""
+    """Return a joint's call of a function that several joints share."""
     held = ["branch", "g", str(call.corner)] if call.corner is not None else []
     numbers = map(expression, call.numbers)
     return f"{call.kernel.name}({', '.join([*given, *numbers, *held, *results])});"
 
 
 def unread_branches(calls: Iterable[SharedCall], statements: Iterable[Statement] = ()) -> list[str]:
-    """Which of `branch` and `g` neither the calls, if they have corners, nor the statements read."""
+    """Return which of the arguments `branch` and `g` neither the calls nor the statements read."""
     read = NONE.union(*(line.reads for line in statements))
     corners = any(call.corner is not None for call in calls)
     return [] if corners else [name for name in ("branch", "g") if name not in read]
 
 
-def arguments(items: tuple[Argument, ...]) -> str:
-    return ", ".join(map(_argument, items))
+def declare_arguments(items: tuple[Argument, ...]) -> str:
+    """Return the declaration of a function's arguments."""
+    return ", ".join(map(_declare_argument, items))
 
 
-def _argument(item: Argument) -> str:
+def _declare_argument(item: Argument) -> str:
+    """Return the declaration of one argument."""
     constant = "const " * (item.access in (Access.CONSTANT, Access.READ))
     pointer = "*" * (item.access in (Access.READ, Access.WRITTEN))
     return f"{constant}{type_name(item.type)} {pointer}{item.name}"
@@ -281,12 +291,12 @@ def type_name(of: Type) -> str:
 
 
 def kernel(item: Kernel) -> str:
-    """A whole function, a long one behind its parts."""
-    return "\n".join("".join(f"{text}\n" for text, _ in own) for _, _, own in printed(item))
+    """Return a whole function as C; the parts of a long one precede it."""
+    return "\n".join("".join(f"{text}\n" for text, _ in own) for _, _, own in printed_parts(item))
 
 
-def _touched(item: Kernel) -> frozenset[str]:
-    """What its lines read and write, by what it is called there."""
+def _names_used(item: Kernel) -> frozenset[str]:
+    """Return the names of everything that a function's lines read or write."""
     lines = [line for section in item.sections for line in section.statements]
     names = NONE.union(*(line.reads | line.writes for line in lines))
     keys = names | {key_of(s) for line in lines for x in line.expressions for s in symbols_of(x)}
@@ -296,31 +306,35 @@ def _touched(item: Kernel) -> frozenset[str]:
 
 
 def comment(doc: Sequence[str]) -> str:
-    """Paragraphs as a comment of C."""
+    """Return paragraphs as a comment of C."""
     text = "\n".join(f" * {comment_text(one)}" for one in doc)
     return f"/*\n{text}\n */\n"
 
 
 def function(
-    item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE, *, called: bool = False
+    item: Kernel, writer: Lines, own: Readable, names_used: frozenset[str] = NONE, *, called: bool = False
 ) -> str:
-    """Its doc comment in front; arguments that it does not touch are voided. `called`: from another unit."""
-    return "".join(f"{text}\n" for text, _ in pieces(item, writer, own, touched, called=called))
+    """Return a function with its comment; unread arguments are cast to void.
+
+    `called`: from another unit, not static.
+    """
+    return "".join(f"{text}\n" for text, _ in pieces(item, writer, own, names_used, called=called))
 
 
 def pieces(
-    item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE, *, called: bool = False
+    item: Kernel, writer: Lines, own: Readable, names_used: frozenset[str] = NONE, *, called: bool = False
 ) -> Iterator[tuple[str, Line | None]]:
-    """The text of a function in its order, what is a line's own with that line."""
+    """Yield the texts of a function in order, each with the line of the kernel that it prints, or None."""
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
     static = "" if called else "static "
-    head = f"{attribute}{static}{inline}{'int' if item.status else 'void'} {item.name}({arguments(item.arguments)})"
+    result = "int" if item.status else "void"
+    head = f"{attribute}{static}{inline}{result} {item.name}({declare_arguments(item.arguments)})"
     together = head.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
     head = "\n".join(textwrap.wrap(together, WIDTH, subsequent_indent="    ")).replace("\0", " ")
     yield f"{comment(item.doc)}{head}\n{{", None
-    touched |= _touched(item)
-    if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in touched):
+    names_used |= _names_used(item)
+    if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in names_used):
         yield "\n".join(broken(f"    {unread};")), None
     for k, section in enumerate(own.sections):
         title = [f"    /* {comment_text(section.title)} */"] * bool(section.title)
@@ -332,8 +346,8 @@ def pieces(
     yield "}", None
 
 
-def printed(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
-    """The parts of a function, as they are read, with their text line by line."""
+def printed_parts(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
+    """Yield the parts of a function in the order of their use, with their text line by line."""
     for part in cut(item):
         own = readable(part)
         yield part, own, list(pieces(part, Lines(CPrinter(own)), own, called=part.name in CALLED_BY_ENGINE))

@@ -1,4 +1,4 @@
-"""The C of runs side by side: which kernels and templates it is made of, in the reduced formulation."""
+"""Writes the C of ensembles in SIMD lanes, in the reduced formulation: lanes.c."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import curves_code
-from gudgeon.generator.targets.c.newton import STATE, own_axes
+from gudgeon.generator.targets.c.newton import STATE, shared_slopes_code
 from gudgeon.generator.targets.c.play import braced, call_of_film, calls_of_dry
 
 MAIN = "lanes.c"
-_WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
-_PICKING = """
+_KERNELS = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
+_PICK_SLOPES = """
 /* Those of b where the mask is set. */
 static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
 {
@@ -33,21 +33,21 @@ Render = Callable[..., str]  # template name, substitutions -> text
 
 
 def lanes_code(program: Program, render: Render) -> dict[str, str]:
-    """The file: kernels as the single runs have them, before sines are put side by side.
-
-    With a series it is for Taylor's method alone.
-    """
+    """Return lanes.c: the kernels of single runs, printed for vectors. With a series it has Taylor's method only."""
     assert program.tree and program.methods
     model = program.model
-    pins = [*map(lanes_printer.kernel, program.laws), *(_pin(pin, render, model.law_states) for pin in program.pins)]
+    pins = [
+        *map(lanes_printer.kernel, program.laws),
+        *(_pin_code(pin, render, model.law_states) for pin in program.pins),
+    ]
     kernels = (*program.tree.plain, program.methods.plain_closing)
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
-    wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
-    text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
+    kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
+    text = "\n".join([*pins, *map(lanes_printer.motion_kernel, kernels_in_lanes)])
     if program.series:
         methods = taylor.lanes_code(program.series)
     else:
-        methods = _newton(program.pins, program.methods, render, model.law_states)
+        methods = _linearized_code(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
     return {
         MAIN: render(
@@ -60,8 +60,8 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
     }
 
 
-def _pin(pin: Pin, render: Render, states: int) -> str:
-    """What happens round the laws of a joint; `states` of laws are as many for each."""
+def _pin_code(pin: Pin, render: Render, states: int) -> str:
+    """Return the function of a joint with play for lanes; each joint has `states` inner states of laws."""
     clearance = pin.clearance
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
     parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
@@ -86,22 +86,24 @@ def _pin(pin: Pin, render: Render, states: int) -> str:
     )
 
 
-def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
-    """The equations of motion linearized and Newton's matrix: what newton.c has, without its tables."""
+def _linearized_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+    """Return the linearized equations of motion and Newton's matrix for lanes: newton.c without its tables."""
     newton = methods.newton
-    picking = _PICKING.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
-    slopes = [own_axes(pins, render, "Lanes", "LaneSlopes", states) + picking] if pins else []
+    picking = _PICK_SLOPES.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
+    slopes = [shared_slopes_code(pins, render, "Lanes", "LaneSlopes", states) + picking] if pins else []
     slopes += map(lanes_printer.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
-        slopes.append(_tangent(newton.system.model, clearance, methods.slopes[clearance.name], render, states))
-    of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
+        slopes.append(_tangent_code(newton.system.model, clearance, methods.slopes[clearance.name], render, states))
+    of_state = map(lanes_printer.kernel_with_rare, (newton.linearize, newton.factor))
     factor, solved = methods.at_complex[:1], methods.at_complex[1:]
-    complex_ = [*map(lanes_printer.watched_kernel, factor), *map(lanes_printer.kernel, solved)]
+    complex_ = [*map(lanes_printer.kernel_with_rare, factor), *map(lanes_printer.kernel, solved)]
     return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_])
 
 
-def _tangent(model: Model, clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int) -> str:
-    """What acts in a joint, as in its own function."""
+def _tangent_code(
+    model: Model, clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int
+) -> str:
+    """Return the linearized force of a joint with play for lanes."""
     given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {
         part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""

@@ -1,7 +1,7 @@
-"""Kernels a second time, for several runs side by side: the same statements with vectors for numbers (lanes.h).
+"""Prints kernels for SIMD lanes: the same statements with vectors instead of numbers (lanes.h).
 
-Nothing is derived anew and no operation changes its place, so that each lane rounds as a single run does. What a
-single run decides by branching is picked by masks; where it would go another way, the lane is marked as rare.
+The order of operations is kept, so that each lane rounds as a single run does. Masks replace branches. A lane in which
+a single run would take another path is marked as rare.
 """
 
 from __future__ import annotations
@@ -50,23 +50,26 @@ _TYPES: dict[Type, Type] = {
     "Wide": "Lanes",
 }
 _RARE = result("rare", "LaneBits")
-# Lines of single runs that have no counterpart: what becomes of a vanished pivot, and what they ask for alone.
+# Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots.
 _LEFT_OUT = (Status, JointsAlone, Jump, Rescue, Return)
 
 
 class LanesPrinter(printer.CPrinter):
-    """Symbols are vectors, numbers stay numbers wherever C lets them meet."""
+    """Print symbols as vectors; numbers stay numbers where C allows it."""
 
     def _vector(self, expr: sp.Expr) -> str:
+        """Print an expression as a vector."""
         text: str = self._print(expr)
         return text if expr.free_symbols else f"all_of({text})"
 
     def _call(self, function: str, *arguments: sp.Expr) -> str:
+        """Print a call of a function of vectors."""
         if not any(argument.free_symbols for argument in arguments):
             return super()._call(function, *arguments)
         return f"lanes_{function}({', '.join(map(self._vector, arguments))})"
 
     def _nested(self, function: str, expr: sp.Expr) -> str:
+        """Print nested calls such as the maximum of several vectors."""
         if not expr.free_symbols:
             return super()._nested(function, expr)
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
@@ -76,28 +79,34 @@ class LanesPrinter(printer.CPrinter):
         return text
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
+        """Print the step function of a vector."""
         return f"pick({self._vector(expr.args[0])} >= 0.0, all_of(1.0), all_of(0.0))"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
-        """As it is held, if it is."""
+        """Print the active branch of a switching function of vectors."""
         return f"lanes_branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._vector(expr.args[1])})"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
+        """Print the absolute value of a vector."""
         return f"(lanes_fabs({self._vector(expr.args[0])}) + 1e-150)"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
+        """Print the value of a curve at a vector."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
         return f"lanes_curve({c_name(expr.name)}, {expr.order}, {self._vector(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
+        """Print the value of a curve at a vector, on the pieces that its branch selects."""
         x, side = map(self._vector, expr.args[2:])
         return f"lanes_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        """Print the event function of a curve's knots at a vector."""
         return f"lanes_knots({c_name(expr.name)}, {self._vector(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
+        """Print a choice by the signs of a vector."""
         if expr in self.of.branches:
             return self.of.branches[expr]
         side, a, b = map(self._vector, expr.args)
@@ -105,7 +114,7 @@ class LanesPrinter(printer.CPrinter):
 
 
 class LaneLines(functions.Lines):
-    """Lines that both have. Raises ValueError for one that nobody has thought of."""
+    """Print lines of functions for vectors. Raises ValueError for a kind of line without a counterpart."""
 
     printer: LanesPrinter
 
@@ -113,7 +122,7 @@ class LaneLines(functions.Lines):
         super().__init__(printer, "Lanes")
 
     def expression(self, value: Value) -> str:
-        """A vector."""
+        """Return a value as a vector."""
         match value:
             case sp.Basic():
                 return self.printer._vector(value)
@@ -124,7 +133,7 @@ class LaneLines(functions.Lines):
                 return super().expression(value)
 
     def test(self, item: Test) -> str:
-        """A mask; bounds are numbers where they can be."""
+        """Return a comparison as a mask; bounds stay numbers where possible."""
         plain = Text(self.printer)
         if not item.relation:
             return f"{plain.expression(item.value)} > 0.0"
@@ -140,6 +149,7 @@ class LaneLines(functions.Lines):
         return f"({size} > 0.0) & ({size} < INFINITY)"
 
     def _lines(self, item: Line) -> Sequence[str]:
+        """Return one line of a kernel as lines of C."""
         match item:
             case Branch():
                 head = f"{'const Lanes ' * bool(item.defines)}{self.printer.called(item.target)}"
@@ -149,7 +159,7 @@ class LaneLines(functions.Lines):
                 return [f"*rare |= ~({self.test(test)});"]
             case Call():
                 passed = (*item.given, *item.results)
-                given = [self.handed_over(x) if isinstance(x, Place) else self.expression(x) for x in passed]
+                given = [self.as_argument(x) if isinstance(x, Place) else self.expression(x) for x in passed]
                 return [f"{item.function}({', '.join(given)});"]
             case Declare(type=Number.REAL):
                 return super()._lines(replace(item, type="Lanes"))
@@ -177,18 +187,18 @@ class LaneLines(functions.Lines):
 
 
 def expression(value: Value) -> str:
-    """A vector that is not in a function of its own."""
+    """Return a value as a vector, outside of a function of its own."""
     return LaneLines(LanesPrinter()).expression(value)
 
 
 def statements(items: Sequence[Statement]) -> str:
-    """Those that stand in a function of a template."""
+    """Return statements as lines within a function of a template."""
     own = lines(items)
     return "\n".join(map(LaneLines(LanesPrinter(own)).line, own.sections[0].statements)) if own.sections else ""
 
 
 def kernel(item: Kernel) -> str:
-    """The function for vectors. It returns nothing; lanes that it cannot do are set in `rare`."""
+    """Return the function of a kernel for vectors; it marks lanes that it cannot compute in `rare`."""
     kept = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
         for section in item.sections
@@ -196,16 +206,16 @@ def kernel(item: Kernel) -> str:
     arguments = tuple(replace(a, type=_TYPES.get(a.type, a.type)) for a in item.arguments)
     sections = tuple(section for section in kept if section.statements)
     lanes = replace(item, sections=sections, arguments=arguments, status=False)
-    told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
+    marks_rare = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
     own = readable(lanes)
-    return functions.function(lanes, LaneLines(LanesPrinter(own)), own, frozenset([_RARE.name] if told else []))
+    return functions.function(lanes, LaneLines(LanesPrinter(own)), own, frozenset([_RARE.name] if marks_rare else []))
 
 
 def motion_kernel(item: Kernel) -> str:
-    """A kernel whose sines a single run has in vectors too, and which may meet something rare."""
-    return watched_kernel(lane_by_lane(item))
+    """Return a kernel for vectors whose sines a single run computes in vectors, too, with the argument `rare`."""
+    return kernel_with_rare(lane_by_lane(item))
 
 
-def watched_kernel(item: Kernel) -> str:
-    """A kernel that may meet something rare."""
+def kernel_with_rare(item: Kernel) -> str:
+    """Return a kernel for vectors with the argument `rare`."""
     return kernel(replace(item, arguments=(*item.arguments, _RARE)))

@@ -1,4 +1,4 @@
-"""Where the lines of a function stand in the files that were emitted: what a page lights up."""
+"""Finds the lines of a function in the emitted files, which a page highlights."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.storage import Key
-from gudgeon.generator.targets.c.functions import printed
+from gudgeon.generator.targets.c.functions import printed_parts
 from gudgeon.generator.targets.c.printer import within
 
 
 @dataclass(frozen=True)
 class Stored:
-    """What is stored to, and the lines (from 1) of it; a branch is two.
+    """Represent a store to a variable and its lines (from 1); a branch has two.
 
-    `where`: "<" and the side's name of what is stored where that is below zero, ">" of the other; "": a plain line.
+    `where`: "<" and the name of the condition for the store where it is below zero, ">" for the other; "": a plain
+    line.
     """
 
     target: Key
@@ -28,7 +29,7 @@ class Stored:
 
 @dataclass(frozen=True)
 class Found:
-    """A function, or a part of one, in a file."""
+    """Represent a function, or a part of one, and its lines in a file."""
 
     file: str
     name: str
@@ -38,9 +39,9 @@ class Found:
     lines: tuple[Stored, ...]
 
 
-def find(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Found]:
-    """The parts of a function, each where it was printed; a part that no file has is left out."""
-    for part, own, pieces in printed(kernel):
+def find_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Found]:
+    """Yield the printed parts of a function with their locations; parts that no file contains are left out."""
+    for part, own, pieces in printed_parts(kernel):
         texts = [within(text).split("\n") for text, _ in pieces]
         whole = "\n".join(line for text in texts for line in text)
         file = next((name for name, text in files.items() if f"{whole}\n" in text), None)
@@ -49,13 +50,13 @@ def find(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Found]:
         number = first = 1 + files[file].count("\n", 0, files[file].index(f"{whole}\n"))
         stored: list[Stored] = []
         for text, (_, line) in zip(texts, pieces, strict=True):
-            stored += _stored(text, line, number)
+            stored += _find_stores(text, line, number)
             number += len(text)
         yield Found(file, part.name, own, first, number - 1, tuple(stored))
 
 
-def _stored(text: Sequence[str], line: Line | str | None, first: int) -> list[Stored]:
-    """What a text of C stores to; `line`: what it is of, or the name of a local."""
+def _find_stores(text: Sequence[str], line: Line | str | None, first: int) -> list[Stored]:
+    """Return the stores in a text of C; `line` is its statement, or the name of a local."""
     here = range(first, first + len(text))
     if isinstance(line, str):
         return [Stored(line, here)]
@@ -68,23 +69,23 @@ def _stored(text: Sequence[str], line: Line | str | None, first: int) -> list[St
     return [Stored(line.target, below, f"<{side}"), Stored(line.target, above, f">{side}")]
 
 
-def find_within(
+def find_stores_in_text(
     whole: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
 ) -> tuple[str, list[Stored]]:
-    """File, and what is stored to in a text that a template printed: each store in its order, with its own text."""
-    file, lines = place_of(whole, files)
+    """Return the file and the stores in a text that a template printed, in order, each with its own text."""
+    file, lines = locate_text(whole, files)
     left, number, found = within(whole), lines.start, list[Stored]()
     for text, line in stores if file else ():
         own = within(text)
         before, _, left = left.partition(f"{own}\n")
         number += before.count("\n")
-        found += _stored(own.split("\n"), line, number)
+        found += _find_stores(own.split("\n"), line, number)
         number += own.count("\n") + 1
     return file, found
 
 
-def place_of(text: str, files: Mapping[str, str]) -> tuple[str, range]:
-    """File and lines of a text that was printed whole; ("", none) where no file has it."""
+def locate_text(text: str, files: Mapping[str, str]) -> tuple[str, range]:
+    """Return file and lines of a text that was printed whole; ("", empty range) if no file contains it."""
     whole = within(text)
     file = next((name for name, own in files.items() if whole in own), "")
     if not file or not whole.strip():

@@ -1,4 +1,4 @@
-"""model.h: what the engine must know of a scene, as sizes, fields of Parameters and small tables."""
+"""Writes model.h: what the engine must know of a scene, as sizes, fields of Parameters and small tables."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
 
 
 def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
-    """Name and comment of each field, in the order of the struct."""
+    """Return name and comment of each field of Parameters, in the order of the struct."""
     known: dict[sp.Symbol, Dimension | None] = {}
     fields = []
     inner = {symbol for table in slots.tables.values() for symbol in table[1:]}
@@ -58,7 +58,7 @@ def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
 
 
 def _unit_of_law(address: str) -> str:
-    """What a law says of its number whose unit hangs on another one: "force at unit penetration, N/m^n"."""
+    """Return the meaning of a law's coefficient in N/m^n, whose unit depends on an exponent; "" for others."""
     field: Field | None = FILE if address.startswith("contacts.") else None
     for part in address.split("."):
         field = field and field.below(part)
@@ -66,7 +66,7 @@ def _unit_of_law(address: str) -> str:
 
 
 def unit_text(dimension: Dimension) -> str:
-    """As people write it: N*m, Pa, N*s/m^1.5, kg*m^2; 1 of a plain number, rad too."""
+    """Return a dimension as a unit: N*m, Pa, N*s/m^1.5, kg*m^2; 1 for a plain number and rad."""
     if unit := _NAMED.get(dimension):
         return unit
     powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
@@ -78,13 +78,13 @@ def unit_text(dimension: Dimension) -> str:
 
 
 def _product(powers: Mapping[str, Fraction]) -> str:
-    """Of those above zero: N*s, m^1.5."""
+    """Return the product of units with positive powers: N*s, m^1.5."""
     exact = {unit: f"{float(n):g}" if n.denominator in (1, 2, 4) else f"({n})" for unit, n in powers.items() if n > 0}
     return "*".join(unit if n == "1" else f"{unit}^{n}" for unit, n in exact.items())
 
 
 def _dimension(value: sp.Expr, known: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
-    """Of a derived number; None where an exponent is a number of the run, and with it the dimension."""
+    """Return the dimension of a derived parameter; None if it depends on an exponent that is a parameter."""
     if value.is_Symbol:
         return known.get(value)
     if value.is_Add:
@@ -107,7 +107,7 @@ def _dimension(value: sp.Expr, known: dict[sp.Symbol, Dimension | None]) -> Dime
 
 Sizes = dict[str, tuple[int | float, str]]
 
-_POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
+_POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # coordinate of which each rate is the derivative
 _OF_JOINTS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
     "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
@@ -131,7 +131,7 @@ _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_sq
 
 
 def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
-    """What the template of model.h is filled with; `bounds`: those of `known_bounds`."""
+    """Return the substitutions of the template of model.h; `bounds` is the kernel of `known_bounds`."""
     model, of_scene = program.model, sizes(program, bounds)
     if series := program.series:
         of_scene["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
@@ -151,11 +151,12 @@ def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
 
 
 def sizes(program: Program, bounds: Kernel | None) -> Sizes:
-    """Numbers by name, with what they count: those that are 0 leave out what they count."""
-    return _of_linkage(program) | _of_motion(program) | _of_watch(program, bounds) | _of_start(program)
+    """Return sizes by name with their meaning; code for what has size 0 is left out of the library."""
+    return _linkage_sizes(program) | _motion_sizes(program) | _monitoring_sizes(program, bounds) | _start_sizes(program)
 
 
-def _of_linkage(program: Program) -> Sizes:
+def _linkage_sizes(program: Program) -> Sizes:
+    """Return the numbers of coordinates, constraint equations, joints, switching functions and others."""
     model = program.model
     switches = max(model.symbols.switches.count, program.integrated.system.model.symbols.switches.count)
     return {
@@ -173,7 +174,8 @@ def _of_linkage(program: Program) -> Sizes:
     }
 
 
-def _of_motion(program: Program) -> Sizes:
+def _motion_sizes(program: Program) -> Sizes:
+    """Return the sizes of the integrated equations and of their matrices."""
     integrated, chain, course, tree = program.integrated, program.integrated.chain, program.course, program.tree
     system, newton = integrated.system, program.methods.newton if program.methods else None
     return {
@@ -195,7 +197,8 @@ def _of_motion(program: Program) -> Sizes:
     }
 
 
-def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
+def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
+    """Return the sizes of what is monitored within a step: event functions, terms of time, jumps."""
     model = program.model
     sizes: Sizes = {
         "DRIVE_IMPULSES": (int(bool(jumping_drives(model))), "drives' rates may jump, and something is free to move"),
@@ -226,8 +229,9 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
     return sizes
 
 
-def _of_start(program: Program) -> Sizes:
-    start, guess = _start(program.model), program.model.scene.mechanism.start.guess
+def _start_sizes(program: Program) -> Sizes:
+    """Return the sizes of the start."""
+    start, guess = _start_indices(program.model), program.model.scene.mechanism.start.guess
     apart = apart_rows(program.model)
     sizes: Sizes = {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
@@ -239,12 +243,12 @@ def _of_start(program: Program) -> Sizes:
 
 
 def first_corners(model: Model) -> list[int]:
-    """Of each guide with play the number of its first corner among joints with play; the others follow it."""
+    """Return the index of the first corner of each guide with play among joints with play; three others follow it."""
     return [k for k, c in enumerate(model.clearances) if c.wall][:: len(CORNERS)]
 
 
 def known_bounds(program: Program) -> Kernel | None:
-    """The kernel that bounds what is watched, if it hangs on neither forces nor driven chains."""
+    """Return the kernel that bounds event functions, None if they depend on forces or driven loops."""
     model, corners = program.model, watched_corners(program)
     watched = program.integrated.watched if program.integrates else program.watched if model.events else None
     if watched is None or not (corners or model.events):
@@ -253,37 +257,40 @@ def known_bounds(program: Program) -> Kernel | None:
 
 
 def watched_corners(program: Program) -> list[int]:
-    """The scene's own switches."""
+    """Return the indices of the scene's own switching functions."""
     if program.integrates:
         return program.integrated.corners
     return sorted(switch.index for switch in program.model.symbols.switches.of(""))
 
 
 def idle_switches(program: Program) -> list[int]:
-    """Numbers of switches that the absolute formulation alone has: what is integrated does not evaluate them."""
+    """Return the indices of switching functions that only the full formulation evaluates."""
     own, every = program.integrated.system.model.symbols.switches, program.model.symbols.switches
     used = {switch.index for switch in own.found.values()}
     return [k for k in range(max(own.count, every.count)) if k not in used] if program.integrates else []
 
 
 def deepest(clearance: Clearance) -> sp.Expr:
-    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius, or a law's own."""
+    """Return the penetration up to which contact laws are valid: a tenth of the bearing's radius or a law's own."""
     tenth = sp.sympify(clearance.pair.R_i) / 10
     return sp.Min(clearance.constants[DEEPEST], tenth) if DEEPEST in clearance.constants else tenth
 
 
 def _largest_block(program: Program) -> int:
+    """Return the largest number of constraint equations that are solved together."""
     rows, chains = program.course and program.course.rows, program.tree and program.tree.chains
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 
 def _defines(values: Sizes) -> list[str]:
+    """Return #define lines with comments."""
     width = max(len(f"{name} {value}") for name, (value, _) in values.items())
     return [f"#define {f'{name} {value}':<{width}} /* {meaning} */" for name, (value, meaning) in values.items()]
 
 
 def _tables(program: Program, of_scene: Sizes) -> list[str]:
-    model, start, drives = program.model, _start(program.model), program.model.scene.mechanism.drives
+    """Return the tables of model.h as C: indices of start values, constraint equations and coordinates."""
+    model, start, drives = program.model, _start_indices(program.model), program.model.scene.mechanism.drives
     place = {row.name: r for r, row in enumerate(model.all_rows)}
     column = {q: k for k, q in enumerate(model.q)}
     tables: dict[tuple[str, str], Sequence[int]] = {
@@ -309,17 +316,19 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
     if idle := idle_switches(program):
         tables |= {("short", "idle"): idle}
     if program.integrates:
-        tables |= _watched(program, of_scene) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
+        tables |= _monitoring_tables(program, of_scene) | {
+            ("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)
+        }
     return [_table(kind, name, values) for (kind, name), values in tables.items()]
 
 
 def _table(kind: str, name: str, values: Iterable[int]) -> str:
-    """An empty one holds a number that nobody reads."""
+    """Return one table as C; an empty one contains one unused number."""
     return "\n".join(broken(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
 
 
-def _watched(program: Program, of_scene: Sizes) -> dict[tuple[str, str], Sequence[int]]:
-    """Event functions of the scene's own switches and of user events, in C's order; switches whose branches meet."""
+def _monitoring_tables(program: Program, of_scene: Sizes) -> dict[tuple[str, str], Sequence[int]]:
+    """Return the tables of monitored event functions in C's order, and of switches whose branches meet."""
     count = {name: value for name, (value, _) in of_scene.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
     event_functions = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
@@ -328,25 +337,25 @@ def _watched(program: Program, of_scene: Sizes) -> dict[tuple[str, str], Sequenc
     return {
         ("short", "watched"): event_functions,
         ("short", "watched_as"): [place.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
-        ("unsigned char", "meets"): _meeting(program.model, int(count["N_SWITCHES"])),
+        ("unsigned char", "meets"): _continuous_switches(program.model, int(count["N_SWITCHES"])),
     }
 
 
-def _meeting(model: Model, count: int) -> list[int]:
-    """1 for the corners of contact laws, which are continuous; a user's expression, or a law as printed, may jump."""
+def _continuous_switches(model: Model, count: int) -> list[int]:
+    """Return 1 for switching functions of contact laws, whose branches meet; others, and laws as printed, may jump."""
     printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
     owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
     return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(count)]
 
 
 def _friction_pivots(kkt: KKT) -> list[int]:
-    """Which friction each pivot behind those of the rows belongs to."""
+    """Return the index of the friction element of each pivot after those of constraint equations."""
     names = [friction.name for friction in kkt.frictions]
     return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) : len(kkt.rows) + len(names)]]
 
 
-def _start(model: Model) -> dict[str, list[int]]:
-    """Places in q of what the start guesses and sets."""
+def _start_indices(model: Model) -> dict[str, list[int]]:
+    """Return the indices in q of guessed and set coordinates, and of set velocities."""
     place = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
     start = model.scene.mechanism.start
     rates = (name.partition(".") for name in start.rates)
@@ -357,8 +366,8 @@ def _start(model: Model) -> dict[str, list[int]]:
     }
 
 
-def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
-    """Numbers of joints with play: what they mean, the functions that tell them, a value a joint."""
+def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
+    """Return parameters of joints with play: their meaning, the function that returns them, a value for each joint."""
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],
         "deepest": [deepest(c) for c in model.clearances],
@@ -383,7 +392,7 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
 
 
 def _gains(program: Program) -> list[tuple[str, str]]:
-    """Of Newton's matrix; the reduced formulation has no Baumgarte's terms."""
+    """Return the gains of Newton's matrix as C; the reduced formulation has no Baumgarte terms."""
     if program.methods is None:
         return []
     gains = program.methods.gains

@@ -1,4 +1,4 @@
-"""The C of the linearized equations: derivatives of the joints with play, Newton's matrix, the Jacobian."""
+"""Writes the C of the linearized equations: derivatives of the forces of joints with play, and Newton's matrix."""
 
 from __future__ import annotations
 
@@ -34,32 +34,35 @@ static inline void blend_slopes({type} *F, const {type} *film, const {number} *s
 
 
 def newton_code(newton: Newton, render: Render) -> str:
-    """Kernels and tables of one system."""
+    """Return kernels and tables of the linearized equations of one system."""
     kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
     counts = [(f"n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
         "newton.c.jinja",
         kernels="\n".join(map(functions.kernel, kernels)),
-        tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
+        tables=[(name, _table_rows(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, ("N_NODES", newton.nodes)],
     )
 
 
 def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
-    """`tangent_<joint>` of every joint with play, behind the derivatives that they share; `states` of laws each has."""
+    """Return `tangent_<joint>` of every joint with play, after the derivatives of laws that the joints share.
+
+    Each joint has `states` inner states of laws.
+    """
     if not pins:
         return ""
     contours = any(pin.clearance.contour for pin in pins)
     sizes = {"rows": 4 + states, "columns": 5 + states}
-    parts = [CONTOURS * contours + own_axes(pins, render, "double", "PinSlopes", states)]
+    parts = [CONTOURS * contours + shared_slopes_code(pins, render, "double", "PinSlopes", states)]
     parts += [render("play/contour_slopes.c.jinja")] * contours
     parts += map(functions.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
         if clearance.contour:
-            parts.append(_of_contour(clearance, clearance.contour, methods.slopes[clearance.name]["dry"], render))
+            parts.append(_contour_tangent(clearance, clearance.contour, methods.slopes[clearance.name]["dry"], render))
             continue
         c = f"p->{clearance.pair.c}"
-        slopes = _slopes(clearance, c, methods.slopes[clearance.name])
+        slopes = _select_slopes(clearance, c, methods.slopes[clearance.name])
         if clearance.wall:
             rise = expression(in_place(methods.newton.system.model, clearance.wall.rise))
             parts.append(
@@ -70,7 +73,8 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: 
     return "\n".join(parts)
 
 
-def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render: Render) -> str:
+def _contour_tangent(clearance: Clearance, contour: Contour, dry: SharedCall, render: Render) -> str:
+    """Return the tangent function of a bearing with a contour."""
     given = [symbol.name for symbol in OF_CONTOUR]
     return render(
         "play/contour_tangent.c.jinja",
@@ -82,8 +86,8 @@ def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render:
     )
 
 
-def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:
-    """What all joints' derivatives are put together by, of numbers or of vectors."""
+def shared_slopes_code(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:
+    """Return the functions that combine derivatives of all joints with play, for numbers or for vectors."""
     blending = _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
     shown = blending if any(pin.has_transition for pin in pins) else ""
     given = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
@@ -91,10 +95,11 @@ def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str, state
     return render("play/pin_slopes.c.jinja", blending=shown, **given) + of_walls
 
 
-def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:
-    """Which part acts, as in the joint's own function (clearance_*.c.jinja)."""
+def _select_slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:
+    """Return the code that selects dry contact, film or both, as in the joint's force (clearance_*.c.jinja)."""
 
     def call(part: str, result: str, *given: str) -> str:
+        """Return the call of the derivatives of one part."""
         return functions.shared_call(calls[part], given or STATE, (result,))
 
     unread = functions.unread_branches(calls.values())
@@ -111,8 +116,8 @@ def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> st
     return textwrap.indent("\n".join(lines), "    ")
 
 
-def _table(entries: list[tuple[int, int, int, int]]) -> str:
-    """Rows of a table; an empty one holds a row that nobody reads."""
+def _table_rows(entries: list[tuple[int, int, int, int]]) -> str:
+    """Return the rows of a table as C; an empty one contains one unused row."""
     rows = [f"{{{', '.join(map(str, entry))}}}" for entry in entries] or ["{0, 0, 0, 0}"]
     together = " ".join(f"{row},".replace(" ", "\0") for row in rows).removesuffix(",")  # a row is never parted
     return textwrap.fill(together, 110, initial_indent="    ", subsequent_indent="    ").replace("\0", " ")

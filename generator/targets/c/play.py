@@ -1,4 +1,4 @@
-"""The C of one joint with play: which templates it needs and what is substituted in them."""
+"""Writes the C of joints with play: selects the templates and their substitutions."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ARGUMENTS = (
     "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,%s\n"
     "    const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out"
 )
-_OF_CONTOUR = ("e", "steep", "worn_slope")  # what its dry contact is given besides
+_OF_CONTOUR = ("e", "steep", "worn_slope")  # further arguments of the dry contact of a contour
 CONTOURS = '#include "engine/scene/contour.h"\n\n'
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
@@ -38,7 +38,7 @@ Stores = list[tuple[str, Line | str]]
 
 @dataclass(frozen=True)
 class PinFunction:
-    """A function of a joint with play, and what it stores to in its order: text with a line, or a local's name."""
+    """Represent a function of a joint with play and its stores in order: text with the line, or a local's name."""
 
     name: str
     text: str
@@ -46,7 +46,7 @@ class PinFunction:
 
 
 def clearances_code(program: Program, render: Render) -> str:
-    """The laws, then each joint's own functions; nothing where no joint has play."""
+    """Return the force laws, then the functions of each joint with play."""
     states = program.model.law_states
     pins = (clearance_code(pin, render, states) for pin in program.pins)
     head = CONTOURS * any(pin.clearance.contour is not None for pin in program.pins)
@@ -54,35 +54,35 @@ def clearances_code(program: Program, render: Render) -> str:
 
 
 def clearance_code(pin: Pin, render: Render, states: int) -> str:
-    """What happens round the laws of a joint; `states` of laws are as many for each, as the engine has them."""
+    """Return the functions of one joint with play; each joint has `states` inner states of laws."""
     return "\n".join(part.text for part in pin_functions(pin, render, states))
 
 
 def function_name(part: str, joint: str) -> str:
-    """Return the name of a joint's function in C, as the templates in play/ write it; part: clearance, dry or film."""
+    """Return the C name of a joint's function, as the templates in play/ write it; part: clearance, dry or film."""
     return f"{part}_{joint}_"
 
 
 def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction]:
-    """Function by function: dry contact and film, as far as the joint has them, and what chooses between them."""
+    """Yield the functions of a joint: dry contact and film, if it has them, then the choice between them."""
     joint, clearance = pin.clearance.label, pin.clearance
     if clearance.normal is not None:
-        yield _dry(pin, render, states)
+        yield _dry_function(pin, render, states)
     if clearance.film is not None:
-        yield _film(pin, render, states)
+        yield _film_function(pin, render, states)
     text = render(
         _template(pin),
         joint=joint,
         kind=clearance.kind,
-        arguments=_ARGUMENTS % _also(clearance),
-        further="".join(f", {name}" for name in _further(pin)),
-        gap=_lines(pin.gap),
-        share=_lines(pin.share),
+        arguments=_ARGUMENTS % _further_parameters(clearance),
+        further="".join(f", {name}" for name in _further_arguments(pin)),
+        gap=_statements_code(pin.gap),
+        share=_statements_code(pin.share),
         rigid=clearance.rigid,
         closed="contact->closed" if clearance.rigid else CLOSED,
-        store=_store(clearance, states),
-        told=_shared_by(clearance),
-        law=_law_of_share(clearance),
+        store=_store_code(clearance, states),
+        told=_transition_comment(clearance),
+        law=_mixed_law_comment(clearance),
         first=pin.corners.start,
         last=pin.corners.stop,
     )
@@ -91,15 +91,15 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     yield PinFunction(function_name("clearance", joint), text, stores)
 
 
-def _also(clearance: Clearance) -> str:
-    """Arguments of a joint's function for what it is given of the motion besides (Clearance.also)."""
+def _further_parameters(clearance: Clearance) -> str:
+    """Return the declarations of a joint's further arguments (Clearance.also)."""
     if clearance.wall:
         return " double n_x, double n_y,"
     return " double theta_i," * bool(clearance.contour)
 
 
-def _shared_by(clearance: Clearance) -> str:
-    """What a comment says of film and dry contact together."""
+def _transition_comment(clearance: Clearance) -> str:
+    """Return the comment about film and dry contact acting together."""
     if clearance.mixed is None:
         return (
             "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
@@ -111,41 +111,49 @@ def _shared_by(clearance: Clearance) -> str:
     )
 
 
-def _law_of_share(clearance: Clearance) -> str:
-    """The comment on a law of mixed lubrication, which is no function of its own; "" where there is none."""
+def _mixed_law_comment(clearance: Clearance) -> str:
+    """Return the comment on a law of mixed lubrication, which has no function of its own; "" if there is none."""
     return functions.comment(law_doc(clearance.mixed)) if clearance.mixed else ""
 
 
-def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
+def _dry_function(pin: Pin, render: Render, states: int) -> PinFunction:
+    """Return the function of a joint's dry contact."""
     joint, clearance = pin.clearance.label, pin.clearance
     ratio = "unclipped" if clearance.clip_ratio else "ratio"
     calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double")
-    steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
+    steps: dict[str, Any] = {"before": _statements_code(pin.before_dry), "after": _statements_code(pin.after_dry)}
     steps["along"] = "-F_N" if clearance.contour else "-F_n"
-    steps["further"] = "".join(f", double {name}" for name in _further(pin))
+    steps["further"] = "".join(f", double {name}" for name in _further_arguments(pin))
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
     steps["unread"] = functions.unread_branches(laws, (*pin.before_dry, *pin.after_dry))
-    steps |= {"law": _texts(calls), "rates": braced("rate", clearance, states)}
+    steps |= {"law": _join_code(calls), "rates": braced("rate", clearance, states)}
     text = render("play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio, **steps)
     own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
     own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
     return PinFunction(function_name("dry", joint), text, own)
 
 
-def _further(pin: Pin) -> tuple[str, ...]:
+def _further_arguments(pin: Pin) -> tuple[str, ...]:
+    """Return the names of further arguments of the dry contact."""
     return _OF_CONTOUR if pin.clearance.contour else ()
 
 
-def _film(pin: Pin, render: Render, states: int) -> PinFunction:
+def _film_function(pin: Pin, render: Render, states: int) -> PinFunction:
+    """Return the function of a joint's film."""
     calls, joint = _calls_of_film(pin, "double"), pin.clearance.label
-    steps: dict[str, Any] = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": _texts(calls)}
+    steps: dict[str, Any] = {
+        "before": _statements_code(pin.before_film),
+        "after": _statements_code(pin.after_film),
+        "law": _join_code(calls),
+    }
     steps["unread"] = functions.unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
     text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
     own: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
     return PinFunction(function_name("film", joint), text, [*own, *functions.one_by_one(pin.after_film)])
 
 
-def _store(clearance: Clearance, states: int) -> str:
+def _store_code(clearance: Clearance, states: int) -> str:
+    """Return the code that stores a joint's force, motion and torques."""
     rates = braced("F.state_rate", clearance, states)
     own = _AT_WALL if clearance.wall else _JOURNAL
     more = f", .state_rate = {rates}" if rates else ""
@@ -154,19 +162,21 @@ def _store(clearance: Clearance, states: int) -> str:
 
 
 def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:
-    """Rates of the inner states of its laws as an initializer, `none` where it has none; "" where no law has any."""
+    """Return the rates of a joint's inner states as an initializer; "" if no law has states.
+
+    `none` stands for the states that this joint does not have."""
     own = len(clearance.states) if array else 0
     rates = [f"{array}[{k}]" if k < own else none for k in range(states)]
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
 def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
-    """Normal force, of `delta`, then friction, if there is any."""
-    return _texts(_calls_of_dry(pin, delta, number))
+    """Return the code for normal force and friction; `delta` is the penetration that the normal law gets."""
+    return _join_code(_calls_of_dry(pin, delta, number))
 
 
 def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
-    """Text, and the local that it fills, or ""."""
+    """Return (code, local that it sets or "") of normal force and friction."""
     given: Sequence[str] = [delta, "ratio", *map(expression, pin.given)]
     normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",))
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
@@ -185,35 +195,40 @@ def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     else:
         zero = "0.0" if number == "double" else "all_of(0.0)"
         found.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
-    return [(_wrapped(code), local) for code, local in found]
+    return [(_break_code(code), local) for code, local in found]
 
 
 def call_of_film(pin: Pin, number: str) -> str:
-    """Its forces, and the torque of shear where that is read."""
-    return _texts(_calls_of_film(pin, number))
+    """Return the code for the film's forces and shear torque."""
+    return _join_code(_calls_of_film(pin, number))
 
 
 def _calls_of_film(pin: Pin, number: str) -> list[tuple[str, str]]:
+    """Return (code, local that it sets or "") of the film's forces."""
     results = ("&F_r", "&F_along_t_film", "&T0")
     call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results)
     unread = "(void)T0; /* read only with shear */"
     found = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
-    return [(_wrapped(code), local) for code, local in found]
+    return [(_break_code(code), local) for code, local in found]
 
 
-def _texts(found: Sequence[tuple[str, str]]) -> str:
+def _join_code(found: Sequence[tuple[str, str]]) -> str:
+    """Return the code of calls, one a line."""
     return "\n".join(code for code, _ in found)
 
 
-def _wrapped(code: str) -> str:
+def _break_code(code: str) -> str:
+    """Return a line of code, broken if it is too long."""
     return "\n".join(broken(f"    {code}"))
 
 
-def _lines(statements: Sequence[Statement]) -> str:
+def _statements_code(statements: Sequence[Statement]) -> str:
+    """Return statements as C."""
     return functions.statements(statements)
 
 
 def _template(pin: Pin) -> str:
+    """Return the template for a joint's laws: dry, film, or both."""
     if pin.clearance.film is None:
         return "play/clearance_dry.c.jinja"
     return "play/clearance_transition.c.jinja" if pin.has_transition else "play/clearance_film.c.jinja"

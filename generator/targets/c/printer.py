@@ -1,4 +1,4 @@
-"""SymPy expressions and kernels as C11, in lines that fit a page."""
+"""Prints SymPy expressions and values of kernels as C11, in lines of at most WIDTH characters."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _PLAIN = Readable(())
 
 
 class CPrinter(Quick, C99CodePrinter):
-    """C99 with doubles written to round-trip, small powers as products, NaN-keeping min and max.
+    """Print expressions as C: doubles that round-trip, small powers as products, min and max that propagate NaN.
 
-    `of`: the function that is written, with what it calls its symbols and branches.
+    `of`: the function that is written, with the names of its symbols and branches.
     """
 
     def __init__(self, of: Readable = _PLAIN) -> None:
@@ -32,12 +32,12 @@ class CPrinter(Quick, C99CodePrinter):
         self.of = of
 
     def called(self, key: Key) -> str:
-        """What a symbol, local or place is called in this function."""
+        """Return the C name of a symbol, local or place in this function."""
         found = self.of.names.get(key, key)
         return self.place(found) if isinstance(found, Place) else found
 
     def place(self, place: Place) -> str:
-        """Return the lvalue; arguments that are structs are pointers."""
+        """Return a place as an lvalue; arguments that are structs are pointers."""
         if isinstance(place, Result):
             return f"*{place.base}"
         text = place.base if place.path else self.called(place.base)
@@ -47,10 +47,11 @@ class CPrinter(Quick, C99CodePrinter):
         return text
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
+        """Print a symbol by its name in the function."""
         return self.called(key_of(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """A number such as 0.5 needs no brackets; 2*PI/3 in a product does, for it is one number."""
+        """Print an expression, in brackets if it binds less than `level`: not 0.5, but 2*PI/3 in a product."""
         if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
             return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
@@ -58,40 +59,47 @@ class CPrinter(Quick, C99CodePrinter):
         return super().parenthesize(item, level, strict)
 
     def _print_Float(self, expr: sp.Float) -> str:
+        """Print a float, a fraction of π as such."""
         share = share_of_pi(expr)
         return share.text("PI", ".0") if share else _double(expr)
 
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
+        """Print a constant such as e as a double."""
         return repr(float(expr))
 
     _print_Exp1 = _print_NumberSymbol
 
     def _print_Pi(self, expr: sp.Expr) -> str:
+        """Print π."""
         return "PI"
 
     def _print_Integer(self, expr: sp.Integer) -> str:
+        """Print an integer as a double."""
         return f"{int(expr)}.0" if abs(int(expr)) < 10**300 else _double(expr)
 
     def _print_int(self, expr: int) -> str:
+        """Print a Python integer as a double."""
         return f"{expr}.0"
 
     def _print_Rational(self, expr: sp.Rational) -> str:
+        """Print a rational number: as a quotient, or as a double if that is exact."""
         if max(abs(int(expr.p)), int(expr.q)) > 10**15:
             return _double(expr)
         p, q = int(expr.p), int(expr.q)
         return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"  # a power of two divides exactly
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """A coefficient that binary64 has not stands as two numbers, one on each side of what it is a factor of."""
+        """Print a product; a coefficient outside binary64 is split into two factors, one on each side."""
         if share := share_of_pi(expr):
             return share.text("PI", ".0")
         number, rest = expr.as_coeff_Mul()
         if is_normal(number):
             return str(super()._print_Mul(expr))
-        first, last = two_of(number)
+        first, last = split_number(number)
         return f"{self._print(first)} * ({self._print(rest)}) * {self._print(last)}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
+        """Print a power: small integer ones as products, roots by sqrt, others by pow."""
         base, exponent = expr.as_base_exp()
         if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
             factor = self.parenthesize(base, 50)
@@ -106,10 +114,11 @@ class CPrinter(Quick, C99CodePrinter):
         return self._call("pow", base, exponent)
 
     def _call(self, function: str, *arguments: sp.Expr) -> str:
+        """Print a call of a C function."""
         return f"{function}({', '.join(map(self._print, arguments))})"
 
     def _nested(self, function: str, expr: sp.Expr) -> str:
-        """Numbers come last: max_of(x, 0) keeps a NaN in x."""
+        """Print nested calls of a function of two arguments; numbers come last, since max_of(x, 0) keeps a NaN in x."""
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
         text = self._print(arguments[0])
         for argument in arguments[1:]:
@@ -117,111 +126,119 @@ class CPrinter(Quick, C99CodePrinter):
         return text
 
     def _print_of_table(self, expr: sp.Expr) -> str:
-        """Of the table of functions."""
+        """Print a function of the table of functions (gudgeon.language.functions)."""
         name = CLASSES[type(expr)].in_c
         return self._nested(name, expr) if isinstance(expr, (sp.Max, sp.Min)) else self._call(name, *expr.args)
 
     def _print_Size(self, expr: sp.Expr) -> str:
+        """Print an absolute value."""
         return self._call("fabs", expr.args[0])
 
     def _print_Whole(self, expr: sp.Expr) -> str:
-        """From wholes.py."""
+        """Print an unevaluated operand (symbols/wholes.py) in brackets."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
-        """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""
+        """Print a step function, 1 at 0, so that a ramp that begins at the start moves at once."""
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
-        """From corners.py."""
+        """Print the active branch of a switching function (symbols/corners.py)."""
         return f"branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._print(expr.args[1])})"
 
     def corner(self, index: int) -> str:
-        """Its number, or how far behind the function's first one it is."""
+        """Return the number of a switching function, or its offset from the function's first one."""
         if self.of.first_corner is None:
             return str(index)
         further = index - self.of.first_corner
         return f"corner + {further}" if further else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
-        """From corners.py."""
+        """Print an absolute value that is never 0 (symbols/corners.py)."""
         return f"(fabs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
-        """Not below zero picks the first: a NaN stays in it."""
+        """Print a choice by the sign of its first argument: the second unless it is below zero, so that NaN is kept."""
         if expr in self.of.branches:
             return self.of.branches[expr]
         side, a, b = (self._print(argument) for argument in expr.args)
         return f"({side} < 0.0 ? {b} : {a})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
-        """From curves.py."""
+        """Print the value of a curve or its derivative (symbols/curves.py)."""
         return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
+        """Print the value of a curve on the piece that its branch selects."""
         x, side = map(self._print, expr.args[2:])
         return f"curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        """Print the event function of a curve's knots."""
         return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """From curves.py."""
+        """Print the depth of a contour or its derivative (symbols/curves.py)."""
         table, angle = self.called(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
         return f"contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
-        """From corners.py."""
+        """Print a remainder (symbols/corners.py)."""
         return self._call("mod_of", *expr.args)
 
     def _print_ModOn(self, expr: sp.Expr) -> str:
+        """Print a remainder on the period that its branch selects."""
         return self._call("mod_on", *expr.args)
 
     def _print_PeriodsOf(self, expr: sp.Expr) -> str:
+        """Print the event function of a remainder's periods."""
         return self._call("period_branch", *expr.args)
 
     def _print_Slope(self, expr: sp.Expr) -> str:
-        """From finite_slopes.py."""
+        """Print a derivative, or a difference quotient where it is not finite (symbols/finite_slopes.py)."""
         return self._call("finite_slope", *expr.args)
 
     def _print_JustAhead(self, expr: sp.Expr) -> str:
+        """Print a value slightly above its argument."""
         return self._call("just_ahead", expr.args[0])
 
     def _print_JustBehind(self, expr: sp.Expr) -> str:
+        """Print a value slightly below its argument."""
         return self._call("just_behind", expr.args[0])
 
 
 def is_normal(number: sp.Expr) -> bool:
-    """Whether binary64 has a number with all its digits."""
-    return number.is_Integer and abs(int(number)) < 10**15 or sys.float_info.min <= abs(_value(number)) < math.inf
+    """Return whether a number is in the normal range of binary64."""
+    return number.is_Integer and abs(int(number)) < 10**15 or sys.float_info.min <= abs(_as_float(number)) < math.inf
 
 
-def two_of(number: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Two numbers of about the same size, the second a power of two, whose product it is."""
+def split_number(number: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Split a number into two factors of similar size, the second a power of two."""
     last = sp.Integer(2) ** (int(sp.floor(sp.log(abs(number), 2).n())) // 2)
     return sp.Float(number, 17) / last, last
 
 
-def _value(number: sp.Expr) -> float:
+def _as_float(number: sp.Expr) -> float:
+    """Return a number as a float."""
     return float(sp.Float(number, 17))
 
 
 def _double(number: sp.Expr) -> str:
-    """A number as binary64; one that is too large is what the arithmetic of C would make of it."""
-    value = _value(number)
+    """Return a number as a C double; one that is too large becomes INFINITY."""
+    value = _as_float(number)
     return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 
 class Text:
-    """Values of one function as text."""
+    """Print the values of one function."""
 
     def __init__(self, printer: CPrinter) -> None:
         self.printer = printer
 
     def expression(self, value: Value) -> str:
-        """C text of a value."""
+        """Return a value as C."""
         match value:
             case Place():
                 return self.printer.called(value)
@@ -236,7 +253,7 @@ class Text:
                 return self.printer.doprint(value)
 
     def test(self, item: Test) -> str:
-        """A comparison."""
+        """Return a comparison as C."""
         value = self.expression(item.value)
         left = f"fabs({value})" if item.size else value
         if item.of_itself:
@@ -245,7 +262,7 @@ class Text:
         return f"{left} {item.relation} {bound}" if item.relation else left
 
     def _factor(self, value: sp.Basic | float) -> str:
-        """Of a bound: model.h has the names of thresholds."""
+        """Return a factor of a bound as C; thresholds have names in model.h."""
         if isinstance(value, Threshold):
             return self.printer.called(value.place) if value.place else value.name
         return repr(value) if isinstance(value, float) else self.expression(value)
@@ -256,7 +273,7 @@ expression, test = _text.expression, _text.test
 
 
 def comment_text(text: str) -> str:
-    """Text that cannot end a C comment or continue a line, in ASCII."""
+    """Return ASCII text that can neither end a C comment nor continue a line."""
     return (
         re.sub(r"[^\x20-\x7e]", "?", text)
         .replace("*/", "* /")
@@ -270,36 +287,37 @@ WIDTH = 120
 
 
 def broken(line: str) -> list[str]:
-    """A line of code as lines that fit."""
+    """Break a line of code into lines of at most WIDTH characters."""
     return breaks.broken(line, WIDTH)
 
 
 def within(text: str) -> str:
-    """A whole file with no line over WIDTH: its code broken, its comments wrapped or put in front of what they tell."""
+    """Return a whole C file with no line longer than WIDTH: code is broken, comments are wrapped."""
     found: list[str] = []
     in_comment = False
     for line in text.split("\n"):
-        found += _comment(line) if in_comment else _fitting(line)
+        found += _wrap_comment_line(line) if in_comment else _fit_line(line)
         in_comment = line.rfind("/*") > line.rfind("*/") or in_comment and "*/" not in line
     return "\n".join(found)
 
 
-def _comment(line: str) -> list[str]:
-    """A line of a comment of several."""
+def _wrap_comment_line(line: str) -> list[str]:
+    """Wrap a line inside a comment of several lines."""
     if len(line) <= WIDTH or not line.startswith(" * "):
         return [line]
     return textwrap.wrap(line[3:], WIDTH, initial_indent=" * ", subsequent_indent=" * ")
 
 
-def _fitting(line: str) -> list[str]:
+def _fit_line(line: str) -> list[str]:
+    """Break one line; a long comment after code is put before it."""
     if len(line) <= WIDTH:
         return [line]
     indent = line[: len(line) - len(line.lstrip())]
     if (bare := line.strip()).startswith("/* ") and bare.endswith(" */") and bare.count("*/") == 1:
         star = f"{indent} * "
-        told = textwrap.wrap(bare[3:-3], WIDTH, initial_indent=star, subsequent_indent=star)
-        return [f"{indent}/*", *told, f"{indent} */"]
-    code, mark, told_behind = line.rpartition("/* ")
-    if mark and told_behind.endswith(" */") and code.strip() and "/*" not in code:
-        return [*_fitting(f"{indent}/* {told_behind}"), *_fitting(code.rstrip())]
+        comment_lines = textwrap.wrap(bare[3:-3], WIDTH, initial_indent=star, subsequent_indent=star)
+        return [f"{indent}/*", *comment_lines, f"{indent} */"]
+    code, mark, comment = line.rpartition("/* ")
+    if mark and comment.endswith(" */") and code.strip() and "/*" not in code:
+        return [*_fit_line(f"{indent}/* {comment}"), *_fit_line(code.rstrip())]
     return [line] if line.startswith("#") else broken(line)

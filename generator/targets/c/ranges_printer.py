@@ -1,4 +1,7 @@
-"""Kernels a second time, for ranges: the same statements with bounds and slopes for numbers (engine/watch/ranges.h)."""
+"""Prints kernels for interval arithmetic: the same statements with ranges (bounds and slopes) instead of numbers.
+
+The operations are in engine/watch/ranges.h.
+"""
 
 from __future__ import annotations
 
@@ -17,48 +20,54 @@ from gudgeon.generator.targets.quick import ordered_terms
 
 _TYPES: dict[Type, Type] = {Number.REAL: "Range", "RhsOutputs": "Range"}
 _NAMES = {"rhs": "out"}
-_RANGES = {"q", "v", "t"}  # what a range is handed over for; everything else is a number
+_RANGES = {"q", "v", "t"}  # arguments that are ranges; all others are numbers
 
 
 class RangesPrinter(printer.CPrinter):
-    """Every operation is a call; what no symbol is in stays a number."""
+    """Print every operation as a call on ranges; expressions without symbols stay numbers."""
 
     def place(self, place: Place) -> str:
-        """A parameter is the range of one."""
+        """Return a place; a parameter becomes a range of one value."""
         text = super().place(place)
         return f"only({text})" if place.is_parameter else text
 
     def _range(self, expr: sp.Expr) -> str:
+        """Print an expression as a range."""
         text: str = self._print(expr)
         return text if expr.free_symbols else f"only({text})"
 
     def _call(self, function: str, *arguments: sp.Expr) -> str:
+        """Print a call of a function of ranges."""
         if not any(argument.free_symbols for argument in arguments):
             return super()._call(function, *arguments)
         return f"range_{function}({', '.join(map(self._range, arguments))})"
 
     def _chained(self, function: str, arguments: tuple[sp.Expr, ...]) -> str:
+        """Print a chain of calls of a function of two ranges."""
         text = self._range(arguments[0])
         for argument in arguments[1:]:
             text = f"range_{function}({text}, {self._range(argument)})"
         return text
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
+        """Print a sum of ranges."""
         if not expr.free_symbols:
             return str(super()._print_Add(expr))
         return self._chained("add", ordered_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
+        """Print a product of ranges."""
         if not expr.free_symbols:
             return str(super()._print_Mul(expr))
         number, rest = expr.as_coeff_Mul()
         factors = rest.as_ordered_factors()
         if not printer.is_normal(number):
-            first, last = printer.two_of(number)
+            first, last = printer.split_number(number)
             return self._chained("times", (first, *factors, last))
         return self._chained("times", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
+        """Print a power of a range."""
         if not expr.free_symbols:
             return super()._print_Pow(expr)
         base, exponent = expr.as_base_exp()
@@ -70,46 +79,54 @@ class RangesPrinter(printer.CPrinter):
         return self._call("pow", base, exponent)
 
     def _nested(self, function: str, expr: sp.Expr) -> str:
+        """Print nested calls such as the maximum of several ranges."""
         if not expr.free_symbols:
             return super()._nested(function, expr)
         return self._chained(function, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
+        """Print the step function of a range."""
         return self._call("heaviside", expr.args[0])
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
+        """Print the active branch of a switching function of ranges."""
         return f"range_branch(branch, {int(expr.args[0])}, {self._range(expr.args[1])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
-        """Of ranges 0 times infinity is 0: the derivative is enough."""
+        """Print a derivative without its replacement: for ranges 0 times infinity is 0."""
         return self._range(expr.args[0])
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
+        """Print the absolute value of a range."""
         return self._call("magnitude", expr.args[0])
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
+        """Print the value of a curve over a range."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
         return f"range_curve({c_name(expr.name)}, {expr.order}, {self._range(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
+        """Print the value of a curve over a range, on the piece that its branch selects."""
         x, side = map(self._range, expr.args[2:])
         return f"range_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        """Print the event function of a curve's knots over a range."""
         return f"range_knots({c_name(expr.name)}, {self._range(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
+        """Print a choice by the sign of a range."""
         return self._call("pick", *expr.args)
 
 
 class _RangeLines(functions.Lines):
-    """Statements whose locals are ranges."""
+    """Print statements whose locals are ranges."""
 
     printer: RangesPrinter
 
     def expression(self, value: Value) -> str:
-        """A range."""
+        """Return a value as a range."""
         if isinstance(value, sp.Basic):
             return self.printer._range(value)
         text = super().expression(value)
@@ -117,7 +134,7 @@ class _RangeLines(functions.Lines):
 
 
 def kernel(item: Kernel) -> str:
-    """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
+    """Return the C function of a kernel with ranges for time, coordinates and velocities; parameters stay numbers."""
     arguments = tuple(
         replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in item.arguments
     )

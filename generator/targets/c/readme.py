@@ -1,4 +1,4 @@
-"""README.md of a scene's folder: which file to read first, and what each holds."""
+"""Writes README.md of a scene's folder: the order in which to read the files, and what each contains."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own fo
 
 
 def readme(program: Program, files: Mapping[str, str], others: Collection[str] = ("kernel.json",)) -> str:
-    """Markdown over a scene's files; of one that is new here its own first comment."""
+    """Return the Markdown text over a scene's files; unknown files are described by their first comment."""
     mechanism, scene = program.model.scene.mechanism, program.model.scene
     names = [*files, *others]
     equations = [name for name in _EQUATIONS if name in names]
@@ -73,11 +73,12 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
 
 
 def purposes(program: Program) -> dict[str, str]:
-    """What each file holds that a scene may have, the equations first, in the order in which they are to be read."""
+    """Return the purpose of each file that a scene may have, in the order in which they are to be read."""
     return _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
 
 
 def _sizes(program: Program) -> str:
+    """Return a sentence about the sizes of the scene."""
     model, system = program.model, program.integrated.system
     played = {clearance.joint.name for clearance in model.clearances}
     left = f"{_count(system.q, 'coordinate')}, {_count(system.rows, 'row')}"
@@ -89,10 +90,12 @@ def _sizes(program: Program) -> str:
 
 
 def _count(some: Sized, one: str, many: str = "") -> str:
+    """Return a number with its noun: "1 body", "2 bodies"."""
     return f"{len(some)} {one if len(some) == 1 else many or one + 's'}"
 
 
 def _first(program: Program, names: Collection[str]) -> list[str]:
+    """Return the lines that say what to read first."""
     runs = next((name for name in ("positions.c", "reduced.c") if name in names), "")
     follows = f", and `{runs}`, which is what runs" if runs else ""
     return [
@@ -102,7 +105,7 @@ def _first(program: Program, names: Collection[str]) -> list[str]:
 
 
 def _calls(program: Program, names: Collection[str]) -> list[str]:
-    """How it is compiled and called."""
+    """Return the lines that say how the scene is compiled and called."""
     runs = (
         "`gudgeon_run_start`, `gudgeon_adaptive_setup`, then `gudgeon_adaptive_run`"
         if program.integrates
@@ -130,12 +133,12 @@ def _calls(program: Program, names: Collection[str]) -> list[str]:
 
 
 def _plain(text: str) -> str:
-    """One line that cannot be more than text."""
+    """Return a text as one line with Markdown's signs escaped."""
     return re.sub(r"[\\`*_<>\[\]#|]", r"\\\g<0>", " ".join(text.split()))
 
 
 def _comment(text: str) -> str:
-    """The first sentence of a file's first comment."""
+    """Return the first sentence of a file's first comment."""
     _, _, told = text.partition("/*")
     lines = [line.strip().removeprefix("*").strip() for line in told.partition("*/")[0].splitlines()]
     return " ".join(filter(None, lines)).partition(". ")[0] or "more of it"

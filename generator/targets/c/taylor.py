@@ -1,4 +1,4 @@
-"""The C of the Taylor series of a motion: what its functions hand to each other, and the functions."""
+"""Writes the C of the Taylor series of a motion: its structs and its functions."""
 
 from __future__ import annotations
 
@@ -19,23 +19,25 @@ typedef double Wide __attribute__((vector_size({8 * WIDE}), aligned(16)));
 
 
 def taylor_code(series: Series) -> str:
-    """The whole file."""
+    """Return the text of taylor.c."""
     kernels = (functions.kernel(side_by_side(series.values)), functions.kernel(series.terms))
     return "\n".join([_HEAD, _structs(series, "double"), *kernels])
 
 
 def lanes_code(series: Series) -> str:
-    """The same for several runs side by side."""
+    """Return the same functions for several runs in SIMD lanes."""
     kernels = (lanes_printer.motion_kernel(series.values), lanes_printer.kernel(series.terms))
     return "\n".join([_structs(series, "Lanes"), *kernels])
 
 
 def _structs(series: Series, number: str) -> str:
+    """Return the structs of coefficients of order 0 and of factors of products."""
     products = [product.name for product in series.products]
     factors = _struct("Factors of products, or their sums over lower orders.", "TaylorFactors", products, number)
     return "\n".join([_struct("Coefficients of order 0.", "TaylorValues", series.kept, number), factors])
 
 
 def _struct(meaning: str, name: str, fields: Sequence[str], number: str) -> str:
+    """Return one struct with fields of one type."""
     lines = [f"/* {meaning} */", "typedef struct {", *(f"    {number} {field};" for field in fields or ["none"])]
     return "\n".join([*lines, f"}} {name};", ""])

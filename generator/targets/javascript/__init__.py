@@ -1,1 +1,1 @@
-"""Functions of a scene as JavaScript: what a page evaluates beside its simulator."""
+"""Writes functions of a scene as JavaScript, which a page evaluates in addition to its simulator."""

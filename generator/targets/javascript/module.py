@@ -1,4 +1,4 @@
-"""Φ, Φ_q, ν, γ and what acts in joints with play, as JavaScript: for values that a page shows beside its equations."""
+"""Writes Φ, Φ_q, ν, γ and the forces of joints with play as JavaScript, for the values that a page shows."""
 
 from __future__ import annotations
 
@@ -41,15 +41,15 @@ _COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTA
 
 
 def equations_script(program: Program) -> str:
-    """JavaScript that declares `gudgeonEquations`, with what a page needs to know of them.
+    """Return the JavaScript that declares `gudgeonEquations`: the functions and the description that a page needs.
 
-    Of `dynamics` the lines up to the right-hand side of each row are among the functions; of joints with play all that
-    clearance.c has, `joints` being what `play` calls the motion of each, `called` whose functions call which.
+    The functions of clearance.c are included, of `dynamics` the lines up to the right-hand side of each row. `joints`
+    contains the locals of `play` with the motion of each joint, `called` the joints of each function.
 
     `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
-    places in a run's p by the name of the member of p; `bodies` stand in the order of q, `closing` are the places of
-    what `closures` gives in what `reduced_project` takes; `rows` are the places of the scene's rows in the closed
-    linkage's, `names` what they are called. Raises ValueError for curves.
+    indices in a run's p by the name of the member of p; `bodies` stand in the order of q, `closing` are the indices of
+    the results of `closures` in the argument of `reduced_project`; `rows` are the indices of the scene's rows in the
+    closed linkage's, `names` their names. Raises ValueError for curves.
     """
     model, dynamics = program.model, program.dynamics
     kernels = [*closed_linkage.row_kernels(model), *([play_kernel(model)] if model.clearances else [])]
@@ -68,11 +68,11 @@ def equations_script(program: Program) -> str:
         "rows": [place[row.name] for row in model.rows],
         "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
-        "joints": {clearance.label: _motion(model, i) for i, clearance in enumerate(model.clearances)},
-        "called": _called(program),
+        "joints": {clearance.label: _motion_locals(model, i) for i, clearance in enumerate(model.clearances)},
+        "called": _joints_of_functions(program),
         "states": model.law_states,
         "bodies": [body.name for body in model.bodies],
-        "closing": _closing(program),
+        "closing": _closure_indices(program),
     }
     if model.slots.tables:
         place_of = {symbol: k for k, symbol in enumerate(model.slots.members())}
@@ -87,9 +87,9 @@ def equations_script(program: Program) -> str:
 
 
 def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
-    """Functions of reduced.c that a sample says enough for, by name; `read` gets the members of p.
+    """Return the functions of reduced.c that a sample suffices to evaluate, by name; `read` gets the members of p.
 
-    Driven chains are closed there: their rates follow from their coordinates. Whether friction sticks it does not say.
+    Driven loops are closed in a sample, and their rates follow from their coordinates. Friction modes are not known.
     """
     found = dict[str, str]()
     for kernel in _tree_kernels(program):
@@ -99,12 +99,13 @@ def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
 
 
 def _tree_kernels(program: Program) -> list[Kernel]:
+    """Return the kernels in tree coordinates that can be evaluated from a sample."""
     tree = program.tree
     return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree else []
 
 
-def _closing(program: Program) -> list[int]:
-    """Of each closed loop's row its place among all rows of the tree's linkage."""
+def _closure_indices(program: Program) -> list[int]:
+    """Return the index of each loop closure among all rows of the tree's linkage."""
     if program.tree is None:
         return []
     system = program.tree.system
@@ -113,14 +114,14 @@ def _closing(program: Program) -> list[int]:
 
 
 def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
-    """Locals of `dynamics` that the right-hand sides of the rows of its linear system hang on."""
+    """Return the locals of `dynamics` on which the right-hand sides of its linear system depend."""
     names = {made_name(f"rhs_{row.name}") for row in model.rows}
     found = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
     return {name for name in found.stored if isinstance(name, str)}
 
 
-def _called(program: Program) -> dict[str, list[str]]:
-    """Joints by the functions of clearance.c that act in them, in their order."""
+def _joints_of_functions(program: Program) -> dict[str, list[str]]:
+    """Return the joints in which each function of clearance.c acts."""
     found: defaultdict[str, list[str]] = defaultdict(list)
     for pin in program.pins:
         parts = (f"{part}_{pin.clearance.label}_" for part in ("clearance", "dry", "film"))
@@ -129,29 +130,29 @@ def _called(program: Program) -> dict[str, list[str]]:
     return found
 
 
-def _motion(model: Model, index: int) -> list[str]:
-    """Locals of `play` that hold the motion in a joint."""
+def _motion_locals(model: Model, index: int) -> list[str]:
+    """Return the locals of `play` that contain the motion in a joint."""
     taken = {symbol.name for symbol in model.symbols.info}
     first = next(word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in taken))
     return [f"{first}_{index + 1}_{symbol.name}" for symbol in motion(model.clearances[index])]
 
 
 def play_kernel(model: Model) -> Kernel:
-    """The eccentricity in each joint with play, its rate, how fast both bodies turn."""
+    """Return the kernel of eccentricity, its rate and angular velocities of each joint with play."""
     build = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):
         build.section(f"{clearance.kind} {clearance.name}")
         turning = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
         values += clearance.also
-        for name, value in zip(_motion(model, i), values, strict=True):
+        for name, value in zip(_motion_locals(model, i), values, strict=True):
             build.line(Statement(name, sp.sympify(value)))
     return build.build((*STATE, PARAMETERS))
 
 
 def carried_script(text: str) -> str:
-    """Return a JavaScript file of gudgeon's as a page carries it: without comments and indents, line by line.
+    """Return a JavaScript file without comments and indents, for embedding in a page.
 
-    Lines stay lines, for they end statements.
+    Lines are kept, since they end statements.
     """
     return re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text))

@@ -1,6 +1,6 @@
-"""Lines and functions as JavaScript: expressions are C's, letter by letter, so that the same bits are computed.
+"""Prints lines and functions as JavaScript; expressions are those of C, so that the same bits are computed.
 
-Names of C's functions are those of PRELUDE; p is an object with a member a number. No side of a corner is held.
+Functions of C are defined in PRELUDE; p is an object with a member for each parameter. Branches are not frozen.
 """
 
 from __future__ import annotations
@@ -67,37 +67,38 @@ _SIDES = tuple(Place(argument.name) for argument in BRANCHES)
 
 
 class JavaScriptPrinter(CPrinter):
-    """C's expressions with JavaScript's names of places; `numbers` are the members of p that were read."""
+    """Print C's expressions with JavaScript's names of places; `numbers` collects the members of p that are read."""
 
     def __init__(self, of: Readable, numbers: set[str]) -> None:
         super().__init__(of)
         self.numbers = numbers
 
     def place(self, place: Place) -> str:
-        """Return the path."""
+        """Return the path of a place."""
         if place.is_parameter:
             self.numbers.add(place.member)
         return str(place)
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
-        """The side on which its difference is."""
+        """Print the active branch of a switching function: its sign, since branches are not frozen."""
         return self._call("sign_of", expr.args[1])
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
+        """Raise ValueError: curves have no counterpart in JavaScript."""
         raise ValueError(f"a curve, {c_name(expr.name)}, has no counterpart in JavaScript")
 
     _print_CurveOn = _print_KnotsOf = _print_CurveOf
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """From curves.py; its depths are an array of p."""
+        """Print the depth of a contour or its derivative (symbols/curves.py); its depths are an array of p."""
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
 
 def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
-    """A method that returns its locals and arrays by name; `numbers` gets the members of p that it reads.
+    """Return a kernel as a method that returns its locals and arrays by name; `numbers` gets the members of p.
 
-    Where a pivot vanishes it ends, and what would come then is undefined. `only`: the locals that are computed, nothing
-    else is then. Raises ValueError for what has no counterpart.
+    If a pivot vanishes, the method ends and later values are undefined. `only`: the only locals that are computed.
+    Raises ValueError for a line without a counterpart.
     """
     own = readable(kernel)
     ends = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
@@ -107,7 +108,7 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
     outs = results(kernel) if only is None else []
     outs = [out for out in outs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
-    if rhs := _aside(kernel) if only is None else "":
+    if rhs := _outputs_literal(kernel) if only is None else "":
         arrays, outs = [*arrays, f"    const rhs = {rhs};"], [*outs, "rhs"]
     given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
@@ -116,19 +117,19 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
 
 
 def arguments(kernel: Kernel) -> list[str]:
-    """What a function is given: not the arrays that it returns."""
+    """Return the names of a function's arguments without the arrays that it returns."""
     given = (a for a in kernel.arguments if a not in (*BRANCHES, CORNER))
     return [a.name for a in given if a.access is not Access.WRITTEN]
 
 
 def results(kernel: Kernel) -> list[str]:
-    """Numbers and arrays of numbers that a function returns by its arguments, in their order."""
+    """Return the names of numbers and arrays that a function returns through arguments, in their order."""
     written = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in BRANCHES)
     return [a.name for a in written if a.type is Number.REAL]
 
 
-def _aside(kernel: Kernel) -> str:
-    """What the function says beside its results, as an object to be filled; "": nothing."""
+def _outputs_literal(kernel: Kernel) -> str:
+    """Return an object literal for the further outputs (RhsOutputs) that a function fills; "" if there are none."""
     lines = [line for section in kernel.sections for line in section.statements]
     places = [line.target for line in lines if isinstance(line, Statement)]
     places += [place for line in lines if isinstance(line, Call) for place in line.results]
@@ -143,27 +144,28 @@ def _aside(kernel: Kernel) -> str:
 
 
 class _JavaScript(Text):
-    """Values; thresholds as numbers."""
+    """Print values; thresholds become numbers."""
 
     def _factor(self, value: sp.Basic | float) -> str:
+        """Return a factor of a bound as a number."""
         return repr(float(value)) if isinstance(value, float) else self.expression(value)
 
 
 class Lines:
-    """Lines of one function; `locals` are what they declare, by `word`."""
+    """Print the lines of one function; `locals` are the names that they declare with `word`."""
 
     def __init__(self, own: Readable, numbers: set[str], word: str = "const") -> None:
         self.own, self.text, self.word = own, _JavaScript(JavaScriptPrinter(own, numbers)), word
         self.locals: list[str] = []
 
     def all(self, only: Collection[str] | None = None) -> list[str]:
-        """Every line, or those that store to one of `only`."""
+        """Return every line, or those that store to one of `only`."""
         every = (line for section in self.own.sections for line in section.statements)
         wanted = (line for line in every if only is None or getattr(line, "target", "") in only)
         return [text for line in wanted for text in self.lines(line)]
 
     def lines(self, item: Line) -> list[str]:
-        """One statement or branch."""
+        """Return one statement or branch as lines of JavaScript."""
         if isinstance(item, (Branches, Status, JointsAlone, Jump, Rescue, Return, LargestRow)):
             return []
         if isinstance(item, Sines):
@@ -186,10 +188,11 @@ class Lines:
         return [f"{declared}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
 
     def _given(self, value: sp.Basic | Place) -> str:
+        """Return an argument of a call."""
         return str(value) if isinstance(value, Place) else self.text.expression(value)
 
     def _sines(self, item: Sines) -> list[str]:
-        """One vector of all, or groups of four."""
+        """Return the sines and cosines of angles as arrays: one of all, or groups of four."""
         angles, found = [self.text.expression(angle) for angle in item.angles], []
         for function, array in zip(("sin", "cos"), item.arrays, strict=True):
             told = [f"{function}({angle})" for angle in angles]

@@ -1,8 +1,8 @@
-"""What is shown, before it is laid out: sections of paragraphs, equations, tables and sketches.
+"""Represents a document before its layout: sections of paragraphs, equations, tables and sketches.
 
-Every formula is there in LaTeX and in plain text; HTML takes the LaTeX as MathML. `of` are tokens of what a block
-belongs to (trace.py), parts that share one are lit together (light.js); `value` is what a page that runs shows beside
-it (live.js): for HTML alone.
+Every formula has a LaTeX and a plain text form; HTML converts the LaTeX to MathML. `of` are the tokens of a block
+(trace.py); blocks that share a token are highlighted together (light.js). `value` is the value that a running page
+shows next to the block (live.js); both are for HTML only.
 """
 
 from __future__ import annotations
@@ -24,19 +24,21 @@ Text: TypeAlias = tuple[str | Name, ...]  # words and formulas in one line
 
 @dataclass(frozen=True)
 class Paragraph:
+    """Represent a paragraph of words and formulas."""
+
     text: Text
     of: Sequence[str] = ()
     kind: str = "paragraph"
 
     @property
     def leads(self) -> bool:
-        """Whether what follows belongs on the same page."""
+        """Return whether the next block belongs on the same page."""
         return isinstance(self.text[-1], str) and self.text[-1].endswith(":")
 
 
 @dataclass(frozen=True)
 class Equation:
-    """left = terms; a line may break in front of a term."""
+    """Represent an equation left = terms; a line may break before a term."""
 
     left: Name
     terms: tuple[Name, ...]
@@ -48,7 +50,10 @@ class Equation:
 
 @dataclass(frozen=True)
 class Table:
-    """`wide` are the columns with running text, `of` tokens by row; `upright`: on a phone its columns are rows."""
+    """Represent a table; `wide` are the columns with running text, `of` tokens by row.
+
+    `upright`: on a phone its columns become rows.
+    """
 
     header: tuple[Text, ...]
     rows: tuple[tuple[Text, ...], ...]
@@ -58,21 +63,20 @@ class Table:
     kind: str = "table"
 
     def tokens(self, row: int) -> Sequence[str]:
-        """Of a row, from 0."""
+        """Return the tokens of a row, counted from 0."""
         return self.of[row] if row < len(self.of) else ()
 
 
 @dataclass(frozen=True)
 class Sketch:
-    """Lines whose columns must stay under each other."""
+    """Represent a sketch in characters, whose columns must stay aligned."""
 
     lines: tuple[str, ...]
     kind: str = "sketch"
 
     @property
     def parts(self) -> list[tuple[str, ...]]:
-        """Drawings and formulas that may stand below each other where there is no room beside: what is apart is so by
-        columns without a letter."""
+        """Return the parts of a sketch that may stand below each other; empty columns separate them."""
         found = list[tuple[str, ...]]()
         for blank, own in groupby(self.lines, lambda line: not line.strip()):
             lines = [] if blank else list(own)
@@ -89,7 +93,7 @@ class Sketch:
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawing: in HTML as SVG, elsewhere as lines whose columns stay under each other, or nothing."""
+    """Represent a drawing: SVG in HTML, elsewhere aligned lines of characters, or nothing."""
 
     caption: str
     svg: str
@@ -99,7 +103,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Listing:
-    """A file line by line, folded, with tokens by line from 1; for HTML alone."""
+    """Represent a file line by line, folded, with tokens by line from 1; in HTML only."""
 
     title: str
     lines: tuple[str, ...]
@@ -109,7 +113,7 @@ class Listing:
 
 @dataclass(frozen=True)
 class Carried:
-    """HTML that a page alone has."""
+    """Represent HTML that only a page has."""
 
     html: str
     kind: str = "carried"
@@ -120,6 +124,8 @@ Block: TypeAlias = Paragraph | Equation | Table | Sketch | Picture | Listing | C
 
 @dataclass(frozen=True)
 class Section:
+    """Represent a section: its title, its blocks, and the level of its heading."""
+
     title: str
     blocks: tuple[Block, ...]
     level: int = 1
@@ -128,23 +134,25 @@ class Section:
 
 @dataclass(frozen=True)
 class Document:
+    """Represent a document: its title, facts under the title, and sections."""
+
     title: str
     facts: tuple[Text, ...]  # under the title
     sections: tuple[Section, ...] = field(default=())
 
 
 def paragraph(*text: str | Name, of: Sequence[str] = ()) -> Paragraph:
-    """Words and formulas as a paragraph."""
+    """Return words and formulas as a paragraph."""
     return Paragraph(text, of)
 
 
 def sentence(text: str) -> str:
-    """Text that begins with a capital and ends with a stop."""
+    """Return a text with a capital first letter and a full stop."""
     return f"{text[:1].upper()}{text[1:]}."
 
 
 def cells(*items: str | Name | Text) -> tuple[Text, ...]:
-    """A row of a table."""
+    """Return a row of a table."""
     return tuple(item if isinstance(item, tuple) else (item,) for item in items)
 
 
@@ -158,37 +166,37 @@ def table(
     of: Sequence[Sequence[str]] = (),
     upright: bool = False,
 ) -> list[Block]:
-    """Rows in as many tables as they need; nothing for no rows. `of`: tokens by row."""
+    """Yield rows in as many tables as needed; nothing for no rows. `of`: tokens by row."""
     starts = range(0, len(rows), MOST_ROWS)
     return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS]), upright) for k in starts]
 
 
 def row_token(number: int) -> str:
-    """Of a row of Φ, from 1; it stands for the row's entries too (light.js)."""
+    """Return the token of a row of Φ, counted from 1; it also stands for the row's entries (light.js)."""
     return f"row-{number}"
 
 
 def entry_token(row: int, column: int) -> str:
-    """Of an entry of Φ_q, from 1."""
+    """Return the token of an entry of Φ_q, counted from 1."""
     return f"entry-{row}-{column}"
 
 
 def sum_token(row: int) -> str:
-    """Of the line of C that sums a row of Φ, from 1: lit with each of the row's terms (light.js)."""
+    """Return the token of the line of C that sums a row of Φ, highlighted with each of the row's terms."""
     return f"sum-{row}"
 
 
 def owner_token(row: Row) -> str:
-    """Of the joint or drive that a row belongs to."""
+    """Return the token of the joint or drive to which a row belongs."""
     return f"{row.kind}-{row.owner}"
 
 
 def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
-    """Tokens of a row's entries of Φ_q."""
+    """Return the tokens of a row's entries of Φ_q."""
     place = {q: k for k, q in enumerate(model.q, 1)}
     return (entry_token(number, place[q]) for q in row.phi_q)
 
 
 def joint_tokens(clearance: Clearance) -> list[str]:
-    """What lights up with it: the joint, and of a slider's corner that alone."""
+    """Return the tokens of a joint with play; a slider's corner has one of its own in addition."""
     return [*dict.fromkeys((f"joint-{clearance.label}", f"joint-{clearance.joint.name}"))]

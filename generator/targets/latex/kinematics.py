@@ -1,8 +1,8 @@
-"""The second part of the document: coordinates, Φ and its rows' derivatives.
+"""Writes the second part of the document: coordinates, Φ and the derivatives of its rows.
 
-γ stands as textbooks write it, by products of angular velocities. A translational joint's is then θ̇_i² (…) + 2 θ̇_i u
-· (ṙ_j − ṙ_i) + …, as P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall 1988, has it, there
-with the angular velocities of both bodies as one.
+γ is written as in textbooks, by products of angular velocities. That of a translational joint is then θ̇_i² (…) +
+2 θ̇_i u · (ṙ_j − ṙ_i) + …, as in P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall 1988,
+where the angular velocities of both bodies are one.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ LONGEST = 400  # operations in one equation that a reader can be asked to read
 def equation(
     left: Name | sp.Expr, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
 ) -> Equation:
-    """left = right, broken between the terms of the right side; tokens and value as in document.py."""
+    """Return an equation that may break between the terms of the right side; tokens and value as in document.py."""
     named = left if isinstance(left, Name) else notation.math(left)
     return Equation(named, notation.terms(right), of, pick, value)
 
@@ -49,7 +49,7 @@ def equation(
 def shown(
     left: Name, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
 ) -> Block:
-    """left = right; of what fills pages its length alone."""
+    """Return an equation, or for one that would fill pages only its length."""
     size = sp.count_ops(right)
     if size <= LONGEST:
         return equation(left, right, notation, of, pick, value)
@@ -57,7 +57,7 @@ def shown(
 
 
 def kinematics_sections(model: Model, notation: Notation) -> list[Section]:
-    """Coordinates, constants, Φ row by row with Φ_q, ν, γ."""
+    """Return the sections on coordinates, constants, and Φ row by row with Φ_q, ν, γ."""
     sections = [Section("Coordinates", tuple(_coordinates(model, notation)))]
     if constants := list(_constants(model, notation)):
         sections.append(Section("Abbreviations", tuple(constants)))
@@ -71,6 +71,7 @@ def kinematics_sections(model: Model, notation: Notation) -> list[Section]:
 
 
 def _coordinates(model: Model, notation: Notation) -> list[Block]:
+    """Return the table of coordinates and velocities of the bodies."""
     rows, tokens = [], []
     for body in model.bodies:
         first = body.index + 1
@@ -89,7 +90,7 @@ def _coordinates(model: Model, notation: Notation) -> list[Block]:
 
 
 def _constants(model: Model, notation: Notation) -> Iterator[Block]:
-    """Derived numbers and long drives that the rows show by a letter; those of forces stand with the forces."""
+    """Return derived parameters and long drives that the rows show by a letter, except those of forces."""
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
     apart = laws | set(temporaries(model))
     shown = [
@@ -107,7 +108,7 @@ def _constants(model: Model, notation: Notation) -> Iterator[Block]:
 
 
 def _rows(model: Model, notation: Notation) -> list[Block]:
-    """Joint by joint its rows of Φ, their entries of Φ_q, ν and γ."""
+    """Return the rows of Φ of each joint with their entries of Φ_q, ν and γ."""
     blocks: list[Block] = [
         paragraph(
             "The mechanism is closed while ",
@@ -142,7 +143,7 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
 
 
 def _phi(k: int, row: Row, model: Model, notation: Notation) -> Equation:
-    """A row; each of its terms lights its own entries and temporaries."""
+    """Return a row of Φ; each term is highlighted with its own entries and temporaries."""
     place = {q: i for i, q in enumerate(model.q, 1)}
     tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
@@ -151,6 +152,7 @@ def _phi(k: int, row: Row, model: Model, notation: Notation) -> Equation:
             tokens[term] = tokens[-term] = named
 
     def of(term: sp.Expr) -> list[str]:
+        """Return the tokens of a term."""
         explicit = sorted(place[s] for s in model.symbols.explicit(term).free_symbols if s in row.phi_q)
         return [*(entry_token(k, i) for i in explicit), *tokens.get(term, ())]
 
@@ -160,7 +162,7 @@ def _phi(k: int, row: Row, model: Model, notation: Notation) -> Equation:
 
 
 def _by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
-    """The numbered rows of each joint and drive, with its name, type and line of the file."""
+    """Yield each joint and drive with its numbered rows, its type and its line of the file."""
     mechanism = model.scene.mechanism
     for (owner, kind), rows in groupby(enumerate(model.rows, 1), key=lambda pair: (pair[1].owner, pair[1].kind)):
         if kind == "joint":
@@ -171,18 +173,19 @@ def _by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
 
 
 def _named(rows: Sequence[tuple[int, Row]]) -> str:
+    """Return the names and units of rows as text."""
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
 
 
 def _multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
-    """What they are called, each with the place of its value."""
+    """Return the names of the multipliers, each with its value."""
     names = [replace(indexed(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
     between = [part for name in names for part in (", ", name)][1:]
     return [f"multiplier{'s' * (len(rows) > 1)} ", *between]
 
 
 def _jacobian(model: Model) -> list[Block]:
-    """How full Φ_q is, and where."""
+    """Return the pattern of Φ_q and the number of its nonzero entries."""
     count = sum(len(row.phi_q) for row in model.rows)
     of = f"{len(model.rows)} × {len(model.q)}"
     return [
@@ -197,11 +200,12 @@ def _jacobian(model: Model) -> list[Block]:
 
 
 def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
-    """A joint's block of Φ_q: the columns that it has."""
+    """Return a joint's block of Φ_q: the columns with nonzero entries."""
     place = {q: k for k, q in enumerate(model.q)}
     columns = sorted({q for _, row in rows for q in row.phi_q}, key=place.__getitem__)
 
     def entry(k: int, row: Row, q: sp.Symbol) -> Name:
+        """Return one entry of Φ_q as a formula."""
         name = notation.math(notation.expand(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
             return name
@@ -217,6 +221,7 @@ def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) 
 
 
 def _partial(k: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
+    """Return the equation of one entry of Φ_q."""
     by = notation.math(q)
     left = Name(rf"\partial \Phi_{{{k}}} / \partial {by.latex}", f"∂Φ_{k}/∂{by.text}")
     of = [entry_token(k, column + 1)]
@@ -224,7 +229,7 @@ def _partial(k: int, q: sp.Symbol, row: Row, column: int, notation: Notation) ->
 
 
 def _column(of: Name, numbers: Sequence[int], values: Sequence[sp.Expr], own: Row, notation: Notation) -> list[Block]:
-    """The components that are not zero, by their numbers."""
+    """Return the nonzero components of a vector by their numbers."""
     name = "nu" if of is NU else "gamma"
     return [
         shown(indexed(of, k), value, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
@@ -237,13 +242,13 @@ MOST = 1000  # operations of what is sorted
 
 
 def gamma_of(row: Row, model: Model, notation: Notation) -> sp.Expr:
-    """γ of a row as documents write it; a drive's as it follows."""
+    """Return γ of a row as documents write it; that of a drive as derived."""
     value = notation.expand(row.gamma)
     return by_rates(value, model) if row.kind == "joint" else value
 
 
 def by_rates(value: sp.Expr, model: Model) -> sp.Expr:
-    """The same value; as it is where it is no polynomial in the rates, and where it would become longer."""
+    """Return the same value sorted by rates; unchanged if it is no polynomial in the rates or would become longer."""
     turning = [body.v[2] for body in model.bodies]
     if not value.has(*turning) or sp.count_ops(value) > MOST or not value.is_polynomial(*model.v):
         return value
@@ -256,7 +261,7 @@ def by_rates(value: sp.Expr, model: Model) -> sp.Expr:
 
 
 def _forms(rest: sp.Expr, model: Model) -> Iterator[sp.Expr]:
-    """Without common factors; by the axes of a direction that turns with a body, or by a body's sine and cosine."""
+    """Return equivalent forms without common factors, by axes of a rotating direction or by sine and cosine."""
     if not rest.is_Add:
         yield rest
         return

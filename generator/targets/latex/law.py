@@ -1,4 +1,4 @@
-"""One law by itself, of no mechanism: its equations for each of its choices, its keys, validity and reference."""
+"""Writes one force law by itself: its equations for each of its options, its keys, validity and reference."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class Form:
-    """A law for one choice of its keys: what is chosen, and its equations, those that hold for a run first."""
+    """Represent a law for one choice of its options: the choice, and its equations, constants of a run first."""
 
     chosen: Mapping[str, str | bool]
     constants: tuple[Equation, ...]
@@ -75,13 +75,14 @@ class Form:
 
     @property
     def equations(self) -> tuple[Equation, ...]:
+        """Return all equations: constants, then steps."""
         return self.constants + self.steps
 
 
 def forms(law: Law, name: str) -> list[Form]:
-    """A law under one of its names, with defaults; then with every other choice of one key what differs by it.
+    """Return a law under one of its names with default options, then the equations that each other choice changes.
 
-    A number that may be left out is left out, but where it is chosen. Raises LawError, for a law of the user's own.
+    Optional numbers are left out unless they are chosen. Raises LawError for a user-defined law.
     """
     made = law.also.get(name, {})
     defaults = {own.name: own.choice for own in law.options} | {**made}
@@ -102,15 +103,20 @@ def forms(law: Law, name: str) -> list[Form]:
 
 
 def _new(some: Sequence[Equation], known: Set[str]) -> tuple[Equation, ...]:
+    """Return the equations that are not yet known."""
     return tuple(one for one in some if in_a_line(one) not in known)
 
 
 def law_text(law: Law, name: str) -> str:
-    """All about a law under one of its names, as plain Unicode text, 100 columns wide. Raises LawError."""
+    """Return the description of a law under one of its names as plain Unicode text, 100 columns wide.
+
+    Raises LawError.
+    """
     return render(_document(law, name), "txt")
 
 
 def _document(law: Law, name: str) -> Document:
+    """Return the document about a law."""
     first, *others = forms(law, name)
     made = ", ".join(f"{key}: {value}" for key, value in law.also.get(name, {}).items())
     facts = [(f"A law of {_ROLES[law.role]}, {name}" + (f": {law.name} with {made}" if made else ""),)]
@@ -134,6 +140,7 @@ def _document(law: Law, name: str) -> Document:
 
 
 def _equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
+    """Yield the blocks with the letters and equations of a law."""
     used = {name: called for some in (*reversed(others), form) for name, called in some.used}
     rows = [cells(used[name], *_MEANINGS[name]) for name in _MEANINGS if name in used]
     yield from table(cells("letter", "meaning", "unit"), rows)
@@ -146,6 +153,7 @@ def _equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
 
 
 def _choices(others: Sequence[Form]) -> Iterator[Block]:
+    """Yield the blocks with the equations of other choices."""
     for form in others:
         if form.equations:
             told = ", ".join(f"{key}: {as_word(value)}" for key, value in form.chosen.items())
@@ -154,6 +162,7 @@ def _choices(others: Sequence[Form]) -> Iterator[Block]:
 
 
 def _number(own: Field) -> tuple[tuple[str | Name, ...], ...]:
+    """Return the table row of a number of a law."""
     unit = "any" if own.dimension is None else pretty(si_unit(own.dimension)) or "-"
     default = "needed" if own.required else "-" if own.default is None else f"{own.default:g}"
     meaning = f"{own.meaning}; without it {own.otherwise}" if own.otherwise else own.meaning
@@ -161,12 +170,13 @@ def _number(own: Field) -> tuple[tuple[str | Name, ...], ...]:
 
 
 def _option(own: Field) -> Block:
+    """Return the paragraph on an option of a law."""
     words = ", ".join(map(as_word, own.values))
     return paragraph(f"{own.name}: {words}; without it {as_word(own.choice)} ({own.meaning}).")
 
 
 def _references(law: Law, name: str) -> Iterator[Block]:
-    """Of the law, then of the words of its options that are somebody's: under another name of those that it chooses."""
+    """Yield the references of the law and of words of its options that have a source."""
     yield paragraph(f"{law.reference or law.source}.")
     made = law.also.get(name, {})
     for own in law.options:
@@ -176,6 +186,7 @@ def _references(law: Law, name: str) -> Iterator[Block]:
 
 
 def _may_lack(own: Field) -> bool:
+    """Return whether a key is optional and has no default."""
     return own.default is None and not own.required
 
 
@@ -186,15 +197,13 @@ def _form(
     given: Sequence[str],
     nothing: Set[str],
 ) -> Form:
-    """The law's equations in letters of its own. A constant that only repeats a number is not written.
-
-    Nor is a step of `nothing`, those that are 0 by default, where it is 0.
-    """
+    """Return a law's equations in letters of its own, without constants that only repeat a number."""
     numbers = [own.name for own in law.parameters if not _may_lack(own) or own.name in given]
     made = probe(law, options, numbers)
     same = {_probed(name): value for name, value in made.derived.items() if value.is_Symbol}
 
     def plain(value: sp.Expr) -> sp.Expr:
+        """Return a value with repeated constants replaced by their numbers."""
         while value.free_symbols & {*same}:
             value = value.xreplace(same)
         return value
@@ -216,6 +225,7 @@ def _form(
     )
 
     def written(some: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
+        """Return definitions as equations."""
         return tuple(equation(left, right, notation) for left, right in some.items())
 
     return Form(chosen, written(constants), written(steps), used)
@@ -224,7 +234,7 @@ def _form(
 def _names(
     law: Law, numbers: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
 ) -> Iterator[tuple[sp.Symbol, Name]]:
-    """What has a fixed letter comes first; the law's own abbreviations give way."""
+    """Return the names of symbols; fixed letters come first, the law's own abbreviations give way."""
     own = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:
         symbol = sp.Symbol(name, real=True)
@@ -245,7 +255,7 @@ def _names(
 
 
 def _plain(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
-    """Who had to give way has its own name, not that of its symbol here."""
+    """Return the name of a symbol that gave way: its own, not that of its symbol here."""
     used = {name.text for name in names.values()}
     found = dict(names)
     for symbol, name in names.items():
@@ -256,10 +266,10 @@ def _plain(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
 
 
 def _probed(name: str) -> sp.Symbol:
-    """The symbol of a number in what `probe` makes."""
+    """Return the symbol of a number in the result of `probe`."""
     return sp.Symbol(f"probe_{name}", real=True)
 
 
 def in_a_line(one: Equation) -> str:
-    """An equation as plain text."""
+    """Return an equation as plain text."""
     return f"{one.left.text} = {''.join(term.text for term in one.terms)}"

@@ -1,4 +1,4 @@
-"""docs/laws.md: every law of force from its declaration, as `gudgeon laws NAME` prints it, in Markdown."""
+"""Writes docs/laws.md: every force law from its declaration, as `gudgeon laws NAME` prints it, in Markdown."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def laws_page() -> str:
 
 
 def _damping() -> Iterator[str]:
-    """The factors that several laws let one choose, once."""
+    """Yield the dissipation factors that several laws offer."""
     yield from ("## The dissipation of a normal force", "")
     yield (
         "The factor a of 1 + a δ̇/δ̇⁻ in `esdu_78035`, `expression`, `hertz`, `johnson` and `liu`, by `dissipation`,"
@@ -69,6 +69,7 @@ def _damping() -> Iterator[str]:
 
 
 def _of_law(law: Law) -> Iterator[str]:
+    """Yield the lines on one law."""
     yield from (f"### `{law.name}`", "", f"{sentence(law.title)}", "")
     if law.also:
         yield from (f"Also as {', '.join(f'`{name}`' for name in law.also)}.", "")
@@ -87,7 +88,7 @@ def _of_law(law: Law) -> Iterator[str]:
 
 
 def _choice(form: Form) -> Iterator[str]:
-    """What differs by it: one equation in a line, more as they stand."""
+    """Yield the equations that a choice changes: one in a line, several as a block."""
     told = ", ".join(key if value == GIVEN else f"{key}: {as_word(value)}" for key, value in form.chosen.items())
     if len(form.equations) == 1:
         yield from (f"With `{told}`: `{in_a_line(form.equations[0])}`.", "")
@@ -101,10 +102,12 @@ def _typeset(law: Law) -> Iterator[str]:
 
 
 def _block(equations: Iterable[Equation]) -> Iterator[str]:
+    """Yield equations as a block of text."""
     yield from ("```text", *map(in_a_line, equations), "```", "")
 
 
 def _table(fields: Sequence[Field]) -> Iterator[str]:
+    """Yield the table of a law's keys."""
     yield from ("| key | letter | unit | condition | without it | meaning |", "|" + "---|" * 6)
     for own in fields:
         cells = _number(own) if own.kind == NUMBER else _option(own)
@@ -113,10 +116,12 @@ def _table(fields: Sequence[Field]) -> Iterator[str]:
 
 
 def _number(own: Field) -> tuple[str, ...]:
+    """Return the cells of a number: letter, unit, condition, default."""
     unit = "any" if own.dimension is None else pretty(si_unit(own.dimension))
     default = "needed" if own.required else own.otherwise if own.default is None else f"{own.default:g}"
     return of_latex(sign_of(own)).text, unit, condition(own), default
 
 
 def _option(own: Field) -> tuple[str, ...]:
+    """Return the cells of an option."""
     return "", "", " or ".join(f"`{as_word(value)}`" for value in own.values), f"`{as_word(own.choice)}`"

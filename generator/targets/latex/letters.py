@@ -1,4 +1,4 @@
-r"""Names of symbols as a class writes them: \theta_{\text{L7}} for LaTeX, θ_L7 for text."""
+"""Names symbols as textbooks do: \\theta_{\\text{L7}} for LaTeX, θ_L7 for text."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ _DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
 
 @dataclass(frozen=True)
 class Name:
-    """A symbol, or any formula, in LaTeX and in plain text; with tokens and a value as a block has them."""
+    """Represent a symbol or formula in LaTeX and in plain text, with tokens and a value as blocks have them."""
 
     latex: str
     text: str
@@ -62,12 +62,12 @@ class Name:
 
     @property
     def room(self) -> int:
-        """About how many letters wide it is: a subscript is small, marks and signs take none."""
+        """Return the approximate width in letters: a subscript is small, marks and signs take none."""
         return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
 def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
-    """A letter or word (a Greek one by its English name) with dots or a hat, subscripts and a raised 0."""
+    """Return a letter or word (Greek by its English name) with dots or a hat, subscripts and a raised 0."""
     latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\text{{{_escaped(base)}}}"
     text = GREEK.get(base, base)
     accent, mark = (r"\hat", "\u0302") if hat else _DOTS[dots]
@@ -80,12 +80,12 @@ def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised
 
 
 def greek(word: str) -> str:
-    """The LaTeX command of a Greek letter."""
+    """Return the LaTeX command of a Greek letter."""
     return _VARIANT.get(word, f"\\{word}")
 
 
 def word(name: str) -> Name:
-    """A user's own name: omega4 is ω with the subscript 4, v_max is v with max, speed stays a word."""
+    """Return a user-defined name: omega4 is ω with the subscript 4, v_max is v with max, speed stays a word."""
     head, _, rest = name.partition("_")
     numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", head)
     if numbered and (len(numbered[1]) == 1 or numbered[1] in GREEK):
@@ -96,7 +96,7 @@ def word(name: str) -> Name:
 
 
 def of_latex(latex: str) -> Name:
-    r"""A name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}"), with its plain text."""
+    """Return a name that is given in LaTeX ("c_e", "\\mu", "\\sigma_{0}") with its plain text."""
     known = {**{f"\\{name}": sign for name, sign in GREEK.items()}, **{v: GREEK[k] for k, v in _VARIANT.items()}}
     text, *commands = latex.split("\\")
     for part in commands:
@@ -106,8 +106,10 @@ def of_latex(latex: str) -> Name:
 
 
 def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
-    """A name of its own for each symbol: who comes first has the letter, others the name of their symbol in C where
-    that is a word ("T0"), else primes ("contact_friction_v0")."""
+    """Return a unique name for each symbol.
+
+    The first symbol gets the letter, others the name of their symbol in C if that is a word ("T0"), else primes.
+    """
     names: dict[sp.Symbol, Name] = {}
     used: set[str] = set()
     for symbol, name in wanted:
@@ -121,7 +123,7 @@ def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
 
 
 def primed(name: Name, used: Collection[str]) -> Name:
-    """A name with as many primes as make it another one than those that are used."""
+    """Return a name with as many primes as make it different from those that are used."""
     while name.text in used:
         name = Name(f"{{{name.latex}}}'", f"{name.text}'")
     return name
@@ -131,7 +133,7 @@ _FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}
 
 
 def _subscripted(parts: Sequence[str]) -> str:
-    """Behind commas: Greek letters, axes and numbers as they are, names upright, those beside each other as one."""
+    """Return subscripts after commas: Greek letters, axes and numbers as they are, names upright."""
     told = list[str]()
     for upright, group in groupby(parts, key=lambda text: text not in GREEK and text not in _AXES):
         own = list(group)
@@ -143,4 +145,5 @@ def _subscripted(parts: Sequence[str]) -> str:
 
 
 def _escaped(name: str) -> str:
+    """Return a name with LaTeX's underscores escaped."""
     return name.replace("_", r"\_")

@@ -1,4 +1,4 @@
-"""The file and the C of a scene as a page carries them, line by line with what each belongs to."""
+"""Lists the mechanism file and the C of a scene in a page, line by line with tokens."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
 def listing_sections(model: Model, found: Trace) -> list[Section]:
-    """The mechanism's own file, where it is still the one that was read, and the C."""
+    """Return the sections with the mechanism's file, if it is unchanged, and the C."""
     blocks: list[Block] = []
     told = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
     if (text := _own_text(model)) is not None:
@@ -32,7 +32,7 @@ def listing_sections(model: Model, found: Trace) -> list[Section]:
 
 
 def _own_text(model: Model) -> str | None:
-    """The file that the mechanism was read from, if it is there as it was."""
+    """Return the text of the mechanism's file; None if it is missing or has changed."""
     mechanism = model.scene.mechanism
     file = Path(mechanism.file)
     try:
@@ -45,7 +45,7 @@ def _own_text(model: Model) -> str | None:
 
 
 def _c(found: Trace) -> str:
-    """A place for the listing, and what is listed there, packed: light.js unfolds it."""
+    """Return the listing of the C, packed; light.js unfolds it."""
     texts, left = dict[str, str](), MOST_C
     for name in SHOWN:
         text = found.source.files.get(name)
@@ -80,12 +80,12 @@ def _c(found: Trace) -> str:
 
 
 def _by_line(text: str, told: Mapping[int, str]) -> list[str]:
-    """One text a line: packed it takes less room than numbers of lines do."""
+    """Return texts by line number as one text a line, which is smaller than line numbers."""
     return [told.get(k, "") for k in range(1, text.count("\n") + 2)]
 
 
 def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
-    """Values with nothing behind the last point where a line says by itself what it stores to, as light.js reads it."""
+    """Return values without their last part where the line itself shows what it stores, as light.js reads it."""
     lines, found = text.split("\n"), dict[int, str]()
     for k, value in values.items():
         stored = lines[k - 1].partition(" = ")[0].removesuffix(" +").split()
@@ -96,11 +96,12 @@ def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
 
 @cache
 def _script(name: str) -> str:
+    """Return a script of this folder for embedding."""
     return carried_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
 def _equations(found: Trace) -> str:
-    """What values are computed with; of a scene with curves nothing, whose state alone is shown then."""
+    """Return the script that computes values; "" for scenes with curves, which show only their state."""
     try:
         return equations_script(found.program)
     except ValueError:
@@ -108,5 +109,5 @@ def _equations(found: Trace) -> str:
 
 
 def scripts() -> str:
-    """What lights up, and what fills in values."""
+    """Return the scripts of a page: cross-highlighting and values."""
     return f'<script>\n"use strict";\n{_script("light.js")}{_script("live.js")}</script>\n'

@@ -1,4 +1,4 @@
-"""The first part of the document: bodies, ground, joints, drives, parameters."""
+"""Writes the first part of the document: bodies, ground, joints, drives, parameters."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gudgeon.language.plot_units import pretty
 
 
 def part_sections(model: Model, notation: Notation) -> list[Section]:
-    """Everything that the file names, with letters and values."""
+    """Return the sections on everything that the file names, with letters and values."""
     values = Values(model, notation)
     return [
         Section("Bodies", tuple(_bodies(model, values))),
@@ -28,6 +28,7 @@ def part_sections(model: Model, notation: Notation) -> list[Section]:
 
 
 def _bodies(model: Model, values: Values) -> list[Block]:
+    """Return the tables of bodies and their points."""
     rows, points = [], []
     of = [[f"body-{name}"] for name in model.scene.mechanism.bodies]
     for body in model.scene.mechanism.bodies.values():
@@ -50,11 +51,13 @@ def _bodies(model: Model, values: Values) -> list[Block]:
 
 
 def _ground(model: Model, values: Values) -> list[Block]:
+    """Return the table of the ground's points."""
     rows = [cells(name, values.vector(at)) for name, at in model.scene.mechanism.ground.items()]
     return [*table(cells("point", "position"), rows), *values.below()]
 
 
 def _joints(model: Model, values: Values) -> list[Block]:
+    """Return the tables of joints and their fields."""
     rows = []
     for joint in model.scene.mechanism.joints.values():
         own = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == joint.name]
@@ -78,7 +81,7 @@ def _joints(model: Model, values: Values) -> list[Block]:
 
 
 def field_rows(of: Joint | ForceElement, values: Values) -> list[tuple[Text, ...]]:
-    """The fields of a joint or force element: its name, the field's, the value."""
+    """Yield the rows of a joint's or force element's fields: its name, the field's, the value."""
     fields = [
         *((name, values.vector(vector)) for name, vector in of.vectors.items()),
         *((name, values.cell(quantity)) for name, quantity in of.quantities.items()),
@@ -88,11 +91,12 @@ def field_rows(of: Joint | ForceElement, values: Values) -> list[tuple[Text, ...
 
 
 def place(ref: PointRef, joins: str) -> str:
-    """A point by its name; the body alone where it is bodies that are joined."""
+    """Return a point by its name; only the body if bodies are joined."""
     return ref.body if joins == "bodies" else f"{ref.body}.{ref.point}"
 
 
 def _drives(model: Model, notation: Notation) -> list[Block]:
+    """Return the table of drives."""
     rows = []
     for name, drive in model.scene.mechanism.drives.items():
         if drive.kind == "distance":
@@ -107,7 +111,7 @@ def _drives(model: Model, notation: Notation) -> list[Block]:
 
 
 def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
-    """What a drive prescribes, as a formula; as the file has it where that would not fit."""
+    """Return the prescribed value of a drive as a formula; as the file writes it if the formula is too long."""
     called = model.scene.mechanism.expressions
     written, angle = model.scene.mechanism.drives[drive].value.value, model.constraints.drive_angles.get(drive)
     if angle is None:
@@ -117,19 +121,19 @@ def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
 
 
 def _curves(model: Model) -> list[Block]:
-    """What an expression's curves are; f' and f'' are their derivatives."""
+    """Return the definitions of curves; f' and f'' are their derivatives."""
     rows = [cells(name, f"{curve.told()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
     return table(cells("curve", "what it is"), rows, (1,))
 
 
 def _expressions(model: Model) -> list[Block]:
-    """What names stand for in the expressions of drives, forces, events and outputs."""
+    """Return the table of named expressions."""
     rows = [cells(name, as_written(of.written or of.value)) for name, of in model.scene.mechanism.expressions.items()]
     return table(cells("expression", "stands for"), rows, (1,))
 
 
 def _parameters(model: Model, notation: Notation, values: Values) -> list[Block]:
-    """What the file says, and the number in SI that equations take."""
+    """Return the table of parameters, as in the file and in SI units."""
     rows = []
     for name in model.scene.parameters:
         entry = model.slots.entries[f"parameters.{name}"]

@@ -1,4 +1,4 @@
-"""The third part: masses, force elements, generalized forces, the equation of motion."""
+"""Writes the third part of the document: masses, force elements, generalized forces, the equation of motion."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
 
 
 def motion_sections(model: Model, notation: Notation) -> list[Section]:
-    """M, force elements, g, the equation of motion, events."""
+    """Return the sections on M, force elements, g, the equation of motion and events."""
     sections = [Section("Masses", tuple(_masses(model, notation)))]
     if model.elements:
         sections.append(Section("Force elements", tuple(_elements(model, notation))))
@@ -46,6 +46,7 @@ def motion_sections(model: Model, notation: Notation) -> list[Section]:
 
 
 def _masses(model: Model, notation: Notation) -> list[Block]:
+    """Return the table of the mass matrix."""
     rows = [cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies]
     of = [[f"body-{body.name}"] for body in model.bodies]
     lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
@@ -56,7 +57,7 @@ def _masses(model: Model, notation: Notation) -> list[Block]:
 
 
 def _elements(model: Model, notation: Notation) -> list[Block]:
-    """Each element's own quantities; their share in g stands in the next section."""
+    """Return the quantities of each force element; their contribution to g is in the next section."""
     values, locals_of = Values(model, notation), temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in field_rows(applied.element, values)]
@@ -81,7 +82,7 @@ def _elements(model: Model, notation: Notation) -> list[Block]:
 
 
 def _friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
-    """Slip velocity, the row of stick, the force of slip."""
+    """Return slip velocity, constraint equation at stick and force at slip of a friction element."""
     name, slip, v = friction.name, friction.slip, sp.Symbol("v", real=True)
     own = notation.called({v: letter("v", name)})
     place = {q: k for k, q in enumerate(model.q, 1)}
@@ -109,7 +110,7 @@ def _friction(model: Model, friction: Friction, notation: Notation) -> list[Bloc
 
 
 def _forces(model: Model, notation: Notation) -> list[Block]:
-    """The components of g that are not zero, with the letters of the force elements."""
+    """Return the nonzero components of g, in letters of the force elements."""
     gx, gy = model.gravity
     forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
     for element in model.elements.values():
@@ -132,7 +133,7 @@ def _forces(model: Model, notation: Notation) -> list[Block]:
 
 
 def _events(model: Model, notation: Notation) -> list[Block]:
-    """What is watched, and what a crossing of zero does."""
+    """Return the table of events."""
     ways = {"rising": "rises through zero", "falling": "falls through zero", "both": "crosses zero"}
     does = {"record": "the time is recorded", "stop": "the run ends"}
     blocks: list[Block] = []
@@ -143,6 +144,7 @@ def _events(model: Model, notation: Notation) -> list[Block]:
 
 
 def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
+    """Return the equation of motion with Baumgarte's gains."""
     n, m = len(model.q), len(model.rows)
     if not model.rows:
         return [FREE, *_freedoms(model)]
@@ -183,7 +185,7 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
 
 
 def _freedoms(model: Model) -> list[Block]:
-    """By counting, as Grübler does, and by the rank of the rows."""
+    """Return the degrees of freedom by Grübler's formula and by the rank of the rows."""
     n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
     counted = m + len(dropped)
     by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
@@ -197,5 +199,6 @@ def _freedoms(model: Model) -> list[Block]:
 
 
 def _default(model: Model, symbol: sp.Symbol) -> str:
+    """Return the default of a parameter as text."""
     (entry,) = (e for e in model.slots.entries.values() if e.symbol == symbol)
     return f"{entry.default:g}"

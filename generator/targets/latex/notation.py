@@ -1,4 +1,4 @@
-"""The letters of one model: what each of its symbols is called, and which of them are written out."""
+"""Names the symbols of one model, and selects those that are written out."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 
 @dataclass(frozen=True)
 class GaveWay:
-    """What has a prime, since its letter is something else's."""
+    """Represent a symbol that has a prime because its letter is used for another one."""
 
     name: Name
     what: str
@@ -64,7 +64,7 @@ class GaveWay:
 
 @dataclass(frozen=True)
 class Notation:
-    """Names of symbols; `kept` are the derived ones that equations show by their own letter."""
+    """Contain the names of symbols; `kept` are derived symbols that equations show by their own letter."""
 
     symbols: Symbols
     names: Mapping[sp.Symbol, Name]
@@ -73,23 +73,23 @@ class Notation:
     gave_way: tuple[GaveWay, ...] = ()  # in the order of the file
 
     def called(self, names: Mapping[sp.Symbol, Name]) -> Notation:
-        """The same with some symbols called otherwise, as inside the section of a joint."""
+        """Return the notation with other names for some symbols, for example inside the section of a joint."""
         return replace(self, names={**self.names, **names})
 
     def expand(self, expression: sp.Expr) -> sp.Expr:
-        """`expression` with the derived symbols written out but for those that are kept."""
+        """Return `expression` with derived symbols written out, except those that are kept."""
         definitions = self.symbols.definitions
         while found := {s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.kept}:
             expression = expression.xreplace(found)
         return expression
 
     def math(self, expression: sp.Expr) -> Name:
-        """An expression as a formula."""
+        """Return an expression as a formula."""
         expression = for_readers(sp.sympify(expression))
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
     def terms(self, expression: sp.Expr, of: Callable[[sp.Expr], Sequence[str]] = lambda _: ()) -> tuple[Name, ...]:
-        """The terms of a sum, each with its sign: a line may break between them. `of`: a term's tokens."""
+        """Return the terms of a sum with signs; a line may break between them. `of`: the tokens of a term."""
         expression = for_readers(sp.sympify(expression))
         signs = self._text.signed_terms(expression)
         return tuple(
@@ -99,15 +99,17 @@ class Notation:
 
     @cached_property
     def _latex(self) -> TexPrinter:
+        """Return the LaTeX printer of the notation."""
         return TexPrinter(self.names, self.order)
 
     @cached_property
     def _text(self) -> TextPrinter:
+        """Return the text printer of the notation."""
         return TextPrinter({symbol: name.text for symbol, name in self.names.items()}, self.order)
 
 
 def make_notation(model: Model) -> Notation:
-    """The letters of physics.md for every symbol of a model; no two symbols share a name, nor one of the theory's."""
+    """Return the notation of physics.md for a model, in which every symbol has a unique name."""
     order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
     for symbol in turned(model):  # behind the coordinates of their body
         order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
@@ -116,7 +118,7 @@ def make_notation(model: Model) -> Notation:
 
 
 def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[GaveWay, ...]]:
-    """A name of its own for each symbol: who comes behind another, or behind the theory, has primes."""
+    """Return a unique name for each symbol: those after another, or after the theory, have primes."""
     names: dict[sp.Symbol, Name] = {}
     used, gave_way = theory(model), list[GaveWay]()
     for symbol, wanted in _names(model):
@@ -129,13 +131,13 @@ def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[GaveWay, ...]]:
 
 
 def _what(model: Model, symbol: sp.Symbol) -> str:
-    """By its address in the file, or what it is."""
+    """Return what a symbol is: its address in the file, or its meaning."""
     info = model.symbols.info.get(symbol)
     return (info.meaning if info else "") or plain_name(symbol)
 
 
 def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
-    """What has a fixed letter comes first, so that a user's own names give way."""
+    """Yield symbols and names, fixed letters first, so that user-defined names give way."""
     yield model.t, letter("t")
     for body in model.bodies:
         for what, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
@@ -164,7 +166,7 @@ def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
 
 
 def of_address(address: str) -> Name:
-    """The letter of a number by its place in the file: "bodies.L1.length" is l with the subscript L1."""
+    """Return the letter of a parameter by its address: "bodies.L1.length" is l with the subscript L1."""
     match address.split("."):
         case ["parameters", name]:
             return word(name)
@@ -208,11 +210,12 @@ def of_address(address: str) -> Name:
 
 
 def _letter_of(field: str) -> str:
+    """Return the letter of a field."""
     return _ONE_LETTER.get(field, field)
 
 
 def _constant(model: Model, symbol: sp.Symbol) -> Name:
-    """A number that is computed once a run, by the joint or element for which it is."""
+    """Return the name of a derived parameter, by the joint or element to which it belongs."""
     of = model.slots.of_owner.get(symbol)
     if of is None:
         return letter(plain_name(symbol))
@@ -220,7 +223,7 @@ def _constant(model: Model, symbol: sp.Symbol) -> Name:
 
 
 def _temporary(meaning: str) -> Name:
-    """A temporary of a force element, "span_x of coil"."""
+    """Return the name of a temporary of a force element, "span_x of coil"."""
     what, _, owner = meaning.partition(" of ")
     base, _, axis = what.rpartition("_")
     if axis not in ("x", "y"):
@@ -230,7 +233,7 @@ def _temporary(meaning: str) -> Name:
 
 
 def _span(name: str) -> Name:
-    """The distance that a drive prescribes: "pull_span_x", "pull_length", "pull_along_x"."""
+    """Return the name of a distance that a drive prescribes: "pull_span_x", "pull_length", "pull_along_x"."""
     for what, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
         owner, found, axis = name.rpartition(what)
         if found:
@@ -239,20 +242,20 @@ def _span(name: str) -> Name:
 
 
 def spans(model: Model) -> list[sp.Symbol]:
-    """Symbols of the distances that drives prescribe, with their directions."""
+    """Yield the symbols of distances that drives prescribe, with their directions."""
     meanings = ("span", "its length", "its direction")
     return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
 
 
 def temporaries(model: Model) -> list[sp.Symbol]:
-    """Symbols by which a force element calls its parts: they are locals, and neither angle, arm nor drive."""
+    """Yield the symbols of parts of force elements: locals that are neither angle, arm nor drive."""
     others = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     others.update(spans(model), model.symbols.rules)
     return [s for s in model.symbols.definitions if not model.symbols.info[s].home and s not in others]
 
 
 def turned(model: Model) -> list[sp.Symbol]:
-    """Components of arms and directions that turn with a body."""
+    """Yield the components of arms and directions that rotate with a body."""
     others = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     others.update(spans(model))
     return [
@@ -263,6 +266,7 @@ def turned(model: Model) -> list[sp.Symbol]:
 
 
 def _kept(model: Model) -> Iterator[sp.Symbol]:
+    """Yield the derived symbols that equations show by their own letter."""
     definitions = model.symbols.definitions
     yield from (symbol for symbol in turned(model) if definitions[symbol].is_Add)
     yield from spans(model)

@@ -1,4 +1,4 @@
-"""Drawings of a document as small static SVG, and as characters: patterns of matrices, the tree of the bodies."""
+"""Draws a document's pictures as small static SVG and as characters: patterns of matrices, the tree of bodies."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FULL, EMPTY = "■", "·"
 
 @dataclass(frozen=True)
 class Dot:
-    """An entry of a matrix, places from 0, with what it belongs to."""
+    """Represent a nonzero entry of a matrix, indices from 0, with its token."""
 
     row: int
     column: int
@@ -28,13 +28,13 @@ class Dot:
 
 
 def svg(width: float, height: float, label: str, parts: Sequence[str]) -> str:
-    """A picture that shrinks with its column; colours are the page's."""
+    """Return a picture that scales with its column; colours are those of the page."""
     size = f'width="{width:g}" height="{height:g}" viewBox="0 0 {width:g} {height:g}"'
     return f'<svg {size} role="img" aria-label="{html.escape(label)}">{"".join(parts)}</svg>'
 
 
 def pattern(model: Model) -> list[Block]:
-    """Which entries of Φ_q are not zero."""
+    """Return the picture of the nonzero entries of Φ_q."""
     dots = _entries(model)
     if not _fits(len(model.rows), len(model.q)):
         return []
@@ -46,7 +46,7 @@ def pattern(model: Model) -> list[Block]:
 
 
 def assembled(model: Model) -> list[Block]:
-    """[M Φ_qᵀ; Φ_q 0], its blocks told apart."""
+    """Return the picture of [M Φ_qᵀ; Φ_q 0] with its blocks distinguished."""
     n, m = len(model.q), len(model.rows)
     if not _fits(n + m, n + m):
         return []
@@ -66,21 +66,23 @@ def assembled(model: Model) -> list[Block]:
 
 
 def _fits(rows: int, columns: int) -> bool:
+    """Return whether a matrix is small enough for a picture."""
     return rows <= MOST_ROWS and columns <= MOST_COLUMNS
 
 
 def cell_side(columns: int, least: int) -> int:
-    """Side of an entry in pixels: the fewer there are, the larger."""
+    """Return the side of an entry in pixels; fewer entries are larger."""
     return min(LARGE, max(least, ROOM // max(1, columns)))
 
 
 def _entries(model: Model) -> list[Dot]:
+    """Return the nonzero entries of Φ_q."""
     place = {q: k for k, q in enumerate(model.q)}
     return [Dot(r, place[q], entry_token(r + 1, place[q] + 1)) for r, row in enumerate(model.rows) for q in row.phi_q]
 
 
 def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str]:
-    """A group of squares, whose size the page reads from it."""
+    """Return a group of squares, whose size the page reads from it."""
     squares = (
         f'<rect x="{x + cell * dot.column}" y="{y + cell * dot.row}" data-of="{html.escape(dot.of)}"/>' for dot in dots
     )
@@ -88,7 +90,7 @@ def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str
 
 
 def _columns(model: Model, top: int, cell: int) -> list[str]:
-    """Names of the bodies above their three columns, each with a rule on its left."""
+    """Return the names of the bodies above their three columns, each with a rule on its left."""
     parts, most = [], 3 * cell // 7  # letters that fit above three columns
     bottom = top + cell * len(model.rows)
     for body in model.bodies:
@@ -100,6 +102,7 @@ def _columns(model: Model, top: int, cell: int) -> list[str]:
 
 
 def _row_names(model: Model, top: int, cell: int) -> list[str]:
+    """Return the numbers of the rows."""
     return [
         f'<text class="end" x="25" y="{top + cell * r + cell // 2 + 3}" data-of="{row_token(r + 1)}">{r + 1}</text>'
         for r in range(len(model.rows))
@@ -107,7 +110,7 @@ def _row_names(model: Model, top: int, cell: int) -> list[str]:
 
 
 def _grid(rows: int, columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
-    """The same in characters; nothing where that is too wide."""
+    """Return the pattern in characters; nothing if it is too wide."""
     if columns > WIDEST_GRID:
         return ()
     grid = [[EMPTY] * columns for _ in range(rows)]
@@ -117,7 +120,7 @@ def _grid(rows: int, columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
 
 
 def tree(story: Story, joints: Collection[str]) -> list[Block]:
-    """The tree of the bodies: who carries whom, by which joint; `joints` are those of the file."""
+    """Return the picture of the tree of bodies, with the joints along it; `joints` are those of the file."""
     carried: dict[str, list[tuple[str, str]]] = {}
     for placed in story.tree:
         carried.setdefault(placed.parent, []).append((placed.body, placed.joint))
@@ -139,7 +142,7 @@ def _place(
     places: dict[str, tuple[float, int]],
     lines: list[str],
 ) -> float:
-    """From left to right by depth, leaves one below the other; a body stands in the middle of its own."""
+    """Return row and depth of each body, from left to right by depth; a body is in the middle of its children."""
     lines.append(f"{'   ' * depth}{body}{f'  by {joint}' if joint else ''}")
     own = [_place(carried, name, by, depth + 1, next_row, places, lines) for name, by in carried.get(body, ())]
     if own:
@@ -155,6 +158,7 @@ STEP_X, STEP_Y = 120, 34
 
 
 def _tree_svg(story: Story, joints: Collection[str], places: Mapping[str, tuple[float, int]], caption: str) -> str:
+    """Return the tree as SVG."""
     at = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in places.items()}
     parts = []
     for placed in story.tree:

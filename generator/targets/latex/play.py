@@ -1,4 +1,4 @@
-"""The fourth part: each joint with play, its geometry, its force laws and their numbers."""
+"""Writes the fourth part of the document: each joint with play, its geometry, its force laws and their numbers."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from gudgeon.language.units import si_unit
 
 
 def contour(joint: JointWithPlay) -> Iterator[Block]:
-    """The bearing's angle, and what W is."""
+    """Return the paragraph on the bearing's angle and the contour W."""
     clearance = joint.clearance
     assert clearance.contour
     yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
@@ -53,7 +53,7 @@ def contour(joint: JointWithPlay) -> Iterator[Block]:
 
 
 def corner(name: str, guide: str, slider: str) -> Block:
-    """Which corner of a slider it is, and what its letters mean."""
+    """Return the paragraph on a corner of a slider and its letters."""
     which = name.rpartition(".")[2]
     front, upper = "front" in which, "upper" in which
     return paragraph(
@@ -65,7 +65,7 @@ def corner(name: str, guide: str, slider: str) -> Block:
 
 
 def rigid(joint: JointWithPlay, stored: Name) -> Block:
-    """What becomes of surfaces that do not give, where they meet and while they touch."""
+    """Return the paragraph on impacts and closed contacts of rigid surfaces."""
     assert joint.clearance.normal is not None
     e, v_0 = (joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold"))
     rubs = joint.clearance.friction is not None
@@ -87,7 +87,7 @@ def rigid(joint: JointWithPlay, stored: Name) -> Block:
 
 
 def onset(joint: JointWithPlay, stored: Name) -> Block:
-    """When a contact acts, and what is kept of its onset."""
+    """Return the paragraph on when a contact acts, and what is stored at its onset."""
     floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
     return paragraph(
         "It acts while ",
@@ -103,13 +103,14 @@ def onset(joint: JointWithPlay, stored: Name) -> Block:
 
 
 def told_states(law: Law) -> Iterator[Block]:
-    """What each inner state of a law is."""
+    """Yield the paragraphs on inner states of laws."""
     for state in law.states:
         told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         yield paragraph(letter(state.name), told)
 
 
 def as_word(value: str | bool) -> str:
+    """Return a value as a file writes it."""
     return str(value).lower() if isinstance(value, bool) else value
 
 
@@ -121,7 +122,7 @@ _PAIR = (
 
 
 class JointWithPlay:
-    """One joint's equations in its own letters: c, R_i, K, c_e stand for this joint's alone."""
+    """Write one joint's equations in its own letters: c, R_i, K, c_e stand for this joint only."""
 
     def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
         self.model, self.clearance, self.found = model, clearance, found
@@ -133,7 +134,7 @@ class JointWithPlay:
         self.numbers = list(self._numbers())
 
     def _numbers(self) -> Iterator[tuple[Quantity, str, str]]:
-        """Every number of this joint: quantity, letter if it has no slot, meaning."""
+        """Yield every parameter of the joint: quantity, letter if it is not a run-time parameter, meaning."""
         bearing = self.play.bearing
         for field, sign, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else _PAIR:
             if (quantity := getattr(bearing, field)) is not None:
@@ -154,7 +155,7 @@ class JointWithPlay:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
     def steps(self, equations: LawEquations) -> list[Step]:
-        """The law's own equations; a result that is the number zero is left out."""
+        """Return the law's own equations, without results that are zero."""
         own = {sp.Symbol(name, real=True): contact_names.result(equations, name) for name in equations.steps}
         if self.clearance.contour and equations.law.role == "friction":
             own[sp.Symbol("F_n", real=True)] = contact.F_N
@@ -165,6 +166,7 @@ class JointWithPlay:
         ]
 
     def shown(self, steps: list[Step]) -> list[Block]:
+        """Return steps as equations."""
         return [
             equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
             for step in steps
@@ -172,7 +174,7 @@ class JointWithPlay:
 
 
 def play_sections(model: Model, notation: Notation, found: Functions) -> list[Section]:
-    """For each joint with play where its bodies are, what its laws say, and what they do to both bodies."""
+    """Return for each joint with play its geometry, its laws, and its forces on both bodies."""
     sections: list[Section] = []
     done: dict[str, Play] = {}
     for clearance in model.clearances:
@@ -197,11 +199,12 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
 
 
 def _alike(a: Play, b: Play) -> bool:
+    """Return whether two joints have the same play."""
     return a is b or (a.bearing == b.bearing and a.contact == b.contact and not a.contour and not b.contour)
 
 
 def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
-    """Eccentricity and its rate, in the coordinates; what follows from them where it is the first of its kind."""
+    """Return eccentricity and its rate in coordinates, and what follows from them for the first joint of its kind."""
     clearance, expand, notation = joint.clearance, joint.notation.expand, joint.notation
     ref = clearance.joint
     steps = [
@@ -225,6 +228,7 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
 
 
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
+    """Return the sections on a joint's numbers, dry contact, film and mixed lubrication."""
     clearance, name = joint.clearance, joint.clearance.name
     what = clearance.kind.capitalize()
     sections = [Section(f"{what} {name}: numbers", tuple(numbers(joint)), 2)]
@@ -252,6 +256,7 @@ def _contact_sections(joint: JointWithPlay) -> list[Section]:
 
 
 def _dry(joint: JointWithPlay) -> list[Block]:
+    """Return the blocks on dry contact: onset or impact, normal force, friction."""
     clearance, stored = joint.clearance, joint.notation.math(contact.stored)
     impact = rigid(joint, stored) if clearance.rigid else onset(joint, stored)
     friction = (
@@ -273,12 +278,13 @@ def _dry(joint: JointWithPlay) -> list[Block]:
 
 
 def _mixed(joint: JointWithPlay) -> list[Block]:
+    """Return the blocks on mixed lubrication."""
     when = paragraph("While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the share of the dry contact is 0.")
     return [when, *_law(joint, "mixed")]
 
 
 def _law(joint: JointWithPlay, role: str) -> list[Block]:
-    """A law's equations with its source, validity and options."""
+    """Return a law's equations with its source, validity and options."""
     equations = next(own for own in joint.clearance.laws if own.law.role == role)
     law = equations.law
     source = law.reference or law.source
@@ -297,13 +303,13 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
 
 
 def _credit(option: Field, value: str | bool) -> str:
-    """Whose a choice is, where that is told."""
+    """Return the source of an option, if it has one."""
     source = (option.sources or {}).get(str(value))
     return f" Source: {source}." if source else ""
 
 
 def _share_in_g(joint: JointWithPlay) -> list[Block]:
-    """Force and moment on both bodies, as what they add to g."""
+    """Return force and moment on both bodies as contributions to g."""
     clearance, notation = joint.clearance, joint.notation
     blocks: list[Block] = [paragraph(f"The {clearance.kind} adds to g, by the numbers of the coordinates:")]
     # which letter holds the moment depends on the parts that the joint has
@@ -320,7 +326,7 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
 
 
 def numbers(joint: JointWithPlay) -> list[Block]:
-    """The letters of this joint, and what follows from them once a run."""
+    """Yield the letters of the joint and its derived constants."""
     slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
     for quantity, sign, meaning in joint.numbers:
         entry = slots.entries.get(quantity.address)
@@ -337,6 +343,6 @@ def numbers(joint: JointWithPlay) -> list[Block]:
 
 
 def _apart(quantity: Quantity) -> str:
-    """What is no number of the run: 0, or an expression of the penetration, a long one where its equation stands."""
+    """Return a value that is not a run-time parameter: 0, or an expression of the penetration."""
     written = "0" if quantity.is_zero else as_written(quantity.value)
     return written if len(written) <= LONGEST else "below"

@@ -1,4 +1,4 @@
-"""Letters of a joint with play: of its steps (generator/equations/contact_steps.py), its numbers and its laws."""
+"""Names the symbols of a joint with play: its steps (generator/equations/contact_steps.py), parameters and laws."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"
 
 
 def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
-    """Names of the steps' symbols; a law's F_t belongs to its part."""
+    """Return the names of the steps' symbols; a law's F_t belongs to its part."""
     found = {**NAMES, ratio: CLIPPED if clearance.clip_ratio else RATIO}
     parts = [part for part in _PARTS if getattr(clearance, "film" if part == "film" else "normal") is not None]
     for symbol, base, index in ((F_along_t, "F", "t"), (M_i, "M", "i"), (M_j, "M", "j")):
@@ -145,11 +145,12 @@ def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
 
 
 def joint_letters(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
-    """The letters of one joint's own sections: c, R_i, K, c_e stand for this joint's alone."""
-    return distinct(_wanted(model, clearance))
+    """Return the letters of one joint's sections: c, R_i, K, c_e stand for this joint only."""
+    return distinct(_named_symbols(model, clearance))
 
 
-def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
+def _named_symbols(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
+    """Yield symbols and names in the order in which they get their letters."""
     pair, laws, wall = clearance.pair, laws_of(model, clearance), clearance.wall
     yield from names(clearance).items()
     signs = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
@@ -175,33 +176,34 @@ def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]
 
 
 def _slot(model: Model, quantity: Quantity | None) -> SlotEntry | None:
+    """Return the run-time parameter of a quantity; None if it has none."""
     return None if quantity is None else model.slots.entries.get(quantity.address)
 
 
 def laws_of(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
-    """The laws that a joint has, with their place in the file."""
+    """Return the laws of a joint with their addresses in the file."""
     return list(zip(clearance.laws, model.scene.play[clearance.joint.name].contact.laws, strict=True))
 
 
 def given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:
-    """The numbers that a law has here: one that may follow from others is not there where the file leaves it out."""
+    """Return the parameters of a law, without optional ones that the file leaves out."""
     return [(own, use.quantities[own.name]) for own in equations.law.parameters if own.name in use.quantities]
 
 
 def result(equations: LawEquations, name: str) -> sp.Symbol:
-    """The symbol of a law's step; its tangential force belongs to its part of the joint."""
+    """Return the symbol of a law's step; its tangential force belongs to its part of the joint."""
     if name == "F_t" and name in RESULTS[equations.law.role]:
         return of_part(F_along_t, "film" if equations.law.role == "film" else "dry")
     return sp.Symbol(name, real=True)
 
 
 def step_name(law: Law, name: str) -> Name:
-    """What an abbreviation or a result of a law is called; the rate of a state has its dot."""
+    """Return the name of an abbreviation or result of a law; the rate of a state has a dot."""
     name = name.removesuffix("__")  # of a user-defined law
     rates = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
     return (LAW_LETTERS | rates).get(name) or word(name)
 
 
 def sign_of(parameter: Field) -> str:
-    """A law's number in LaTeX: its symbol, or where it has none its name."""
+    """Return a law's parameter in LaTeX: its symbol, or its name."""
     return parameter.symbol or word(parameter.name).latex

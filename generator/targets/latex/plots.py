@@ -1,4 +1,4 @@
-"""Force laws as curves over their range, drawn from the functions that the NumPy target makes of them."""
+"""Plots force laws over their range, evaluated by the functions of the NumPy target."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 204, 62, 408, 16, 172
 
 @dataclass(frozen=True)
 class Curve:
-    """y over the plot's x, with a word on it."""
+    """Represent y over the plot's x, with a label."""
 
     y: Any
     told: str
@@ -39,7 +39,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Plot:
-    """Axes are (letter, SI unit); `now`: what stands on the x axis, by function of a joint and local: "dry", "v_t"."""
+    """Represent a plot; axes are (letter, SI unit), `now` is the local on the x axis by function: "dry", "v_t"."""
 
     x: Any
     curves: tuple[Curve, ...]
@@ -50,7 +50,7 @@ class Plot:
 
 
 def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
-    """The law of a role in some joints that share it, over its range; nothing of laws with inner states or none."""
+    """Return the plot of a role's law in joints that share it; nothing for laws with inner states."""
     pins = {pin.clearance.label: k for k, pin in enumerate(found.program.pins)}
     pin = found.program.pins[pins[joints[0]]]
     call = pin.laws.get(role)
@@ -70,7 +70,7 @@ def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> li
 
 
 def _numbers(found: Functions) -> Mapping[str, float]:
-    """Every number of a run by its field, at its default."""
+    """Return every parameter by its field, at its default."""
     tables = found.model.slots.tables
     p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in tables.items()})
     count = len(found.model.slots.entries)
@@ -79,6 +79,7 @@ def _numbers(found: Functions) -> Mapping[str, float]:
 
 
 def _callable(found: Functions, kernel: Kernel) -> Any:
+    """Return a kernel as a Python function."""
     names: dict[str, Any] = {"np": np}
     text = function(kernel)
     exec(compile(with_curves(found.model.scene.mechanism.curves, text) + text, "<law>", "exec"), names)
@@ -86,15 +87,17 @@ def _callable(found: Functions, kernel: Kernel) -> Any:
 
 
 def _called(found: Functions, call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
+    """Return the result of a law at default parameters."""
     return _callable(found, call.kernel)(*given, *(p[number.member] for number in call.numbers))
 
 
 def _value(found: Functions, p: Mapping[str, float], number: Any) -> float:
-    """Of a symbol that is a number of the run, or of a number."""
+    """Return the value of a symbol that is a parameter, or of a number."""
     return p[found.model.slots.field(number)] if number in found.model.symbols.info else float(number)
 
 
 def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+    """Return the plot of a normal force over penetration, for several ratios δ̇/δ̇⁻."""
     delta = np.linspace(0.0, DEEPEST, POINTS) * _value(found, p, pin.clearance.pair.c)
     curves = []
     for ratio in (1.0, 0.0, -1.0):
@@ -106,6 +109,7 @@ def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]
 
 
 def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+    """Return the plot of a friction force over slip."""
     law = pin.clearance.friction
     numbers = law.numbers if law else {}
     of_speed = {own.name for own in law.law.parameters if own.dimension == VELOCITY} if law else set()
@@ -117,6 +121,7 @@ def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, floa
 
 
 def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+    """Return the plot of film forces over the eccentricity ratio."""
     epsilon = np.linspace(0.0, 0.9, POINTS)
     radial, along, *_ = _called(found, call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))
@@ -128,15 +133,17 @@ _DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
 
 
 def drawn(plot: Plot, marks: Mapping[str, str]) -> str:
-    """Axes with their ends, curves with their words, a mark for where each joint is now."""
+    """Return the plot as SVG: axes with limits, labelled curves, marks for the present state of each joint."""
     low, high = (float(f([f(curve.y) for curve in plot.curves])) for f in (np.min, np.max))
     low, high = min(low, 0.0), max(high, 0.0) if high > low or high > 0.0 else low + 1.0
     first, last = float(plot.x[0]), float(plot.x[-1])
 
     def at_x(x: Any) -> Any:
+        """Return the horizontal position of x."""
         return LEFT + (RIGHT - LEFT) * (x - first) / (last - first or 1.0)
 
     def at_y(y: Any) -> Any:
+        """Return the vertical position of y."""
         return BOTTOM - (BOTTOM - TOP) * (y - low) / (high - low or 1.0)
 
     parts = [
@@ -156,7 +163,7 @@ def drawn(plot: Plot, marks: Mapping[str, str]) -> str:
 
 
 def _ends(plot: Plot, low: float, high: float, first: float, last: float, zero: float) -> list[str]:
-    """What the axes are of, and how far they go, in units that suit that."""
+    """Return the labels and limits of the axes, in suitable units."""
     across, x_unit = scale(max(abs(first), abs(last)), plot.x_axis[1])
     up, y_unit = scale(max(abs(low), abs(high)), plot.y_axis[1])
     x_name, y_name = _set(label(plot.x_axis[0], x_unit)), _set(label(plot.y_axis[0], y_unit))
@@ -171,19 +178,19 @@ def _ends(plot: Plot, low: float, high: float, first: float, last: float, zero: 
 
 
 def _plain(value: float) -> str:
-    """A number on an axis."""
+    """Return a number for an axis."""
     return f"{value:.3g}".replace("-", "−")
 
 
 def _set(text: str) -> str:
-    """Words of a picture, a letter behind _ lowered."""
+    """Return a label in SVG, a letter after _ lowered."""
     first, *others = html.escape(text).split("_")
     lowered = (f'<tspan class="small" dy="3">{x[:1]}</tspan><tspan dy="-3">&#8203;{x[1:]}</tspan>' for x in others)
     return "".join((first, *lowered))
 
 
 def _mark(name: str, value: str, first: float, last: float, curves: int) -> str:
-    """A line at the joint's present state and a dot on each curve, moved and shown by live.js."""
+    """Return a line at the joint's present state and a dot on each curve, moved and shown by live.js."""
     dots = '<circle r="3"/>' * curves
     return (
         f'<g class="now" data-value="tmp.law.{value}" data-range="{first!r} {last!r} {LEFT} {RIGHT}"'

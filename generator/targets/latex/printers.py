@@ -1,4 +1,4 @@
-"""SymPy's LaTeX and text printers with the names of a notation and the terms of a sum in the order of the bodies."""
+"""Prints expressions as LaTeX and text with the names of a notation; terms of a sum follow the order of the bodies."""
 
 from __future__ import annotations
 
@@ -24,15 +24,17 @@ _PRIME = "'"  # a derivative
 
 
 class _InOrder:
-    """Sums go from body to body, coordinates in front of what turns with them; other sums begin with a plus."""
+    """Order the terms of sums by body, coordinates before rotating arms; other sums begin with a plus."""
 
     _order: Mapping[sp.Symbol, int]
 
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        """Return the terms of a sum in this order."""
         terms = super()._as_ordered_terms(expr, order=order)  # type: ignore[misc]
         return sorted(terms, key=self._place)
 
     def _place(self, term: sp.Expr) -> tuple[int, bool]:
+        """Return the sort key of a term."""
         found = [self._order[s] for s in term.free_symbols if s in self._order]
         if found:
             return min(found), not term.as_coeff_Mul()[1].is_Symbol
@@ -40,38 +42,43 @@ class _InOrder:
 
 
 class TextPrinter(_InOrder, StrPrinter):
-    """One line of plain text: a·b, a^b, √(a), |a|, names in Unicode."""
+    """Print one line of plain text: a·b, a^b, √(a), |a|, names in Unicode."""
 
     def __init__(self, names: Mapping[sp.Symbol, str], order: Mapping[sp.Symbol, int]) -> None:
         super().__init__()
         self._names, self._order = names, order
 
     def doprint(self, expr: sp.Expr) -> str:
+        """Return an expression as text."""
         return str(super().doprint(expr)).replace("*", "·")
 
     def signed_terms(self, expr: sp.Expr) -> list[tuple[str, sp.Expr]]:
-        """The terms of a sum with the signs between them; "{} " is LaTeX's empty left operand."""
+        """Return the terms of a sum with the signs between them; "{} " is LaTeX's empty left operand."""
         first, *rest = self._as_ordered_terms(expr) if expr.is_Add else [expr]
         return [("", first)] + [
             ("{} - ", -term) if term.could_extract_minus_sign() else ("{} + ", term) for term in rest
         ]
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
+        """Print the name of a symbol."""
         return self._names.get(expr, plain_name(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
+        """Print a number, an angle as a fraction of π or in degrees."""
         angle = as_angle(float(expr))
         return angle.text if angle else number_text(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        """A share of π in a product is one number."""
+        """Print an expression, in brackets if it binds less than `level`; a fraction of π is one number."""
         text = str(super().parenthesize(item, level, strict))
         return f"({text})" if item.is_Float and "/" in text and level >= PRECEDENCE["Mul"] else text
 
     def _print_Pi(self, expr: sp.Expr) -> str:
+        """Print π."""
         return "π"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        """Print a power, a root or a quotient."""
         base, exponent = expr.base, expr.exp
         if exponent == sp.Rational(1, 2):
             return f"√({self._print(base)})"
@@ -81,23 +88,29 @@ class TextPrinter(_InOrder, StrPrinter):
         return f"{self.parenthesize(base, PRECEDENCE['Pow'])}^{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
 
     def _print_Abs(self, expr: sp.Expr) -> str:
+        """Print an absolute value."""
         return f"|{self._print(expr.args[0])}|"
 
     def _print_Whole(self, expr: sp.Expr) -> str:
+        """Print an unevaluated operand in brackets."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
+        """Print W or its derivative."""
         return f"W{_PRIME * expr.order}({self._print(expr.args[3])})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
+        """Print a curve or its derivative."""
         return f"{expr.name}{_PRIME * expr.order}({self._print(expr.args[2])})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
+        """Print a remainder."""
         return f"mod({self._print(expr.args[0])}, {self._print(expr.args[1])})"
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
+        """Print a step function."""
         return f"H({self._print(expr.args[0])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
@@ -107,7 +120,7 @@ class TextPrinter(_InOrder, StrPrinter):
 
 
 class TexPrinter(_InOrder, LatexPrinter):
-    """LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
+    """Print LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
 
     def __init__(
         self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], breakable: bool = False
@@ -124,14 +137,14 @@ class TexPrinter(_InOrder, LatexPrinter):
         self._text = TextPrinter({symbol: "x" * name.room for symbol, name in names.items()}, order)
 
     def long(self, expr: sp.Expr) -> str:
-        """`expr`, if it is long with brackets and fractions that a line may break in."""
+        """Return a long expression with brackets and fractions in which a line may break; shorter ones as usual."""
         if len(self._text.doprint(expr)) <= LONG:
             return str(self.doprint(expr))
         loose = str(TexPrinter(self._names, self._order, True).doprint(expr))  # behind commas and factors too
         return loose.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)").replace(", ", r", \allowbreak ")
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """A number over a number stands in front, small; the rest as SymPy has it, or breakable."""
+        """Print a product; a quotient of numbers precedes it as a small fraction."""
         number, rest = expr.as_coeff_Mul()
         above, below = sp.fraction(expr)
         if number.is_Rational and number.q != 1 and sp.fraction(rest)[1] == 1:
@@ -146,17 +159,19 @@ class TexPrinter(_InOrder, LatexPrinter):
         return f"{self.parenthesize(above, PRECEDENCE['Mul'])} / {under}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """No line breaks under the bar of a root."""
+        """Print a power; no line breaks under a root."""
         if self._breakable and expr.exp == sp.S.Half:
             return rf"\surd \left({self._print(expr.base)}\right)"
         return str(super()._print_Pow(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
+        """Print a rational number."""
         if expr.q == 1:
             return str(expr.p)
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
 
     def _print_Float(self, expr: sp.Float) -> str:
+        """Print a number, an angle as a fraction of π or in degrees."""
         if angle := as_angle(float(expr)):
             return angle.latex
         mantissa, _, exponent = number_text(float(expr)).partition("e")
@@ -166,21 +181,26 @@ class TexPrinter(_InOrder, LatexPrinter):
         return power if mantissa == "1" else rf"{mantissa} \cdot {power}"
 
     def _print_ContourOf(self, expr: ContourOf, exp: str | None = None) -> str:
+        """Print W or its derivative."""
         text = rf"W{_PRIME * expr.order}\left({self._print(expr.args[3])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
+        """Print a curve or its derivative."""
         name = expr.name.replace("_", r"\_")
         text = rf"\mathrm{{{name}}}{_PRIME * expr.order}\left({self._print(expr.args[2])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_ModOf(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a remainder."""
         return self._function(r"\operatorname{mod}", expr, exp)
 
     def _print_Heaviside(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a step function."""
         return self._function("H", expr, exp)
 
     def _print_Pick(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a choice as the file writes it."""
         left, right, below, otherwise = map(self._print, compared(expr))
         if self._breakable:  # no line breaks between the cases of a brace
             text = rf"\operatorname{{where}}\left({left} < {right}, {below}, {otherwise}\right)"
@@ -190,22 +210,26 @@ class TexPrinter(_InOrder, LatexPrinter):
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print an unevaluated operand in brackets."""
         return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
 
     _print_Share = _print_Whole
 
     def _function(self, name: str, expr: sp.Expr, exp: str | None) -> str:
+        """Print a call of a function."""
         inside = ", ".join(self._print(argument) for argument in sorted_arguments(expr))
         return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({inside}\right)"
 
 
 def _add_functions(in_sympy: str, function: Function) -> None:
-    """Let the printers write a function as the table of functions says."""
+    """Add methods to the printers for each function of the table of functions."""
 
     def print_text(printer: TextPrinter, expr: sp.Expr) -> str:
+        """Print a function as text."""
         return f"{function.text}({printer.stringify(sorted_arguments(expr), ', ')})"
 
     def print_latex(printer: TexPrinter, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a function as LaTeX."""
         return printer._function(function.latex, expr, exp)
 
     if function.text:
@@ -223,7 +247,7 @@ _LONG_NUMBER = 9  # digits from which a number says nothing to people
 
 @lru_cache(4096)
 def as_angle(value: float) -> Name | None:
-    """A share of π, or degrees, where a number of rad is that and no shorter: π/2, 39.52°; else None."""
+    """Return a number of rad as a fraction of π or in degrees if that is shorter: π/2, 39.52°; else None."""
     if sum(map(str.isdigit, repr(value))) < _LONG_NUMBER:
         return None
     if share := share_of_pi(value):
@@ -239,7 +263,7 @@ def as_angle(value: float) -> Name | None:
 
 
 def share_of_pi(value: float) -> tuple[int, int] | None:
-    """(k, n) where a number is k π/n to its last digit, as people write angles."""
+    """Return (k, n) if a number is k π/n to its last digit; None otherwise."""
     for of in _SIMPLE:
         count = round(value * of / math.pi)
         if 0 < abs(count) <= 12 and abs(count * math.pi / of - value) <= math.ulp(value):
@@ -248,7 +272,7 @@ def share_of_pi(value: float) -> tuple[int, int] | None:
 
 
 def number_text(value: float) -> str:
-    """The shortest decimal number that is read back as `value`, but for what sums rounded: "0.0003", "7e10"."""
+    """Return the shortest decimal number that is read back as `value`, rounding errors aside: "0.0003", "7e10"."""
     written = float(f"{value:.12g}")
     text = repr(written if abs(written - value) <= 2 * math.ulp(value) else value).removesuffix(".0")
     if "e" not in text and abs(value) >= 1e6:
@@ -257,7 +281,7 @@ def number_text(value: float) -> str:
 
 
 def compared(pick: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """Two values, what is picked where the first is less than the second, and what else: a where, as it was written."""
+    """Return (left, right, value if left < right, other value) of a choice, as it was written."""
     side, otherwise, below = pick.args
     gap = side.args[0] if isinstance(side, sp.sign) else side
     terms = sp.Add.make_args(gap)

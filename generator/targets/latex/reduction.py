@@ -1,4 +1,4 @@
-"""The part of the document on what is integrated: the ledger of the reduction, the tree, both formulations, the C."""
+"""Writes the part of the document on the integrated equations: log of the reduction, tree, formulations, C files."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from gudgeon.generator.targets.latex.trace import Functions
 
 
 def reduction_sections(found: Functions) -> list[Section]:
-    """How the equations become what is integrated, what that saves, and where the C of it stands."""
+    """Return the sections on how the equations are reduced, what that saves, and where the C is."""
     source = found.source
     return [
-        Section("From all coordinates to few", tuple(_story(source, found.model.scene.mechanism.joints))),
-        Section("Full and reduced, side by side", tuple(_beside(found))),
+        Section("From all coordinates to few", tuple(_reduction_log(source, found.model.scene.mechanism.joints))),
+        Section("Full and reduced, side by side", tuple(_comparison_table(found))),
         Section("The C, file by file", tuple(_files(found))),
     ]
 
 
-def _story(source: KernelSource, joints: Collection[str]) -> list[Block]:
-    """As `gudgeon check -v` tells it."""
+def _reduction_log(source: KernelSource, joints: Collection[str]) -> list[Block]:
+    """Return the log of the reduction as `gudgeon check -v` prints it."""
     ledger = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in ledger_lines(source)]
     story = [cells(name, f"{text}.") for name, text in outcome(source)]
     return [
@@ -35,8 +35,8 @@ def _story(source: KernelSource, joints: Collection[str]) -> list[Block]:
     ]
 
 
-def _beside(found: Functions) -> list[Block]:
-    """Sizes and operations."""
+def _comparison_table(found: Functions) -> list[Block]:
+    """Return the table of sizes and operations of both formulations."""
     source, story = found.source, found.source.story
     counts = source.operations
     reduced = "arrive" if "arrive" in counts else "reduced_dynamics"
@@ -56,7 +56,10 @@ def _beside(found: Functions) -> list[Block]:
 
 
 def _of_matrix(before: Solve | None, after: Solve | None) -> list[tuple[str, int | None, int | None]]:
+    """Return rows of the table on the factored matrix: (what, full, reduced)."""
+
     def both(of: str) -> tuple[int | None, int | None]:
+        """Return a property of the factored matrix in the full and in the reduced formulation."""
         full, reduced = (getattr(solve, of) if solve else None for solve in (before, after))
         return full, reduced
 
@@ -68,7 +71,7 @@ def _of_matrix(before: Solve | None, after: Solve | None) -> list[tuple[str, int
 
 
 def _files(found: Functions) -> list[Block]:
-    """In the order in which they are to be read."""
+    """Return the list of files in the order in which they are to be read."""
     told = purposes(found.program)
     names = [name for name in told if name in found.files]
     rows = [cells(name, sentence(told[name].replace("`", ""))) for name in names]

@@ -1,5 +1,6 @@
-"""A document as LaTeX, plain text or HTML: layout and escaping; templates/latex holds the frames. Text
-in LaTeX can only be read as text: nothing in it is a command, all of it is ASCII.
+"""Renders a document as LaTeX, plain text or HTML: layout and escaping; the frames are in templates/latex.
+
+Text in LaTeX can only be read as text: nothing in it is a command, all of it is ASCII.
 """
 
 from __future__ import annotations
@@ -94,16 +95,17 @@ _ACCENTS = {"\u0302": "hat", "\u0307": "dot", "\u0308": "ddot"}  # of a mathemat
 
 
 def tex(text: str) -> str:
-    """`text` in running LaTeX; a character that plain pdflatex has no sign for becomes its number."""
+    """Return `text` for running LaTeX; a character that plain pdflatex lacks becomes its number."""
     return "".join(map(_character, _clusters(text)))
 
 
 def sketch_line(line: str) -> str:
-    """A line of a sketch: every character takes the same room."""
+    """Return a line of a sketch, in which every character has the same width."""
     return "".join(map(_sketch_character, _clusters(line)))
 
 
 def _sketch_character(cluster: str) -> str:
+    """Return a character of a sketch in LaTeX."""
     if cluster == " ":
         return "~"
     if cluster.isascii():  # a typewriter font has all of ASCII in its places
@@ -112,7 +114,7 @@ def _sketch_character(cluster: str) -> str:
 
 
 def _clusters(text: str) -> list[str]:
-    """Letters with the marks above them."""
+    """Return letters with the marks above them."""
     found: list[str] = []
     for character in unicodedata.normalize("NFC", text):
         if unicodedata.combining(character) and found:
@@ -123,6 +125,7 @@ def _clusters(text: str) -> list[str]:
 
 
 def _character(cluster: str) -> str:
+    """Return a character in LaTeX."""
     if cluster in _SPECIAL:
         return _SPECIAL[cluster]
     if cluster in _MATH:
@@ -144,14 +147,17 @@ GAP = 0.025  # between two columns
 
 
 def render(document: Document, suffix: str, **slots: str) -> str:
-    """The document in the format of a file's suffix: "tex", "txt" or "html"; its frame's slots hold HTML."""
+    """Return the document in the format of a file's suffix: "tex", "txt" or "html"; slots of its frame contain HTML."""
     text = _environment().get_template(f"equations.{suffix}.jinja").render(document=document, **slots)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
 
 
 @cache
 def _environment() -> jinja2.Environment:
+    """Return the environment of the templates, with delimiters that LaTeX does not use."""
+
     def load(name: str) -> str:
+        """Return the text of a template."""
         return resources.files("gudgeon.templates").joinpath("latex", name).read_text(encoding="utf-8")
 
     environment = jinja2.Environment(
@@ -192,20 +198,23 @@ def _environment() -> jinja2.Environment:
 
 
 def _tex_line(text: Text) -> str:
+    """Return words and formulas in LaTeX."""
     return "".join(f"${part.latex}$" if isinstance(part, Name) else tex(part) for part in text)
 
 
 def _tex_row(row: tuple[Text, ...], wide: tuple[int, ...]) -> str:
+    """Return a row of a table in LaTeX."""
     cells = [rf"\raggedright {_tex_line(cell)}" if k in wide else _tex_line(cell) for k, cell in enumerate(row)]
     return " & ".join(cells) + r" \tabularnewline"
 
 
 def _tex_terms(equation: Equation) -> str:
+    """Return the terms of an equation in LaTeX."""
     return "\n  ".join(term.latex for term in equation.terms)
 
 
 def _tex_columns(table: Table) -> str:
-    """Running text gets what the page leaves for it."""
+    """Return the columns of a table; running text gets the remaining width."""
     others = [_width(table, k) for k in range(len(table.header)) if k not in table.wide]
     taken = LETTER[_tex_size(table)] * sum(others) + GAP * len(table.header)
     share = max(0.12, min(0.34, 1.0 - taken)) / max(1, len(table.wide))
@@ -213,7 +222,7 @@ def _tex_columns(table: Table) -> str:
 
 
 def _tex_size(block: Sketch | Picture | Table) -> str:
-    """Long lines take small letters to stay on the page."""
+    """Return the font size of a sketch, small for long lines."""
     if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
     widths = [_width(block, k) for k in range(len(block.header))]
@@ -222,26 +231,28 @@ def _tex_size(block: Sketch | Picture | Table) -> str:
 
 
 def _width(table: Table, k: int) -> int:
-    """Characters of a column."""
+    """Return the number of characters of a column."""
     return max(_columns(_plain_line(row[k])) for row in (table.header, *table.rows))
 
 
 def _plain_line(text: Text) -> str:
+    """Return words and formulas as plain text."""
     return "".join(part.text if isinstance(part, Name) else part for part in text)
 
 
 def _plain_paragraph(paragraph: Paragraph) -> str:
+    """Return a paragraph as plain text."""
     return textwrap.fill(_plain_line(paragraph.text), WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
 def _plain_equation(equation: Equation) -> str:
-    """One line, or more of them, each behind the first indented further."""
+    """Return an equation in one line or more, indented after the first."""
     line = f"  {equation.left.text} = {''.join(term.text for term in equation.terms)}"
     return textwrap.fill(line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False)
 
 
 def _plain_table(table: Table) -> str:
-    """Columns under each other; running text goes on below itself."""
+    """Return a table with aligned columns; running text is wrapped."""
     rows = [[[_plain_line(cell)] for cell in table.header]]
     rows += [
         [
@@ -262,9 +273,10 @@ def _plain_table(table: Table) -> str:
 
 
 def _columns(text: str) -> int:
-    """Width on a terminal: a dot above a letter takes no room of its own."""
+    """Return the width of a text on a terminal: combining marks take none."""
     return sum(not unicodedata.combining(character) for character in text)
 
 
 def _underline(text: str, sign: str) -> str:
+    """Return a heading with a line of signs below it."""
     return f"{text}\n{sign * _columns(text)}"

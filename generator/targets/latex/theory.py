@@ -1,5 +1,6 @@
-"""Letters that a scene's documents have of themselves, by what they tell; what a file names gives way to them. The
-sketches of joint types and force elements have such letters too.
+"""Contains the letters of the theory in a scene's documents, with their meaning; user-defined names give way to them.
+
+The sketches of joint types and force elements contain such letters, too.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ _RAISED = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
 
 
 def sketch_of(of: JointType | ElementType) -> list[str]:
-    """Return what documents say of a joint type or force element: a line, then its sketch."""
+    """Return the description of a joint type or force element: a line, then its sketch."""
     summary, _, rest = inspect.cleandoc(of.doc or "").partition("\n")
     return [summary, *rest.strip("\n").splitlines()]
 
 
 def letters_of(lines: list[str]) -> Iterator[str]:
-    """Letters that stand alone in a sketch, with their subscripts; those with dots without them too.
+    """Return the letters that stand alone in a sketch, with subscripts; those with dots also without them.
 
     No part of a drawing ("o---"), no initial ("L. C. Bo"), no article.
     """
@@ -45,12 +46,12 @@ LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
 
 
 def indexed(of: Name, index: int) -> Name:
-    """A component; they count from 1."""
+    """Return a component of a vector; they count from 1."""
     return Name(f"{of.latex}_{{{index}}}", f"{of.text}_{index}")
 
 
 def theory(model: Model) -> dict[str, str]:
-    """What each of these letters is, by its plain text."""
+    """Return the meaning of each letter of the theory, by its plain text."""
     found: dict[str, str] = {}
     for text, meaning in _letters(model):
         found.setdefault(text, meaning)
@@ -59,6 +60,7 @@ def theory(model: Model) -> dict[str, str]:
 
 
 def _letters(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield the letters of the theory with their meaning."""
     yield from (("n", "number of coordinates"), ("q", "coordinates"), ("x", "an axis"), ("y", "an axis"))
     yield from (("M", "mass matrix"), ("g", "generalized forces"), ("a", "accelerations, in the C"))
     yield from ((f"g_{k}", "a generalized force") for k in range(1, 1 + len(model.q)))
@@ -78,6 +80,7 @@ def _letters(model: Model) -> Iterator[tuple[str, str]]:
 
 
 def _of_rows(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield the letters of constraint equations."""
     for name, what in (
         (PHI, "constraints"),
         (LAMBDA, "multipliers"),
@@ -90,6 +93,7 @@ def _of_rows(model: Model) -> Iterator[tuple[str, str]]:
 
 
 def _of_forces(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield the letters of force elements and friction."""
     for name, applied in model.elements.items():
         if applied.loads.potential != 0:
             yield letter("V", name).text, f"potential energy of {name}"
@@ -103,11 +107,12 @@ def _of_forces(model: Model) -> Iterator[tuple[str, str]]:
 
 
 def _of_sketch(of: JointType | ElementType) -> Iterator[tuple[str, str]]:
+    """Yield the letters of a sketch."""
     return ((text, f"in the sketch: {of.title}") for text in letters_of(sketch_of(of)))
 
 
 def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
-    """Of its numbers, of its laws, and of those steps that it has."""
+    """Yield the letters of a joint with play: its parameters, laws and steps."""
     shown = {contact.stored, *_symbols(_steps(clearance))}
     may_be = names(clearance)
     yield from (
@@ -123,6 +128,7 @@ def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
 
 
 def _steps(clearance: Clearance) -> Iterator[Step]:
+    """Yield the steps that a joint with play has."""
     yield from (
         Step(symbol, sp.Integer(0))
         for symbol in (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
@@ -140,6 +146,7 @@ def _steps(clearance: Clearance) -> Iterator[Step]:
 
 
 def _symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
+    """Yield the symbols of steps."""
     for step in steps:
         yield step.symbol
         yield from sp.sympify(step.value).free_symbols

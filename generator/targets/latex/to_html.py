@@ -1,5 +1,6 @@
-"""Parts of a document as HTML: MathML, tokens of what belongs together, places for values, listings. `Letters`
-writes a model's equations where a notebook or a terminal shows them.
+"""Renders parts of a document as HTML: MathML, tokens for cross-highlighting, elements for values, listings.
+
+`Letters` writes a model's equations in a notebook or a terminal.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ _FUNCTIONS = ("sin", "cos", "tan")
 
 
 def attributes(of: Collection[str], pick: str = "", focus: bool = False) -> str:
-    """`data-of` and the like of an element, with a space in front; nothing without tokens."""
+    """Return the attribute `data-of` and others of an element, with a leading space; "" without tokens."""
     if not of:
         return ""
     picks = f' data-pick="{html.escape(pick)}"' if pick else ""
@@ -29,23 +30,23 @@ def attributes(of: Collection[str], pick: str = "", focus: bool = False) -> str:
 
 
 def output(value: str) -> str:
-    """Where a page that runs shows a value."""
+    """Return the element in which a running page shows a value."""
     return f'<output data-value="{html.escape(value)}"></output>' if value else ""
 
 
 def line(text: Text) -> str:
-    """Words and formulas."""
+    """Return words and formulas as HTML."""
     return "".join(formula(part) if isinstance(part, Name) else html.escape(part) for part in text)
 
 
 def formula(name: Name) -> str:
-    """MathML with its tokens and the place of its value; a line may break where LaTeX's may."""
+    """Return a formula as MathML with its tokens and value; a line may break as in LaTeX."""
     told = "".join(map(mathml, _pieces(name.latex))) + output(name.value)
     return f"<span{attributes(name.of)}>{told}</span>" if name.of else told
 
 
 def _pieces(latex: str) -> Iterator[str]:
-    """A formula at its \\allowbreak that stand in no braces."""
+    """Return a formula split at each \\allowbreak outside of braces."""
     held = ""
     for part in latex.split(r"\allowbreak "):
         held += part
@@ -57,7 +58,7 @@ def _pieces(latex: str) -> Iterator[str]:
 
 
 def mathml(latex: str) -> str:
-    """A formula as MathML. Raises GudgeonError where the extra `docs` is not installed."""
+    """Return a formula as MathML. Raises GudgeonError if the extra `docs` is not installed."""
     try:
         from latex2mathml.converter import convert_to_element
     except ImportError as error:
@@ -75,12 +76,12 @@ def mathml(latex: str) -> str:
 
 
 def _read_signs(part: Element) -> None:
-    """Characters that are written as their numbers."""
+    """Return MathML with numeric character references replaced by characters."""
     part.text = html.unescape(part.text) if part.text else part.text
 
 
 def _without_rows(part: Element) -> None:
-    """A row of one needs no row, nor does a style; an empty row in front of a sign says that the sign has two sides."""
+    """Return MathML without superfluous rows and styles; an empty row before a sign makes it binary."""
     for k, inner in enumerate(part):
         while inner.tag in ("mrow", "mstyle") and len(inner) == 1 and not (inner.text or "").strip():
             inner[0].attrib = inner.attrib | inner[0].attrib
@@ -89,7 +90,7 @@ def _without_rows(part: Element) -> None:
 
 
 def _space_functions(row: Element) -> None:
-    """A browser puts no space between a function's name and what it is of."""
+    """Return MathML with a space between a function's name and its argument, which browsers omit."""
     for k, (word, of) in reversed(list(enumerate(pairwise(row)))):
         base_of_power = row.tag == "msup" and k == 0
         if word.tag == "mi" and word.text in _FUNCTIONS and of.tag.startswith(("mr", "ms")) and not base_of_power:
@@ -97,7 +98,7 @@ def _space_functions(row: Element) -> None:
 
 
 def listing(block: Listing) -> str:
-    """A file with the numbers of its lines, folded."""
+    """Return a file with line numbers, folded."""
     lines = (
         f'<span class="line"{attributes(sorted(block.of.get(k, ())), focus=True)}>{html.escape(text) or " "}</span>'
         for k, text in enumerate(block.lines, 1)
@@ -107,30 +108,31 @@ def listing(block: Listing) -> str:
 
 
 class Letters:
-    """How expressions of one model are written."""
+    """Write expressions of one model as formulas."""
 
     def __init__(self, model: Model) -> None:
         self.model, self.notation = model, make_notation(model)
 
     def latex(self, matrix: sp.Matrix) -> str:
-        """A matrix as LaTeX."""
+        """Return a matrix as LaTeX."""
         rows = r" \\ ".join(map(" & ".join, self._rows(matrix, lambda name: name.latex)))
         return rf"\left[\begin{{array}}{{{'c' * matrix.cols}}}{rows}\end{{array}}\right]"
 
     def text(self, matrix: sp.Matrix) -> str:
-        """A matrix as plain text, a line for each row."""
+        """Return a matrix as plain text, a line for each row."""
         return "\n".join(f"[{', '.join(row)}]" for row in self._rows(matrix, lambda name: name.text))
 
     def equation(self) -> Name:
-        """Φ(q, t) = 0, row by row."""
+        """Return Φ(q, t) = 0, row by row."""
         return Name(rf"\Phi(q, t) = {self.latex(self.model.Phi)} = 0", f"Φ(q, t) =\n{self.text(self.model.Phi)}")
 
     def html(self) -> str:
-        """The same as MathML; LaTeX between dollar signs without the extra `docs`."""
+        """Return a matrix as MathML; LaTeX between dollar signs without the extra `docs`."""
         try:
             return mathml(self.equation().latex)
         except GudgeonError:
             return f"$${self.equation().latex}$$"
 
     def _rows(self, matrix: sp.Matrix, write: Callable[[Name], str]) -> list[list[str]]:
+        """Return the entries of a matrix, each written by `write`."""
         return [[write(self.notation.math(matrix[r, c])) for c in range(matrix.cols)] for r in range(matrix.rows)]

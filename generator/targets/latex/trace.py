@@ -1,7 +1,7 @@
-"""What belongs together: tokens of rows, entries, terms, joints, bodies and laws, and the lines of C and YAML of each.
+"""Traces rows, entries, terms, joints, bodies and laws to the lines of C and YAML that belong to them, by tokens.
 
-Selecting anything on a page lights whatever has a token in common with it (light.js). Which lines of C compute a row is
-asked of the functions themselves (generator/ir/dependence.py), never of their text.
+Selecting anything on a page highlights whatever shares a token with it (light.js). The lines of C that compute a row
+are determined from the functions themselves (generator/ir/dependence.py), not from their text.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from gudgeon.generator.mechanism import quantities
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.emit import described, emit, file_names, render
-from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
+from gudgeon.generator.targets.c.emit import describe_program, emit, file_names, render
+from gudgeon.generator.targets.c.lines import Stored, find_function, find_stores_in_text, locate_text
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
 from gudgeon.generator.targets.latex.document import entries_of, entry_token, joint_tokens, row_token, sum_token
@@ -38,7 +38,7 @@ Tokens = Mapping[int, Marks]  # by line
 
 @dataclass(frozen=True)
 class Functions:
-    """A scene's functions, derived anew, so that their names are those of the emitted C; `files` are its names."""
+    """Contain a scene's functions, derived anew with the names of the emitted C; `files` are its file names."""
 
     model: Model
     program: Program
@@ -48,9 +48,9 @@ class Functions:
 
 @dataclass(frozen=True)
 class Trace(Functions):
-    """`lines`: tokens by file and line of C; `values`: what a line stores, "phi.arm_x", "p.3", "lambda.2".
+    """Contain `lines`, tokens by file and line of C, and `values`, what a line stores: "phi.arm_x", "p.3", "lambda.2".
 
-    `numbers`: tokens by address of what hangs on a number of the file.
+    `numbers`: tokens by address of everything that depends on a number of the file.
     """
 
     lines: Mapping[str, Tokens]
@@ -59,15 +59,15 @@ class Trace(Functions):
 
 
 def functions_of(model: Model) -> Functions:
-    """The scene's functions, without their C."""
+    """Return the scene's functions without their C."""
     program = make_program(model)
-    return Functions(program.model, program, described(program, {}), file_names(program))
+    return Functions(program.model, program, describe_program(program, {}), file_names(program))
 
 
 def trace(model: Model, source: KernelSource | None = None) -> Trace:
-    """The scene's functions, their C, and what of it belongs to what in the document of `model`.
+    """Return the scene's functions, their C, and the tokens of its lines in the document of `model`.
 
-    source: what was emitted of the scene, where that is known; it is not printed again then.
+    source: the emitted C of the scene, if it is known; it is then not printed again.
     """
     program = make_program(model)
     if source is None or source.formulation != program.formulation:
@@ -79,7 +79,7 @@ def trace(model: Model, source: KernelSource | None = None) -> Trace:
 
 
 class _Finder:
-    """Goes through the functions of a scene and notes tokens."""
+    """Collect the tokens and values of the lines of a scene's functions."""
 
     def __init__(self, program: Program, source: KernelSource) -> None:
         self.program, self.model, self.files = program, program.model, source.files
@@ -100,7 +100,7 @@ class _Finder:
         self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
 
     def all(self) -> None:
-        """Every function that says something of rows, bodies or laws; what `prepare` makes of it last."""
+        """Visit every function that concerns rows, bodies or laws; `prepare` comes last."""
         program = self.program
         in_tree = program.tree.every if program.tree else ()
         for kernel in (*program.closed, program.dynamics, *in_tree):
@@ -116,19 +116,21 @@ class _Finder:
                     self.numbers[number] |= own
             for part in pin_functions(pin, render, self.model.law_states):
                 self._whole(part.text, lit)
-                file, stored = find_within(part.text, part.stores, self.files)
+                file, stored = find_stores_in_text(part.text, part.stores, self.files)
                 for one in stored:
                     self._keep(file, one, f"law.{part.name}.{{}}".format)
         self._prepare()
 
     def _function(self, kernel: Kernel) -> None:
+        """Collect the tokens of one function's lines."""
         marked = slices(readable(kernel), lambda line: self._marks(kernel.name, line))
         for number, marks in marked.numbers.items():
             self.numbers[number] |= marks
         self._note(kernel, marked.stored)
 
     def _note(self, kernel: Kernel, stored: Mapping[Key, Marks]) -> None:
-        for found in find(kernel, self.files):
+        """Note tokens and values of the stores of a kernel."""
+        for found in find_function(kernel, self.files):
             for one in found.lines:
                 own = stored.get(one.target, NO_MARKS) | self._result(kernel.name, one.target)
                 for number in one.lines:
@@ -136,16 +138,17 @@ class _Finder:
                 self._keep(found.file, one, partial(self._called, kernel.name, found.own.names))
 
     def _keep(self, file: str, one: Stored, value: Callable[[Key], str]) -> None:
-        """What a line stores; of a branch where it does, or, of a side without a value, on its last line alone."""
+        """Note the value that a line stores; for a branch, on the line that stores it."""
         where, side = one.where[:1], value(one.where[1:]) if one.where[1:] else ""
         if (called := value(one.target)) and (side or where != "<"):
             self.values[file][one.lines[-1]] = f"{called}{where}{side.rpartition('.')[2]}" if side else called
 
     def _called(self, function: str, names: Mapping[Key, Key], key: Key) -> str:
+        """Return the value's name of a local in a part of a function."""
         return self._value(function, names.get(key, key))
 
     def _value(self, function: str, key: Key) -> str:
-        """What a page calls the value that a line stores; "": it has none."""
+        """Return the page's name of the value that a line stores; "" if it has none."""
         called = str(key)
         if function in GIVES:
             return f"{GIVES[function]}.{called}"
@@ -160,7 +163,7 @@ class _Finder:
         return ""
 
     def _of_rows(self, key: Key) -> str:
-        """Of `dynamics`: what the right-hand sides hang on, Φ and Φ̇ of a row, multipliers."""
+        """Return the values in `dynamics`: what right-hand sides depend on, Φ and Φ̇ of a row, multipliers."""
         if key in self.computed:
             return f"rhs.{key}"
         array, index = _element(key)
@@ -173,7 +176,7 @@ class _Finder:
         return f"rhs.{name}" if row and name in self.computed else ""
 
     def _marks(self, function: str, line: Statement | Branch) -> Marks:
-        """What a line is looked for: rows where Φ, Φ_q, ν, γ are stored, terms where their names are."""
+        """Return the tokens of what a line stores: rows for Φ, Φ_q, ν, γ, and named terms."""
         target, (array, index) = line.target, _element(line.target)
         if function == "mass_matrix" and index >= 0:
             return frozenset({f"body-{self.model.bodies[index // 3].name}"})
@@ -193,6 +196,7 @@ class _Finder:
         return NO_MARKS
 
     def _of_dynamics(self, function: str, local: str, array: str, index: int) -> Marks:
+        """Return the tokens of a store in the equations of motion."""
         rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):
             return self._row(rows[index].name)
@@ -200,13 +204,15 @@ class _Finder:
         return self._row(name)
 
     def _row(self, name: str) -> Marks:
+        """Return the token of a row."""
         return frozenset({row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
 
     def _terms(self, target: Key) -> Marks:
+        """Return the token of a term that the document shows by name."""
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
     def _result(self, function: str, target: Key) -> Marks:
-        """Of a line alone: where Φ of a row is summed; a multiplier hangs on everything, its own line is the row's."""
+        """Return the tokens of a line alone: of the sum of a row of Φ, or of a multiplier."""
         array, index = _element(target)
         if function == "constraints" and index >= 0:
             number = self.number_of.get(self.every[index].name)
@@ -216,12 +222,13 @@ class _Finder:
         return NO_MARKS
 
     def _whole(self, text: str, own: Marks) -> None:
-        """All lines of what was printed whole."""
-        file, lines = place_of(text, self.files)
+        """Give tokens to all lines of a text that was printed whole."""
+        file, lines = locate_text(text, self.files)
         for number in lines:
             self.lines[file][number] |= own
 
     def _prepare(self) -> None:
+        """Collect the tokens of the lines of `prepare` from those of the parameters that they compute."""
         kernel = self.program.prepare
         own = {s.name: self.model.slots.place(s) for s in self.model.slots.members()}
         slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
@@ -234,13 +241,13 @@ class _Finder:
         self._note(kernel, marked.stored)
 
     def by_address(self) -> dict[str, Marks]:
-        """Tokens of each number of the file."""
+        """Return the tokens of each number of the file."""
         slots = self.model.slots
         return {own.address: frozenset(self.numbers[slots.place(own.symbol)]) for own in slots.entries.values()}
 
 
 def _element(target: Key) -> tuple[str, int]:
-    """An array of numbers, of a function or within its `rhs`, and which element of it; −1 of everything else."""
+    """Return (array, index) of a store to an array of a function or of its `rhs`; index −1 for other stores."""
     match target:
         case Place(array, (int() as index,)) | Place(RHS.name, (str() as array, int() as index)):
             return array, index
@@ -248,12 +255,12 @@ def _element(target: Key) -> tuple[str, int]:
 
 
 def _field(line: Statement | Branch, homes: Mapping[str, Place]) -> str:
-    """The symbol of the number that a line of `prepare` stores."""
+    """Return the symbol of the parameter that a line of `prepare` stores."""
     return next((name for name, home in homes.items() if line.target in (name, home)), "")
 
 
 def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
-    """Tokens by line of the mechanism's file: of whatever stands there, and of what hangs on its numbers."""
+    """Return the tokens of each line of the mechanism's file: of its entries, and of what depends on its numbers."""
     tokens: defaultdict[int, set[str]] = defaultdict(set)
     mechanism = model.scene.mechanism
     joints = {name: joint.where.line for name, joint in mechanism.joints.items()}

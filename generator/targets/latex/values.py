@@ -1,4 +1,4 @@
-"""The numbers of a file as cells of tables: letter, value and unit, and what a number follows."""
+"""Writes the numbers of a file as cells of tables: letter, value, unit, and the expression that a number follows."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 
 
 class Values:
-    """The numbers of a scene as table cells: letter, and value with what it follows."""
+    """Write the numbers of a scene as table cells: letter, value, and expression."""
 
     def __init__(self, model: Model, notation: Notation) -> None:
         self._model, self._slots, self._notation = model, model.slots, notation
         self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
 
     def cell(self, quantity: Quantity | None) -> Text:
-        """ "l = 80 mm", "y = −l_5 = −0.3 m", "0", what varies as a formula; nothing for no number."""
+        """Return the cell of a number: "l = 80 mm", "y = −l_5 = −0.3 m", "0", or a formula; empty for no number."""
         if quantity is None:
             return ("",)
         if quantity.address not in self._slots.entries:
@@ -44,7 +44,7 @@ class Values:
         return self.slot(self._slots.entries[quantity.address])
 
     def _varying(self, quantity: Quantity) -> Text:
-        """What hangs on time and motion, by names as the file has it; a long one has a letter, and stands below."""
+        """Return an expression of time and motion, in the file's names; a long one has a letter and stands below."""
         notation, model = self._notation, self._model
         written = as_written(quantity.value, 0, model.scene.mechanism.expressions)
         of_cam = any(name.path == OF_CAM_ANGLE for name in names(quantity.value))
@@ -58,17 +58,17 @@ class Values:
         return (left,)
 
     def slot(self, entry: SlotEntry) -> Text:
-        """Letter = value."""
+        """Return letter = value."""
         return self._notation.math(entry.symbol), " = ", *self.value(entry)
 
     def value(self, entry: SlotEntry) -> Text:
-        """The default in the unit of the file; what follows others in SI, in front of it the expression."""
+        """Return the default in the unit of the file; for a dependent number its expression and the value in SI."""
         if (measured := _measured(entry.written)) is not None:
             return self._with_unit(*measured)
         return self.followed(entry) + self._with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
 
     def in_si(self, entry: SlotEntry) -> Text:
-        """The default in SI without its unit; in front of it what the file says, where that is something else."""
+        """Return the default in SI without its unit, after the text of the file if that differs."""
         written, angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
         share = as_angle(entry.default) if angle and share_of_pi(entry.default) else None
         number = share or self._number(entry.default, exact=isinstance(written, Number))
@@ -81,7 +81,7 @@ class Values:
         return (f"{as_written(written)} = ", share or self._number(entry.default)) if told else (number,)
 
     def followed(self, entry: SlotEntry) -> Text:
-        """What a number follows and a sign behind it; nothing where it is long, and stands below."""
+        """Return the expression that a number follows and a sign after it; nothing if it is long and stands below."""
         if not entry.follows:
             return ()
         formula = self._notation.math(entry.value)
@@ -91,7 +91,7 @@ class Values:
         return ()
 
     def _apart(self, entry: SlotEntry) -> list[Block]:
-        """A long formula; what stands under a root that fills a line has a letter: no line breaks below that sign."""
+        """Return a long formula; the argument of a long root gets a letter, since lines cannot break in it."""
         notation, value, blocks = self._notation, entry.value, list[Block]()
         left = notation.math(entry.symbol)
         for root in sorted(value.atoms(sp.Pow), key=sp.default_sort_key):
@@ -105,13 +105,14 @@ class Values:
         return [*blocks, Equation(left, notation.terms(value))]
 
     def _with_unit(self, x: float, unit: str, exact: bool = True) -> Text:
+        """Return a number with its unit."""
         number = self._number(x, unit == "rad", exact)
         if unit == "deg":
             return (Name(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
         return (number, f" {pretty(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
 
     def _number(self, x: float, angle: bool = False, exact: bool = False) -> Name:
-        """As people write it; what is a result of arithmetic has last digits that say nothing."""
+        """Return a number as people write it; results of arithmetic are rounded."""
         if angle and (known := as_angle(x)) is not None:
             return known
         short = x if exact else float(f"{x:.6g}")
@@ -122,7 +123,7 @@ class Values:
         return Name(rf"{in_front}10^{{{int(power)}}}", f"{digits}e{power}")
 
     def of_bodies(self, part: str) -> list[tuple[Text, ...]]:
-        """Numbers of bodies that are given by the lengths of their `sides`, or by their `shape`."""
+        """Return the numbers of bodies with `sides` or `shape`."""
         found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
         return [
             cells(f"{at[1]}.{'.'.join(at[3:])}", self.slot(e))
@@ -131,17 +132,17 @@ class Values:
         ]
 
     def densities(self) -> list[tuple[Text, ...]]:
-        """Of the materials of shapes."""
+        """Return the densities of the materials of shapes."""
         found = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.words]
         return [cells(at[1], self.slot(e)) for e, at in found if at[0] == "materials" and at[2:] == ["density"]]
 
     def below(self) -> list[Block]:
-        """The long ones since it was last asked, to stand below a table."""
+        """Return the long expressions since the last call, to be placed below a table."""
         found, self._long = list(dict.fromkeys(self._long)), []
         return [paragraph("In full:"), *found] if found else []
 
     def vector(self, vector: Vector) -> Text:
-        """Both components; a zero beside a letter has its letter, though no equation needs it."""
+        """Return both components; a zero next to a letter has its letter, too."""
         known = [one.address in self._slots.entries for one in vector]
         x, y = (
             (of_address(one.address), " = 0")
@@ -153,7 +154,7 @@ class Values:
 
 
 def _measured(written: Expr | None) -> tuple[float, str] | None:
-    """A number of the file and its unit; None for what is no number with a unit."""
+    """Return a number of the file and its unit; None for other expressions."""
     if isinstance(written, Unary) and (inner := _measured(written.operand)) is not None:
         return -inner[0], inner[1]
     if not isinstance(written, Number) or not unit_of(written) or written.text.startswith("pi"):
@@ -162,12 +163,13 @@ def _measured(written: Expr | None) -> tuple[float, str] | None:
 
 
 def unit_of(number: Number) -> str:
-    """The unit behind a number of the file, "rpm"; "" where it has none."""
+    """Return the unit of a number of the file, "rpm"; "" if it has none."""
     text = number.text.strip().removeprefix("pi") if number.has_unit else ""
     return text[max((k for k in range(len(text) + 1) if _is_number(text[:k])), default=0) :].strip()
 
 
 def _is_number(text: str) -> bool:
+    """Return whether a text is a number."""
     try:
         float(text)
     except ValueError:
@@ -176,14 +178,14 @@ def _is_number(text: str) -> bool:
 
 
 def si_unit_of(entry: SlotEntry) -> str:
-    """The SI unit of a number; of angles and their rates rad and rad/s, where the file says that they are."""
+    """Return the SI unit of a number; rad and rad/s for angles and their rates, if the file declares them."""
     if entry.written is not None and angle_power(entry.written) == 1:
         return {DIMENSIONLESS: "rad", RATE: "rad/s"}.get(entry.dimension, si_unit(entry.dimension))
     return si_unit(entry.dimension)
 
 
 def as_written(tree: Expr, around: int = 0, called: Mapping[str, Quantity] = MappingProxyType({})) -> str:
-    """An expression of the file with its own numbers and units, and the names of the expressions that it uses."""
+    """Return an expression as in the file, with its numbers, units and names."""
     if (name := next((name for name, of in called.items() if of.value is tree), "")) and not isinstance(tree, Number):
         return name
     match tree:

@@ -1,4 +1,4 @@
-"""A model's equations as a document."""
+"""Writes a model's equations as a document."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ PAPER = (
 
 
 def make_document(model: Model, found: Functions) -> Document:
-    """Everything that is derived for one scene, in the order of a lecture."""
+    """Return the document of everything that is derived for one scene, in the order of a lecture."""
     mechanism, notation = model.scene.mechanism, make_notation(model)
     left_out = notes(model)
     sections = [
@@ -61,13 +61,13 @@ def make_document(model: Model, found: Functions) -> Document:
 
 
 def with_letters(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
-    """The sections; in front of them what has a prime there, and what its letter stands for without it."""
+    """Return the sections, preceded by a table of the primed letters and what the letter without a prime means."""
     found = primes(notation, (name for section in sections for block in section.blocks for name in _names_in(block)))
     return (Section("Letters", tuple(found)), *sections) if found else (*sections,)
 
 
 def primes(notation: Notation, shown: Iterable[Name]) -> list[Block]:
-    """What has a prime in formulas that are shown."""
+    """Return the primed symbols in formulas that are shown."""
     text = " ".join(name.text for name in shown)
     rows = [cells(own.name, own.what, own.letter, own.other) for own in notation.gave_way if own.name.text in text]
     lead = paragraph("A prime tells apart what would have the letter of something else; it is no derivative:")
@@ -76,45 +76,46 @@ def primes(notation: Notation, shown: Iterable[Name]) -> list[Block]:
 
 
 def _names_in(block: Block) -> Iterator[Name]:
+    """Yield the formulas of a block."""
     if isinstance(block, Equation):
         yield from (block.left, *block.terms)
     yield from (part for text in _texts(block) for part in text if isinstance(part, Name))
 
 
 def _texts(block: Block) -> list[Text]:
-    """Running text of a paragraph, cells of a table."""
+    """Yield the running texts of a block: paragraphs and cells of tables."""
     if isinstance(block, Table):
         return [cell for row in (block.header, *block.rows) for cell in row]
     return [block.text] if isinstance(block, Paragraph) else []
 
 
 def with_paper(sections: Sequence[Section]) -> tuple[Section, ...]:
-    """The sections; where one speaks of the paper, another one behind them names it."""
+    """Return the sections, followed by one that names the paper if it is mentioned."""
     named = any(_names_the_paper(block) for section in sections for block in section.blocks)
     return (*sections, Section("The paper", (paragraph(PAPER),))) if named else (*sections,)
 
 
 def _names_the_paper(block: Block) -> bool:
-    """Whether a sketch, a sentence or a cell speaks of it."""
+    """Return whether a sketch, a sentence or a cell mentions the paper."""
     if isinstance(block, (Sketch, Picture)):
         return any("the paper" in line for line in block.lines)
     return any(isinstance(part, str) and "the paper" in part for text in _texts(block) for part in text)
 
 
 def equations_tex(model: Model) -> str:
-    """The equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
+    """Return the equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
     return render(make_document(model, functions_of(model)), "tex")
 
 
 def equations_text(model: Model) -> str:
-    """The equations of a scene as plain Unicode text, 100 columns wide."""
+    """Return the equations of a scene as plain Unicode text, 100 columns wide."""
     return render(make_document(model, functions_of(model)), "txt")
 
 
 def equations_html(
     model: Model, *, head: str = "", app: str = "", scripts: str = "", source: KernelSource | None = None
 ) -> str:
-    """The equations of a scene as one HTML file with MathML, its file and its C, each traced to the others.
+    """Return the equations of a scene as one HTML file with MathML, its file and its C, linked with each other.
 
     Raises GudgeonError without the extra `docs`.
     head, app, scripts: HTML that a page which runs has more, in its head, below its title, at its end.

@@ -1,1 +1,1 @@
-"""NumPy: the same functions as plain Python, for a class, and for what needs numbers before there is C."""
+"""Writes functions of a scene as Python with NumPy, for teaching and for numbers before the C is compiled."""

@@ -1,4 +1,4 @@
-"""The closed linkage as assembling asks for it (runtime/assembly/linkage.py), before anything is compiled."""
+"""Evaluates the closed linkage in NumPy for the assembly (runtime/assembly/linkage.py), before anything is compiled."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from gudgeon.generator.targets.numpy.module import Array, ClosedLinkage
 
 
 class NumPyLinkage:
-    """Functions of (t, q, p) with p (slots, then derived numbers) in the order of `source`.
+    """Evaluate functions of (t, q, p) of the closed linkage; p is in the order of `source`.
 
-    `p` has the defaults, or what is `given` as ClosedLinkage.prepare takes it.
+    `p` contains the defaults, or the `given` values as ClosedLinkage.prepare accepts them.
     """
 
     def __init__(
@@ -32,7 +32,7 @@ class NumPyLinkage:
         self.p = np.array([_number(self.defaults, name) for name in self.names])
 
     def numbers(self, p: Array) -> SimpleNamespace:
-        """p by names, tables as lists."""
+        """Return p by names, tables as lists."""
         if p is self.p:
             return self.defaults
         values = dict(zip(self.names, np.asarray(p).tolist(), strict=True))
@@ -41,28 +41,28 @@ class NumPyLinkage:
         return SimpleNamespace(**values | lists)
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
-        """Φ(q, t), (m,)."""
+        """Return Φ(q, t), (m,)."""
         return self.closed.phi(t, q, self.numbers(p))
 
     def closed_nu(self, t: float, q: Array, p: Array) -> Array:
-        """ν = −Φ_t, (m,)."""
+        """Return ν = −Φ_t, (m,)."""
         return self.closed.nu(t, q, self.numbers(p))
 
     def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
-        """∂Φ/∂q, (m, n)."""
+        """Return the Jacobian ∂Φ/∂q, (m, n)."""
         return self.closed.phi_q(t, q, self.numbers(p))
 
     def mass(self, p: Array) -> Array:
-        """The diagonal of M, (n,)."""
+        """Return the diagonal of M, (n,)."""
         return self.closed.mass(self.numbers(p))
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        """Guesses, exact values, rates of the file's start; behind the last two those of journals."""
+        """Return guesses, exact values and rates of the start; the last two end with those of journals."""
         return self.closed.start_values(self.numbers(p))
 
 
 def _number(of: SimpleNamespace, name: str) -> float:
-    """One that has a name of its own, or an entry of a table, "contour_A[3]"; NaN where there is none."""
+    """Return a parameter by name, or an entry of a table such as "contour_A[3]"; NaN if there is none."""
     table, _, place = name.partition("[")
     found: Any = getattr(of, table, np.nan)
     return float(found[int(place[:-1])]) if place else float(found)

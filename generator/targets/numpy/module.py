@@ -1,4 +1,4 @@
-"""A scene's equations as a Python module, with its curves and joints with play, and its functions for arrays."""
+"""Writes a scene's equations as a Python module with NumPy, and evaluates them."""
 
 from __future__ import annotations
 
@@ -46,17 +46,18 @@ _ABOUT = (
 
 
 class _Doubles(SimpleNamespace):
-    """Numbers that are divided as C divides them: by 0 there is no exception, for `where` may not pick the result."""
+    """Contain parameters whose division by 0 gives infinity as in C, since `where` may discard the result."""
 
     def __setattr__(self, name: str, value: object) -> None:
+        """Store a float as a NumPy double."""
         super().__setattr__(name, np.float64(value) if type(value) is float else value)
 
 
 class ClosedLinkage:
-    """Φ, Φ_q, ν, γ, M of the closed linkage (joints with play closed, redundant rows kept), in NumPy.
+    """Evaluate Φ, Φ_q, ν, γ and M of the closed linkage (joints with play closed, redundant rows included) in NumPy.
 
     `source` is the text of the functions; n coordinates, m rows. t in s, q (n,), v (n,) in m, rad and their rates;
-    p is what `prepare` gives.
+    p is the result of `prepare`.
     """
 
     def __init__(self, model: Model) -> None:
@@ -72,7 +73,7 @@ class ClosedLinkage:
         self.functions = _defined(self.source)
 
     def prepare(self, given: Mapping[str, float | str] | None = None) -> SimpleNamespace:
-        """Every number of a run by its name: those that are given, the others by default, what follows.
+        """Return all parameters of a run by name: given values, defaults of the others, and values derived from them.
 
         given: {address or parameter name: a float in SI, or "0.5 mm", of a choice a name}, as `simulate` takes them.
         Raises UnknownNameError with the nearest; BadValueError for what is no number, or given by two spellings.
@@ -83,6 +84,7 @@ class ClosedLinkage:
         return self._prepared(follow | found) if follow else p
 
     def _prepared(self, found: Mapping[str, float]) -> SimpleNamespace:
+        """Return all parameters for values by full address in SI."""
         addresses = self.model.slots.entries
         p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.slots.tables.items()})
         values = [found.get(address, 0.0) for address in addresses]
@@ -91,7 +93,7 @@ class ClosedLinkage:
         return SimpleNamespace(**{name: float(x) if isinstance(x, np.float64) else x for name, x in vars(p).items()})
 
     def _chosen(self, found: Mapping[str, float], p: SimpleNamespace) -> dict[str, float]:
-        """Numbers of what is chosen by name, a material, as p has them."""
+        """Return the properties of materials that are chosen by name, by address."""
         slots, follow = self.model.slots, dict[str, float]()
         for choice in (address for address in found if slots.entries[address].words):
             name = slots.entries[choice].words[int(found[choice])]
@@ -102,7 +104,7 @@ class ClosedLinkage:
         return follow
 
     def _given(self, given: Mapping[str, float | str]) -> dict[str, float]:
-        """By full addresses, in SI."""
+        """Return given values by full address in SI."""
         entries, found = self.model.slots.entries, dict[str, float]()
         for key, value in given.items():
             address = key if key in entries else f"parameters.{key}"
@@ -123,33 +125,34 @@ class ClosedLinkage:
         return found
 
     def _filled(self, what: str, size: int, *arguments: Any) -> Array:
+        """Call a function and return the array that it fills."""
         out = np.zeros(size)
         with np.errstate(all="ignore"):
             self.functions[what](*arguments, out)
         return out
 
     def mass(self, p: SimpleNamespace) -> Array:
-        """The diagonal of M, (n,)."""
+        """Return the diagonal of M, (n,)."""
         return self._filled("mass_matrix", self.n, p)
 
     def phi(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
-        """Φ(q, t), (m,), m and rad."""
+        """Return Φ(q, t), (m,), in m and rad."""
         return self._filled("constraints", self.m, t, _list(q), p)
 
     def phi_q(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
-        """∂Φ/∂q, (m, n)."""
+        """Return the Jacobian ∂Φ/∂q, (m, n)."""
         return self._filled("jacobian", self.m * self.n, t, _list(q), p).reshape(self.m, self.n)
 
     def nu(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
-        """ν = −Φ_t, (m,): Φ_q v = ν."""
+        """Return ν = −Φ_t, (m,), of Φ_q v = ν."""
         return self._filled("velocity_rhs", self.m, t, _list(q), p)
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace) -> Array:
-        """γ, (m,): Φ_q a = γ."""
+        """Return γ, (m,), of Φ_q a = γ."""
         return self._filled("acceleration_rhs", self.m, t, _list(q), _list(v), p)
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
-        """What the file's start guesses, sets, and gives as rates; behind the last two what it says of journals."""
+        """Return guesses, exact values and rates of the start; the last two end with those of journals."""
         start, apart = self.model.scene.mechanism.start, len(apart_rows(self.model))
         sizes = (len(start.guess), len(start.set) + apart, len(start.rates) + apart)
         guess, fixed, rates = (np.zeros(size) for size in sizes)
@@ -159,9 +162,9 @@ class ClosedLinkage:
 
 
 class NumPyModel(ClosedLinkage):
-    """All of it, with the absolute formulation's right-hand side; joints with play, their laws and forces as well.
+    """Evaluate the full formulation of a scene in NumPy, with joints with play, their laws and forces.
 
-    What C does beyond it stays there: no corner is held over a step, a pivot that vanishes is told.
+    Branches of switching functions are not frozen, and a vanishing pivot is reported, not treated.
     """
 
     def __init__(self, program: Program) -> None:
@@ -185,7 +188,7 @@ class NumPyModel(ClosedLinkage):
         modes: ArrayLike = (),
         states: ArrayLike = 0.0,
     ) -> SimpleNamespace:
-        """Accelerations a (n,), multipliers `lambda_`, forces `clearance`, powers: [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …].
+        """Solve [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …]: return accelerations a (n,), `lambda_`, forces `clearance`, powers.
 
         `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
         are open; the force of a closed one whose surfaces do not give is NaN, for only a run finds it. `modes`
@@ -222,7 +225,7 @@ class NumPyModel(ClosedLinkage):
 
 
 def _head(model: Model) -> str:
-    """What the text is of, and how its vectors are ordered."""
+    """Return the module's docstring: the scene, and the order of its vectors."""
     mechanism = model.scene.mechanism
     title = f"{mechanism.title or mechanism.name}: scene {model.scene.name} of the mechanism {mechanism.name}."
     about = [*textwrap.wrap(title, WIDTH - 7), "", *textwrap.wrap(_ABOUT, WIDTH - 7), ""]
@@ -235,7 +238,7 @@ def _head(model: Model) -> str:
 
 
 def _thresholds(kernel: Kernel) -> list[str]:
-    """Those that its tests name, as a part of the text; none of no names."""
+    """Return the definitions of the thresholds that a kernel's tests name; [] if there are none."""
     tests = (line.test for section in kernel.sections for line in section.statements if isinstance(line, Guard))
     bounds = (x for test in tests if isinstance(test, Test) and not test.of_itself for x in test.bound)
     limits = {x.name: float(x) for x in bounds if isinstance(x, Threshold)}
@@ -244,7 +247,7 @@ def _thresholds(kernel: Kernel) -> list[str]:
 
 
 def _one_each(what: str, values: ArrayLike, names: list[str], none: list[float] | None = None) -> list[float]:
-    """A number each; `none`: those where nothing is given."""
+    """Return one number for each name; `none` are the values if nothing is given. Raises ArrayError."""
     found = np.asarray(values, dtype=float)
     if found.shape == (0,) and none is not None:
         return none
@@ -255,12 +258,12 @@ def _one_each(what: str, values: ArrayLike, names: list[str], none: list[float] 
 
 
 def _list(values: ArrayLike) -> list[float]:
-    """Plain numbers: their arithmetic is quicker than that of entries of an array."""
+    """Return an array as a list, whose elements have faster arithmetic."""
     return np.asarray(values, dtype=float).tolist()
 
 
 def _defined(source: str) -> dict[str, Any]:
-    """The functions of a text that this target has written."""
+    """Return the functions of a text that this target has written."""
     names: dict[str, Any] = {}
     exec(compile(source, "<equations>", "exec"), names)
     return names
@@ -289,13 +292,14 @@ def knots(of, x):
 
 
 def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str:
-    """What the functions of a text read of curves, without what stands before it; "" where they call none."""
+    """Return the curves that a text calls, without those that `before` contains; "" if it calls none."""
     called = [curve for curve in curves.values() if f"({c_name(curve.name)}," in text]
     parts = [_CURVE, *map(_table, called)] if called else []
     return "".join(f"{part}\n\n\n" for part in parts if part not in before)
 
 
 def _table(curve: Curve) -> str:
+    """Return the table of a curve as Python."""
     if curve.is_long:
         x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
         return "\n".join(
@@ -344,7 +348,7 @@ _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 
 def pin(own: Pin) -> str:
-    """`clearance_<joint>`. A contact is closed where bodies overlap."""
+    """Return the function `clearance_<joint>`; a contact is closed where bodies overlap."""
     joint, clearance = own.clearance.label, own.clearance
     told = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
     if clearance.wall:
@@ -380,7 +384,7 @@ def pin(own: Pin) -> str:
 
 
 def _dry(own: Pin) -> list[str]:
-    """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
+    """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1."""
     ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
     given, told = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
     pressed = "F_N" if own.pressing else "F_n"
@@ -397,9 +401,11 @@ def _dry(own: Pin) -> list[str]:
 
 
 def _film(own: Pin) -> list[str]:
+    """Return the lines of a film."""
     film = assigned("F_r, F_along_t_film, T0", _call(own.laws["film"], "epsilon", "w_n", "w_t"), is_call=True)
     return [*lines(own.before_film), *film, *lines(own.after_film)]
 
 
 def _call(call: SharedCall, *given: str) -> str:
+    """Return the call of a law."""
     return f"{call.kernel.name}({', '.join([*given, *map(name, call.numbers)])})"

@@ -1,6 +1,7 @@
-"""SymPy expressions, lines and functions as Python with NumPy: no corner is held, no pivot that vanishes is mended.
+"""Prints SymPy expressions, lines and functions as Python with NumPy.
 
-Lines fit a page, without an indent: code is broken within brackets, comments stand behind it.
+Branches of switching functions are not frozen, and vanishing pivots are not treated. Lines fit a page: code is broken
+inside brackets, comments follow it.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ _SIDES = ("branch", "g", "corner")
 
 
 def name(key: Key) -> str:
-    """Return the expression of a local or place: of a field `lambda` it is `rhs.lambda_[3]`."""
+    """Return the expression of a local or place; the field `lambda` becomes `rhs.lambda_[3]`."""
     if isinstance(key, Place):
         steps = (f"[{step}]" if isinstance(step, int) else f".{name(step)}" for step in key.path)
         return name(key.base) + "".join(steps)
@@ -52,45 +53,52 @@ def name(key: Key) -> str:
 
 
 class NumPyPrinter(Quick, PythonCodePrinter):
-    """Numbers and arrays alike: what C decides by a condition is chosen by np.where."""
+    """Print expressions for numbers and arrays alike; conditions of C become np.where."""
 
     def __init__(self, of: Readable) -> None:
         super().__init__({"fully_qualified_modules": False})
         self.of = of
 
     def called(self, key: Key) -> str:
-        """A local or place, by what it is called in this function."""
+        """Return the name of a local or place in this function."""
         return name(self.of.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
+        """Print a symbol by its name in the function."""
         return self.called(key_of(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
+        """Print a float, a fraction of π as such."""
         share = share_of_pi(expr)
         return share.text("np.pi") if share else repr(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """A share of π is one number."""
+        """Print an expression, in brackets if it binds less than `level`; a fraction of π counts as one number."""
         if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
             return f"({self._print(item)})"
         return super().parenthesize(item, level, strict)
 
     def _print_Mul(self, expr: sp.Mul) -> str:
+        """Print a product, a fraction of π as such."""
         share = share_of_pi(expr)
         return share.text("np.pi") if share else str(super()._print_Mul(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
+        """Print a rational number as a quotient."""
         return f"{int(expr.p)}/{int(expr.q)}"
 
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
+        """Print a constant such as e."""
         return repr(float(expr))
 
     _print_Exp1 = _print_NumberSymbol
 
     def _print_Pi(self, expr: sp.Expr) -> str:
+        """Print π."""
         return "np.pi"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        """Print a power; roots by np.sqrt."""
         base, exponent = expr.as_base_exp()
         if exponent in (sp.Rational(1, 2), sp.Rational(-1, 2)):
             return f"{'' if exponent > 0 else '1/'}np.sqrt({self._print(base)})"
@@ -101,84 +109,96 @@ class NumPyPrinter(Quick, PythonCodePrinter):
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
 
     def _print_of_table(self, expr: sp.Expr) -> str:
-        """Of the table of functions; minima and maxima two by two."""
+        """Print a function of the table of functions; minima and maxima of two arguments each."""
         name, arguments = f"np.{CLASSES[type(expr)].in_numpy}", list(map(self._print, expr.args))
         if isinstance(expr, (sp.Max, sp.Min)):
             return reduce(lambda first, other: f"{name}({first}, {other})", arguments)
         return f"{name}({', '.join(arguments)})"
 
     def _print_Size(self, expr: sp.Expr) -> str:
+        """Print an absolute value."""
         return f"np.abs({self._print(expr.args[0])})"
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
+        """Print a step function, 1 at 0."""
         return f"np.where({self._print(expr.args[0])} >= 0, 1.0, 0.0)"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
+        """Print the active branch of a switching function: its sign, since branches are not frozen."""
         return f"np.sign({self._print(expr.args[1])})"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
+        """Print an absolute value that is never 0."""
         return f"(np.abs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
+        """Print a choice by the sign of its first argument."""
         if expr in self.of.branches:
             return self.called(self.of.branches[expr])
         side, a, b = map(self._print, expr.args)
         return f"np.where({side} < 0, {b}, {a})"
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """From curves.py."""
+        """Print the depth of a contour or its derivative (symbols/curves.py)."""
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
+        """Print the value of a curve or its derivative."""
         return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
-        """Nothing is held here."""
+        """Print the value of a curve; the piece is not frozen."""
         return self._print_CurveOf(CurveOf(*expr.args[:3]))
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        """Print the event function of a curve's knots."""
         return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
-        """No side is held here: the same, too, on one."""
+        """Print a remainder; the period is not frozen."""
         return f"np.mod({self._print(expr.args[0])}, {self._print(expr.args[1])})"
 
     _print_ModOn = _print_ModOf
 
     def _print_PeriodsOf(self, expr: sp.Expr) -> str:
+        """Print the event function of a remainder's periods."""
         a, b = map(self._print, expr.args)
         return f"np.sin(np.pi*({a})/({b}))"
 
     def _print_Whole(self, expr: sp.Expr) -> str:
+        """Print an unevaluated operand in brackets."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
 
     def _print_Slope(self, expr: sp.Expr) -> str:
+        """Print a derivative, or a difference quotient where it is not finite."""
         slope, ahead, behind, way = map(self._print, expr.args)
         return f"np.where(np.isfinite({slope}), {slope}, ({ahead} - ({behind}))/({way}))"
 
     def _print_JustAhead(self, expr: sp.Expr) -> str:
+        """Print a value slightly above its argument."""
         x = self._print(expr.args[0])
         return f"({x} + 1e-9*(1 + np.abs({x})))"
 
     def _print_JustBehind(self, expr: sp.Expr) -> str:
+        """Print a value slightly below its argument."""
         x = self._print(expr.args[0])
         return f"({x} - 1e-9*(1 + np.abs({x})))"
 
 
 class Lines:
-    """Lines of one function, without an indent. Raises ValueError for one that nobody has thought of."""
+    """Print the lines of one function without indent. Raises ValueError for a kind of line without a counterpart."""
 
     def __init__(self, of: Readable) -> None:
         self.printer = NumPyPrinter(of)
 
     def text(self, items: Iterable[Line]) -> list[str]:
-        """All that has a counterpart, in lines that fit."""
+        """Return the lines that have a counterpart in Python, broken to fit."""
         return [text for item in items if not isinstance(item, _NOWHERE) for text in self._lines(item)]
 
     def expression(self, value: Value) -> str:
-        """A value."""
+        """Return a value as Python."""
         match value:
             case Place():
                 return self.printer.called(value)
@@ -193,6 +213,7 @@ class Lines:
                 return str(self.printer.doprint(value))
 
     def _test(self, item: Test) -> str:
+        """Return a comparison as Python."""
         value = self.expression(item.value)
         left = f"np.abs({value})" if item.size else value
         if item.of_itself:
@@ -201,12 +222,13 @@ class Lines:
         return f"{left} {item.relation} {bound}" if item.relation else left
 
     def _factor(self, value: sp.Basic | float) -> str:
-        """Of a bound: thresholds have names."""
+        """Return a factor of a bound; thresholds are named."""
         if isinstance(value, Threshold):
             return value.name
         return repr(value) if isinstance(value, float) else self.expression(value)
 
     def _lines(self, item: Line) -> list[str]:
+        """Return one line of a kernel as lines of Python."""
         match item:
             case Statement():
                 target, value = self.printer.called(item.target), self.expression(item.value)
@@ -233,13 +255,13 @@ class Lines:
 
 
 def lines(items: Sequence[Statement]) -> list[str]:
-    """Statements that stand in a function that is no kernel."""
+    """Return statements as lines of a function that is not a kernel."""
     own = readable_lines(items)
     return Lines(own).text(line for section in own.sections for line in section.statements)
 
 
 def function(kernel: Kernel) -> str:
-    """A whole one; numbers that C hands back through pointers are returned."""
+    """Return a kernel as a Python function; numbers that C returns through pointers are returned."""
     stored = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
     returned = [a.name for a in kernel.arguments if Result(a.name) in stored]
     given = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
@@ -257,12 +279,12 @@ _WIDTH = WIDTH - 12  # of what stands in a function and in two conditions at mos
 
 
 def code(text: str) -> list[str]:
-    """A line that has brackets where it is long."""
+    """Return a line of code with brackets, broken if it is long."""
     return breaks.broken(text, _WIDTH, within=1)
 
 
 def assigned(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
-    """`target = value`; a long value that is not one call stands in brackets."""
+    """Return `target = value` as lines; a long value that is not one call is put in brackets."""
     line = f"{target} = {value}"
     lines = code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
     told = f"# {one_line(comment)}" if comment else ""
@@ -272,28 +294,29 @@ def assigned(target: str, value: str, comment: str = "", is_call: bool = False) 
 
 
 def remark(text: str) -> list[str]:
-    """Comments of their own; none of no text."""
+    """Return a text as comment lines; [] for an empty text."""
     return [f"# {line}" for line in textwrap.wrap(one_line(text), _WIDTH - 2)]
 
 
 def docstring(doc: Sequence[str]) -> list[str]:
-    """Lines of one; a long line goes on further in."""
+    """Return the lines of a docstring; continuation lines are indented."""
     plain = (one_line(line, keep=True).replace("\\", "/").replace('"', "'") for line in doc)
     first, *others = [part for line in plain for part in _wrapped(line)]
     return [f'"""{first}"""'] if not others else [f'"""{first}', *others, '"""']
 
 
 def _wrapped(line: str) -> list[str]:
+    """Wrap one line of a docstring."""
     indent = line[: len(line) - len(line.lstrip())]
     return textwrap.wrap(line, WIDTH - 7, subsequent_indent=f"{indent}  ", break_on_hyphens=False) or [""]
 
 
 def one_line(text: str, keep: bool = False) -> str:
-    """What a user wrote, without what could end a line; `keep`: spaces as they are."""
+    """Return a user's text without characters that could end a line; `keep` preserves its spaces."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return plain.rstrip() if keep else " ".join(plain.split())
 
 
 def indented(text: Iterable[str]) -> list[str]:
-    """Four columns to the right."""
+    """Return lines indented by four columns."""
     return [f"    {line}" if line else "" for line in text]

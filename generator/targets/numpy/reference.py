@@ -1,7 +1,7 @@
-"""Values of a scene's functions at a few states, computed by the NumPy target: what a compiled library is held against.
+"""Computes reference values of a scene's functions in NumPy, with which the compiled library is compared.
 
 They are stored with the emitted C, and the runtime compares them with the library that it loads
-(runtime/model/reference.py). NumPy's text and C's are printed from the same statements by different printers.
+(runtime/model/reference.py). Different printers write NumPy and C from the same statements.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from gudgeon.generator.targets.numpy.module import NumPyModel, _defined, with_cu
 from gudgeon.generator.targets.numpy.printer import function
 
 Array = NDArray[np.float64]
-MAX_COORDINATES = 300  # of larger linkages the text of Python takes longer to compile than the C
+MAX_COORDINATES = 300  # for larger linkages Python takes longer to compile the text than C
 N_STATES = 2  # all joints with play open; all closed
-N_TRIED, N_MORE = 96, 6  # states in which contacts and films are tried; of either kind so many are kept, at most
-SLOWEST, FASTEST = -4.0, 1.0  # powers of ten that velocities of tried states are multiplied by
+N_TRIED, N_MORE = 96, 6  # candidate states for contacts and films, and how many of each kind are kept at most
+SLOWEST, FASTEST = -4.0, 1.0  # range of powers of ten by which velocities of candidate states are multiplied
 SENSITIVE = 1e-8  # of the largest value: a change by NEARBY that disqualifies a state (a singular position)
 NEARBY = 1e-12
-CLOSINGS = 6  # steps of Gauss and Newton towards a closed linkage
+CLOSINGS = 6  # Gauss–Newton steps towards a closed linkage
 
 
 def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
@@ -41,12 +41,13 @@ def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
     if len(program.model.q) > MAX_COORDINATES:
         return {}
     try:
-        return _reference(program, source)
+        return _compute_reference(program, source)
     except ArithmeticError:  # where C has an infinity
         return {}
 
 
-def _reference(program: Program, source: KernelSource) -> dict[str, Any]:
+def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]:
+    """Return the reference values of a scene. Raises ArithmeticError where C has an infinity."""
     model = program.model
     numpy = NumPyModel(program)
     linkage, rng = NumPyLinkage(model, source, closed=numpy), np.random.default_rng(1)
@@ -61,7 +62,7 @@ def _reference(program: Program, source: KernelSource) -> dict[str, Any]:
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
         tried.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
-    for t, q, v, memory in [*tried, *_others(numpy, linkage.defaults, tried[-1], min([1e-3, *plays]), rng)]:
+    for t, q, v, memory in [*tried, *_contact_states(numpy, linkage.defaults, tried[-1], min([1e-3, *plays]), rng)]:
         found, near = (
             _values(model, numpy, outputs, linkage.defaults, (t, x, v), memory) for x in (q, q * (1.0 + NEARBY))
         )
@@ -73,28 +74,28 @@ def _reference(program: Program, source: KernelSource) -> dict[str, Any]:
                     "q": q.tolist(),
                     "v": v.tolist(),
                     "memory": [None if x != x else x for x in flat],
-                    "values": {name: _rounded(value) for name, value in found.items()},
+                    "values": {name: _as_seven_digits(value) for name, value in found.items()},
                 }
             )
-    return {"p": _rounded(linkage.p), "given": _given(numpy, linkage), "states": states}
+    return {"p": _as_seven_digits(linkage.p), "given": _parameters_of_given(numpy, linkage), "states": states}
 
 
-def _given(numpy: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
-    """Parameters where every second slot is given, from the first and from the second on."""
+def _parameters_of_given(numpy: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
+    """Return parameters of two runs in which every second parameter is given, from the first and from the second on."""
     slots, found = linkage.source.slots, []
     for first in range(2):
         with np.errstate(all="ignore"):
             p = numpy._prepared({slots[k].address: value for k, value in given_parameters(slots, first).items()})
-        found.append(_rounded(np.array([_number(p, name) for name in linkage.names])))
+        found.append(_as_seven_digits(np.array([_number(p, name) for name in linkage.names])))
     return found
 
 
-def _others(
+def _contact_states(
     numpy: NumPyModel, p: Any, at: tuple[float, Array, Array, Any], play: float, rng: np.random.Generator
 ) -> list[tuple[float, Array, Array, Any]]:
-    """States in which contacts and films are fast and slow, slip either way, approach and part.
+    """Return states in which contacts and films are fast and slow, slip either way, approach and separate.
 
-    Of N_TRIED states those are kept whose forces differ most in kind (`_features`).
+    Of N_TRIED candidates those are kept whose forces differ most (`_features`).
     """
     model, (t, q, _, (latches, modes, _)) = numpy.model, at
     if not model.clearances:
@@ -105,11 +106,11 @@ def _others(
         if n % 2 == 0:
             free = n % 4 == 0 or bool(model.rigid)
             far = play * 10.0 ** rng.uniform(-1.5 if free else -1.0, -0.3 if free else 0.3)
-            x = _digits(q + far * rng.normal(0.0, 1.0, len(q)), 7)
+            x = _round_to_digits(q + far * rng.normal(0.0, 1.0, len(q)), 7)
             fast = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
             onset = np.nan if free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
         bent = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
-        state = t, x, _digits(fast if n % 2 else -fast, 4), ([onset] * len(latches), modes, bent)
+        state = t, x, _round_to_digits(fast if n % 2 else -fast, 4), ([onset] * len(latches), modes, bent)
         try:
             found = numpy.dynamics(*state[:3], p, *state[3])
         except (ArithmeticError, ValueError):
@@ -120,7 +121,7 @@ def _others(
 
 
 def _most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
-    """Of candidates, (features, state) each, at most N_MORE states with the most features."""
+    """Return at most N_MORE states of candidates (features, state) that together have the most features."""
     seen, kept = set[tuple[Any, ...]](), list[Any]()
     while candidates and len(kept) < N_MORE:
         best = max(range(len(candidates)), key=lambda k: len(candidates[k][0] - seen))
@@ -133,7 +134,7 @@ def _most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[
 
 
 def _features(found: Any) -> set[tuple[Any, ...]]:
-    """What kind of force each joint with play bears: in contact or in a film, signs, share across, approach."""
+    """Return features of the force in each joint with play: contact or film, signs, direction, approach."""
     features = set[tuple[Any, ...]]()
     for k, joint in enumerate(found.clearance):
         size = math.hypot(joint.Fx, joint.Fy) * math.hypot(joint.ex, joint.ey)
@@ -145,18 +146,19 @@ def _features(found: Any) -> set[tuple[Any, ...]]:
     return features
 
 
-def _digits(values: Array, n: int) -> Array:
+def _round_to_digits(values: Array, n: int) -> Array:
+    """Return values rounded to n significant digits."""
     return np.array([float(f"{x:.{n}g}") for x in values])
 
 
 def _is_steady(value: Array, near: Array) -> bool:
-    """Whether values are numbers, and hardly depend on the last digits of the state."""
+    """Return whether values are finite and nearly independent of the last digits of the state."""
     scale = max(float(np.abs(value).max(initial=0.0)), 1e-300)
     return bool(np.isfinite(value).all() and (np.abs(near - value) <= SENSITIVE * scale).all())
 
 
 def _near_closed(numpy: NumPyModel, t: float, p: Any, play: float, rng: np.random.Generator) -> Array:
-    """Positions near a closed linkage, in seven digits: journals lie about where they touch."""
+    """Return positions (n,) near a closed linkage, with seven digits; journals are near contact."""
     q = rng.uniform(0.1, 0.6, numpy.n)
     for _ in range(CLOSINGS if numpy.m else 0):
         phi, phi_q = numpy.phi(t, q, p), numpy.phi_q(t, q, p)
@@ -175,7 +177,7 @@ def _values(
     at: tuple[float, Array, Array],
     memory: tuple[list[float], list[float], float],
 ) -> dict[str, Array] | None:
-    """All functions at a state, by their names in Evaluation; None where a pivot vanishes."""
+    """Return all functions at a state by their names in Evaluation; None where a pivot vanishes."""
     t, q, v = at
     try:
         found = numpy.dynamics(t, q, v, p, *memory)
@@ -203,6 +205,6 @@ def _values(
     return values | dict(zip(("reactions", "torques", "series", "energy"), out, strict=True))
 
 
-def _rounded(values: Array) -> list[float | None]:
-    """In seven digits: the last ones depend on the machine."""
+def _as_seven_digits(values: Array) -> list[float | None]:
+    """Return values with seven digits, as the last ones depend on the machine; None for those not finite."""
     return [float(f"{x:.7g}") if np.isfinite(x) else None for x in np.asarray(values, dtype=float).ravel()]
