@@ -58,16 +58,25 @@ def row_kernels(model: Model) -> list[Kernel]:
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):
-            build.out(Place(out)[r], value(row), f"{row.name}, {row.unit}{per}")
+            build.out(Place(out)[r], value(row), f"{row.name}, {row.unit}{per}{_absence(model, row)}")
         arguments = (*STATE, PARAMETERS, result(out))
         return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
+    which = " Rows marked 'open' or 'redundant' do not constrain the motion."
+    which *= any(_absence(model, row) for row in model.all_rows)
     return [
-        kernel("constraints", "Phi(q, t) of the closed linkage; m and rad.", "phi", False, lambda row: row.phi),
+        kernel("constraints", f"Phi(q, t) of the closed linkage; m and rad.{which}", "phi", False, lambda row: row.phi),
         _jacobian_kernel(model),
         kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu, "/s"),
         kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma, "/s^2"),
     ]
+
+
+def _absence(model: Model, row: Row) -> str:
+    """Return why an equation does not constrain the motion, for its comment; "" if it does."""
+    if row.owner in model.scene.play:
+        return f"; open: {row.owner} has play in this scene"
+    return "; redundant, left out" if row.name in model.redundancy.dropped else ""
 
 
 def _jacobian_kernel(model: Model) -> Kernel:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
@@ -25,6 +26,7 @@ _DOC = (
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
     "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
 )
+_MAX_PIVOTS = 60  # listed in the comment
 # What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
 OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
@@ -43,7 +45,7 @@ def dynamics_kernel(
     Without `stabilised` the right-hand sides are γ alone and Φ, Φ̇ are not computed: for methods that project.
     """
     model = system.model
-    build = KernelBuilder(model.symbols, name, doc)
+    build = KernelBuilder(model.symbols, name, (*doc, *elimination_lines(kkt)))
     if kkt.rows and not model.rows_change:
         build.section("status")
         build.line(Status())
@@ -77,6 +79,27 @@ def dynamics_kernel(
     arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
     kernel = build.build(arguments, status=True, owner="")
     return with_branches(kernel, "rhs")
+
+
+def elimination_lines(kkt: KKT) -> list[str]:
+    """Return comment lines that name the unknowns in the order in which the pivots eliminate them.
+
+    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation.
+    """
+    names = [coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
+    names += [f"lambda of {row.name}" for row in kkt.rows] + [
+        f"lambda of {friction.name}" for friction in kkt.frictions
+    ]
+    blocks = [" with ".join(names[k] for k in block) for block in kkt.blocks]
+    more = [f"and {len(blocks) - _MAX_PIVOTS} more"] if len(blocks) > _MAX_PIVOTS else []
+    listed = "; ".join(one.replace(" ", "\0") for one in (*blocks[:_MAX_PIVOTS], *more))
+    head = "Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:"
+    return [head, *("    " + line.replace("\0", " ") for line in textwrap.wrap(f"{listed}.", 104))] if blocks else []
+
+
+def coordinate_name(meaning: str) -> str:
+    """Return the name of a coordinate for comments: an angle of a tree has that of its body alone."""
+    return meaning if "." in meaning else f"{meaning}.theta"
 
 
 def _events(model: Model, build: KernelBuilder) -> None:

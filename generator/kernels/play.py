@@ -16,6 +16,7 @@ from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, result
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.kernels.formulas import formula_lines
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
 from gudgeon.generator.kinds.laws.law import OWN
 from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slopes, in_place, share_slope, unlatched
@@ -53,7 +54,9 @@ def law_name(equations: LawEquations) -> str:
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
     """Return the C function of a law: its steps become locals, its results are written to `F_…_out`."""
     results = equations.results
-    build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations))
+    fields = joint_numbers(model, clearance)
+    names = {s: fields[own.home] for s, own in model.symbols.info.items() if own.home in fields}
+    build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations, names))
     build.section("")
     for name, equation in equations.steps.items():
         value = hoisted(model.slots, sp.sympify(equation))
@@ -67,9 +70,15 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
     return with_reciprocals(kernel)
 
 
-def law_doc(equations: LawEquations) -> list[str]:
-    """Return the lines of a law's C comment: title, source, validity, options."""
+def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
+    """Return the lines of a law's C comment: title, formula, source, validity, options.
+
+    names: what parameters are called in the formula; None: as in the law's file.
+    """
     law = equations.law
+    if names is None:
+        own = {**equations.numbers, **equations.derived}
+        names = {symbol: name for name, symbol in own.items() if symbol.is_Symbol}
     chosen = [f"{name}: {value}" for name, value in equations.options.items()]
     usual = {option.name: option.default for option in law.options}
     whose = [
@@ -80,6 +89,7 @@ def law_doc(equations: LawEquations) -> list[str]:
     ]
     return [
         f"{law.title}.",
+        *formula_lines(equations, names),
         f"Source: {law.source}.",
         f"Valid: {law.validity}.",
         *([f"Options: {', '.join(chosen)}."] if chosen else []),

@@ -97,14 +97,18 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
         model.symbols,
         "reduce_state",
         [
-            "Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.",
+            "Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.",
         ],
     )
     state.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         state.out(Place("s")[k], position, names[k])
         state.out(Place("s_rate")[k], rate)
-    accelerations = KernelBuilder(model.symbols, "reduce_accelerations", ["Their second rates a, from absolute all_a."])
+    accelerations = KernelBuilder(
+        model.symbols,
+        "reduce_accelerations",
+        ["Second rates a of the tree coordinates, from absolute accelerations all_a."],
+    )
     accelerations.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
@@ -150,5 +154,10 @@ def _closures(system: TreeSystem) -> list[Kernel]:
 
     return [
         kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),
-        kernel("closure_rates", "Its rate Phi_q v - nu.", True, lambda row: row.phi_q_v - row.nu),
+        kernel(
+            "closure_rates",
+            "Rate Phi_q v - nu of the loop closures in tree coordinates.",
+            True,
+            lambda row: row.phi_q_v - row.nu,
+        ),
     ]

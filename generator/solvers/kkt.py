@@ -32,7 +32,7 @@ from gudgeon.generator.solvers.pivots import (
 from gudgeon.generator.solvers.sparsity import Elimination, choose_elimination
 
 Entries = dict[tuple[int, int], sp.Expr]
-FACTORS = "L D L^T of the KKT matrix"  # title of a section
+FACTORS = "L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0]"  # title of a section
 
 
 class KKT:

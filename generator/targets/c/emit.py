@@ -29,6 +29,7 @@ from gudgeon.generator.targets.c.model_header import header_values, known_bounds
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.printer import within
+from gudgeon.generator.targets.c.reduced_summary import reduced_summary
 
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # of the closed linkage's functions
@@ -245,7 +246,8 @@ Render = Callable[..., str]
 
 def reduced_code(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
     """The kernels in tree coordinates, the way there and back, and those of driven chains."""
-    parts = [print_kernels(*tree.around), print_kernels(*tree.kernels)]
+    parts = [functions.comment(reduced_summary(tree.system))]
+    parts += [print_kernels(*tree.around), print_kernels(*tree.kernels)]
     if tree.rescued:
         parts.append(render("multipliers.c.jinja", multipliers=_multipliers(model, tree.system)))
     if chains := tree.chains:

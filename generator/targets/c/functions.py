@@ -297,7 +297,7 @@ def _touched(item: Kernel) -> frozenset[str]:
 
 def comment(doc: Sequence[str]) -> str:
     """Paragraphs as a comment of C."""
-    text = "\n".join(f" * {comment_text(one)}" for one in doc)
+    text = "\n".join(f" * {comment_text(one)}".rstrip() for one in doc)
     return f"/*\n{text}\n */\n"
 
 
