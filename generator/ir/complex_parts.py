@@ -54,7 +54,7 @@ class _Twin:
             name=f"{self.source.name}{SUFFIX}",
             arguments=arguments,
             sections=sections,
-            doc=(*self.source.doc, "At complex eta: real and imaginary parts one behind the other."),
+            doc=(*self.source.doc, "At complex eta: real and imaginary parts alternate."),
         )
         return without_unused(twin)
 

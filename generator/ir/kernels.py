@@ -140,7 +140,7 @@ def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
 
 
 LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
-HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides
+HELD = "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
 
 
 def with_branches(kernel: Kernel, told: str = "nobody") -> Kernel:

@@ -106,7 +106,7 @@ _DOC_VALUES = (
 )
 _DOC_TERMS = (
     "Order k > 0 of the same: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
-    "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of a and power (those of",
+    "add to each product; share = 1/k, next = 1/(k + 1). Results: coefficients of order k + 1 of a and power (those of",
     "q are v next), and the factors of the sums of higher orders.",
 )
 

@@ -209,7 +209,7 @@ def _near(run: list[Item]) -> list[Item]:
 
 def _load(name: str, place: Place) -> Item:
     """Return the line that reads a local back from its place."""
-    return Item("what comes back", Statement(name, place), place.names, False)
+    return Item("values from the part", Statement(name, place), place.names, False)
 
 
 def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
@@ -244,7 +244,7 @@ class _Cut:
     def store(self, name: str) -> Item:
         """Return the line of a part that stores a local for others."""
         statement = Statement(Place(self.passed)[self.slots[name]], Place(name))
-        return Item("what the next part reads", statement, frozenset({name}), False)
+        return Item("values for later parts", statement, frozenset({name}), False)
 
     def load(self, name: str) -> Item:
         """Return the line that reads a local of an earlier part."""
@@ -292,7 +292,7 @@ class _Cut:
         return [
             *(Item(title, line, frozenset(), False) for line in lines),
             *loads,
-            *(Item("what comes back", line, frozenset(), False) for line in after),
+            *(Item("values from the part", line, frozenset(), False) for line in after),
         ]
 
 

@@ -32,7 +32,7 @@ def prepare_kernel(model: Model) -> Kernel:
         derived.append(Statement(model.slots.place(symbol), symbol))
     return Kernel(
         "prepare",
-        ("Every number of a run: slots given or by default, then what follows from them.",),
+        ("Fill all parameters of a run: given values or defaults, then derived parameters.",),
         (source("given"), source("is_given", Number.BYTE), result(PARAMETERS.name, PARAMETERS.type)),
         (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
     )
@@ -40,7 +40,9 @@ def prepare_kernel(model: Model) -> Kernel:
 
 def mass_kernel(model: Model) -> Kernel:
     """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates."""
-    build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
+    build = KernelBuilder(
+        model.symbols, "mass_matrix", ["The diagonal of the mass matrix M (n) in absolute coordinates."]
+    )
     build.section("M")
     for k, mass in enumerate(model.masses):
         build.out(Place("m")[k], mass)
@@ -67,8 +69,22 @@ def row_kernels(model: Model) -> list[Kernel]:
     return [
         kernel("constraints", f"Phi(q, t) of the closed linkage; m and rad.{which}", "phi", False, lambda row: row.phi),
         _jacobian_kernel(model),
-        kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu, "/s"),
-        kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma, "/s^2"),
+        kernel(
+            "velocity_rhs",
+            "Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.",
+            "nu",
+            False,
+            lambda row: row.nu,
+            "/s",
+        ),
+        kernel(
+            "acceleration_rhs",
+            "Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.",
+            "gamma_rows",
+            True,
+            lambda row: row.gamma,
+            "/s^2",
+        ),
     ]
 
 
@@ -81,7 +97,11 @@ def _absence(model: Model, row: Row) -> str:
 
 def _jacobian_kernel(model: Model) -> Kernel:
     """Return the C function of the dense constraint Jacobian Φ_q of the closed linkage, without zero entries."""
-    build = KernelBuilder(model.symbols, "jacobian", ["Phi_q of the closed linkage, dense, row by row; zeros kept."])
+    build = KernelBuilder(
+        model.symbols,
+        "jacobian",
+        ["The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written."],
+    )
     build.section("non-zeros")
     place = {q: k for k, q in enumerate(model.q)}
     for r, row in enumerate(model.all_rows):
@@ -95,7 +115,11 @@ def start_kernel(model: Model) -> Kernel:
 
     Those of journals follow the set values and rates of coordinates.
     """
-    build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
+    build = KernelBuilder(
+        model.symbols,
+        "start_values",
+        ["Values of the file's start: guesses, set values, then rates; those of journals follow."],
+    )
     build.section("start")
     for key, group in start_values(model).items():
         for k, (quantity, sign) in enumerate(group):

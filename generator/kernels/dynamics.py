@@ -22,9 +22,9 @@ from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 _DOC = (
-    "Accelerations a (n) and multipliers in `rhs` at a state:",
+    "Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
-    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+    "Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.",
 )
 _MAX_PIVOTS = 60  # listed in the comment
 # What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
@@ -54,7 +54,7 @@ def dynamics_kernel(
     for index, clearance in enumerate(model.clearances):
         loads += _clearance_call(build, index, clearance)
     if model.clearances and not stabilised:
-        build.section("without a (NULL) joints with play alone are asked for")
+        build.section("if a is NULL, only the joints with play are evaluated")
         build.line(JointsAlone())
     acting, on_given = system.generalized(loads)
     forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
@@ -162,7 +162,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     """
     rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
-        build.section("friction: slip, or stick as a row")
+        build.section("friction: slip, or stick as a constraint equation")
     place = {q: k for k, q in enumerate(kkt.system.q)}
     two_alpha = stick_gain(model) if kkt.frictions else ZERO
     for r, friction in enumerate(kkt.frictions):
@@ -222,7 +222,7 @@ def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) ->
     if not build.has_jumps:
         return
     build.line(Jump())
-    build.section("a pivot vanished: rows depend on each other here")
+    build.section("a pivot vanished: constraint equations depend on each other here")
     force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))
     build.line(Rescue(force, rhs))
 

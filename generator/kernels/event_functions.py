@@ -28,8 +28,8 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.wholes import Whole
 
 WATCHED, _RANGES = "watched_functions", "watched_ranges"
-_WATCHED_DOC = ("Switching functions of the scene's own corners, in rhs->g, and what the user watches, in rhs->event.",)
-_RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
+_WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
+_RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's events over ranges of t, q and v.",)
 _KNOWN_LATE = RHS.name  # what reads this is known only once forces or accelerations are
 
 
@@ -127,7 +127,7 @@ def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
 
 _TIME_TERMS = "time_terms"
 MOST = 32  # terms of a scene
-_TIME_TERMS_DOC = ("Terms that hang on time alone and may rise and fall within a step.",)
+_TIME_TERMS_DOC = ("Terms that depend on time alone and may rise and fall within a step (transients).",)
 _LINEAR = (sp.sin, sp.cos, sp.exp)  # what shows at the stages of a step, of a linear argument
 _POWERS = range(1, 5)  # likewise, of what does
 
@@ -309,4 +309,4 @@ def _unheld(statement: Statement) -> Statement:
     return statement
 
 
-_JUMPS_DOC = ("Switching functions that hang on time alone.",)
+_JUMPS_DOC = ("Switching functions that depend on time alone.",)

@@ -23,9 +23,9 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
-    "Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:",
+    "Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.",
-    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+    "Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.",
 )
 
 
@@ -65,7 +65,7 @@ def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     if not build.has_jumps:
         return
     build.line(Jump())
-    build.section("a pivot vanished: rows depend on each other here")
+    build.section("a pivot vanished: constraint equations depend on each other here")
     build.line(Rescue())
 
 
