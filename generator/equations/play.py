@@ -31,7 +31,7 @@ from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
 from gudgeon.language.units import VELOCITY
 
-Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a number
+Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a derived parameter
 VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
 
 

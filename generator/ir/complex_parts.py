@@ -30,10 +30,10 @@ def at_complex(kernel: Kernel, arrays: Iterable[Key], zero: Iterable[str] = ()) 
     arrays: which arguments are complex, with their elements; and arrays at places. `zero`: arguments that are 0 and are
     left out. Raises ValueError for a line that has no complex counterpart.
     """
-    return _Twin(kernel, frozenset(arrays), frozenset(zero)).kernel()
+    return _ComplexConverter(kernel, frozenset(arrays), frozenset(zero)).kernel()
 
 
-class _Twin:
+class _ComplexConverter:
     """Converter of one kernel, line by line."""
 
     def __init__(self, kernel: Kernel, complex_: frozenset[Key], zero: frozenset[str]) -> None:

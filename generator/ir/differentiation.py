@@ -63,7 +63,7 @@ class Tangents:
     def of(self, symbol: sp.Symbol) -> Tangent:
         """Return the tangent of a symbol; empty for a constant."""
         if symbol not in self._known:
-            self._known[symbol] = {}  # a number of `prepare`, a held multiplier
+            self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
             if symbol in self._symbols.rules:
                 self.know(symbol, self.through(self._symbols.rules[symbol]))
             elif symbol in self._symbols.definitions and not self._symbols.info[symbol].home:

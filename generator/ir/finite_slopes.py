@@ -144,7 +144,7 @@ def _stepped(side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 _EXPONENTIAL = classes_where(lambda f: f.is_exponential)
 _SQUARING = classes_where(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
-_FAR = 100  # decades from 1 beyond which a number's square, with what it is a factor of, may be none
+_FAR = 100  # decades from 1 beyond which the square of a number may overflow together with other factors
 
 
 def far_terms(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:

@@ -41,7 +41,7 @@ class Kernel:
     inline: bool = False
     attribute: str = ""  # of the compiler: "noinline"
     names: Mapping[Key, Key] = field(default_factory=dict)  # what symbols are called in its text
-    first_corner: int | None = None  # its corners are counted from the argument `corner`; None: by their own numbers
+    first_corner: int | None = None  # switches are counted from the argument `corner`; None: by their own numbers
 
     @property
     def operations(self) -> int:
@@ -104,7 +104,7 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
         statements: list[Line] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
-                if isinstance(statement.value, BranchOf):  # told by the author of the kernel: once is enough
+                if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
                     if (told := sp.Symbol(statement.defines, real=True)) not in known:
                         known[told] = statement.value
                         statements.append(statement)
@@ -206,7 +206,7 @@ class KernelBuilder:
         reads `branch` and writes `g` (symbols/corners.py). `prune`: locals that nothing reads are left out.
         """
         if prune:
-            self._sections = _pruned(self._sections)
+            self._sections = _prune_sections(self._sections)
         lines = [s for _, group in self._sections for s in group]
         declared = {line.defines for line in lines if line.defines}
         expressions = [x for line in lines for x in line.expressions]
@@ -248,7 +248,7 @@ class KernelBuilder:
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
 
 
-def _pruned(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
+def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
     """Return the sections without locals that no later line reads."""
     read: set[str] = set()
     return [(title, without_unread(group, read)) for title, group in reversed(list(sections))][::-1]
@@ -256,7 +256,7 @@ def _pruned(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, l
 
 def without_unused(kernel: Kernel) -> Kernel:
     """Return the kernel without locals that nothing reads, such as pivots of coordinates that no equation contains."""
-    pruned = _pruned((section.title, section.statements) for section in kernel.sections)
+    pruned = _prune_sections((section.title, section.statements) for section in kernel.sections)
     left = replace(kernel, sections=tuple(Section(title, tuple(group)) for title, group in pruned if group))
     if _reads_sides(left):
         return left

@@ -98,7 +98,7 @@ def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str
 
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
-Wanted = Callable[[Place], Place | None]  # where a result goes; None: nobody wants it
+Wanted = Callable[[Place], Place | None]  # place of a result; None: it is not requested
 _DROPPED = (Status, JointsAlone, Jump, Rescue)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
@@ -154,7 +154,7 @@ def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
     local: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
-            line = _with(line, local)
+            line = _with_locals(line, local)
             if isinstance(line, Statement) and isinstance(stored := line.target, Place):
                 name = "".join(c if c.isalnum() else "_" for c in str(stored).replace(".", "__")).strip("_")
                 local[PlaceSymbol(stored)] = sp.Symbol(name, real=True)
@@ -164,10 +164,10 @@ def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
                     line = replace(line, target=place, value=sp.Symbol(name, real=True))
             if not isinstance(line, _DROPPED):
                 lines.append((section.title, line))
-    return _pruned(lines)
+    return _prune_lines(lines)
 
 
-def _with(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+def _with_locals(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
     """Return a line with places replaced by locals."""
     return changed(line, lambda value: value.xreplace(local))
 
@@ -216,7 +216,7 @@ class _Series(Rules):
             self._terms.append((self._title, replace(line, value=result, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
-        elif line.defines not in self.moving:  # else a function beside it has asked for it
+        elif line.defines not in self.moving:  # else the partner function has defined it already
             self.define(line.defines, value)
 
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
@@ -273,7 +273,7 @@ class _Series(Rules):
         products, known = list[Product](), -1
         while known < len(products):  # a sum that is read asks for its factors, and they for other sums
             known = len(products)
-            terms = _pruned([*self._terms, *_stores(products)])
+            terms = _prune_lines([*self._terms, *_stores(products)])
             read = {key_of(s) for _, line in terms for e in line.expressions for s in e.free_symbols}
             products = [product for product in self.products.values() if Place(SUMS)[product.name] in read]
         kept = tuple(sorted(x.member for x in read if isinstance(x, Place) and x.base == VALUES))
@@ -282,7 +282,7 @@ class _Series(Rules):
             ("values that higher orders read", Statement(Place(VALUES)[x], inverses.get(x, sp.Symbol(x, real=True))))
             for x in kept
         ]
-        values = _pruned([*self._values, *keeps])
+        values = _prune_lines([*self._values, *keeps])
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)
         later = _sections(late_last(terms, self.unique))
@@ -315,7 +315,7 @@ def _stores(products: Sequence[Product]) -> list[Titled]:
     return lines
 
 
-def _pruned(lines: list[Titled]) -> list[Titled]:
+def _prune_lines(lines: list[Titled]) -> list[Titled]:
     """Return the lines without locals that nothing reads."""
     left = {id(line) for line in without_unread([line for _, line in lines], set())}
     return [item for item in lines if id(item[1]) in left]

@@ -69,7 +69,7 @@ class Rules(ABC):
         self.moving, self.numbers = {"t"}, set[str]()
         self.products: dict[tuple[Factor, Factor], Product] = {}
         self.known: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
-        self.later: list[tuple[str, sp.Expr]] = []  # to be defined behind what is being defined
+        self.later: list[tuple[str, sp.Expr]] = []  # to be defined after the current definition
         self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # c by what it is 1 over: products with c are quotients
         self.inverses: dict[str, sp.Symbol] = {}  # 1/b_0 by name
         self._taken = taken

@@ -18,7 +18,7 @@ from gudgeon.generator.symbols.storage import Place
 def prepare_kernel(model: Model) -> Kernel:
     """Return the C function that fills the parameter table of a run.
 
-    Given values replace the defaults of the file; then the derived parameters are computed from them.
+    Values that are given replace the defaults of the file; then the derived parameters are computed from them.
     """
     slots: list[Statement] = []
     info = model.symbols.info

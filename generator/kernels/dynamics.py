@@ -27,7 +27,7 @@ _DOC = (
     "Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.",
 )
 _MAX_PIVOTS = 60  # listed in the comment
-# What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
+# Appends what solves the system where a pivot vanishes, from generalized forces and right-hand sides by node.
 OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
 
@@ -49,20 +49,20 @@ def dynamics_kernel(
     if kkt.rows and not model.rows_change:
         build.section("status")
         build.line(Status())
-    _events(model, build)
+    _append_events(model, build)
     loads = [load for element in model.elements.values() for load in element.on_points()]
     for index, clearance in enumerate(model.clearances):
-        loads += _clearance_call(build, index, clearance)
+        loads += _append_clearance_call(build, index, clearance)
     if model.clearances and not stabilised:
         build.section("if a is NULL, only the joints with play are evaluated")
         build.line(JointsAlone())
     acting, on_given = system.generalized(loads)
     forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
-    slips = _slips(model, build, kkt, forces)
+    slips = _append_slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
-    # where constraints come and go a vanishing pivot is told, not mended
+    # with changing constraints a vanishing pivot is reported, not handled
     factor = kkt.factorize(build) if model.rows_change else kkt.factorize(build, True, LEAST, LEAST_SIZE)
     x = kkt.solve(build, factor, b)
     build.section("results")
@@ -70,11 +70,11 @@ def dynamics_kernel(
         build.out(Place("a")[k], x[k])
     for r, _ in enumerate(kkt.rows):
         build.out(RHS["lambda"][r], x[kkt.n + r])
-    _friction_forces(build, kkt, x)
-    _half_squares(build, kkt.system, x)
+    _append_friction_forces(build, kkt, x)
+    _append_half_squares(build, kkt.system, x)
     if kkt.rows and not model.rows_change:
-        (rescue or _dependent_rows)(build, kkt, b)
-    _powers(build, kkt, on_given)
+        (rescue or _append_dependent_rows)(build, kkt, b)
+    _append_powers(build, kkt, on_given)
     build.line(Return(pivot=bool(kkt.rows and not model.rows_change)))
     arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
     kernel = build.build(arguments, status=True, owner="")
@@ -102,7 +102,7 @@ def coordinate_name(meaning: str) -> str:
     return meaning if "." in meaning else f"{meaning}.theta"
 
 
-def _events(model: Model, build: KernelBuilder) -> None:
+def _append_events(model: Model, build: KernelBuilder) -> None:
     """Append the user's event functions, which are known at every state, also where a pivot vanishes."""
     if model.events:
         build.section("events")
@@ -110,7 +110,7 @@ def _events(model: Model, build: KernelBuilder) -> None:
         build.out(RHS["event"][index], event.expression, event.name)
 
 
-def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
+def _append_clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
     """Append the call of a joint's force function; return its force and moments as loads on both bodies."""
     name, out = clearance.label, RHS["clearance"][index]
     build.section(f"clearance {clearance.kind} {clearance.name}")
@@ -155,7 +155,7 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
     return rhs
 
 
-def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
+def _append_slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
     """Append the slip velocity and kinetic force of each dry friction element; return the right-hand sides for stick.
 
     The kinetic force is added to `forces`, the generalized forces by coordinate, in place.
@@ -179,7 +179,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     return rhs
 
 
-def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+def _append_friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
     """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ."""
     place = {q: k for k, q in enumerate(kkt.system.q)}
     for r, friction in enumerate(kkt.frictions):
@@ -191,7 +191,7 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
         build.line(When(Test(stick, "!=", (0.0,)), force))
 
 
-def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
+def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
     """Append half the second derivative of e · e in joints with rigid surfaces.
 
     A run determines the contact forces of these joints from it.
@@ -217,7 +217,7 @@ def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[i
     return straight + turning * along + omega * (2 * sliding - omega * (e[0] * n_x + e[1] * n_y))
 
 
-def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+def _append_dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Append the branch for a vanishing pivot, which calls engine/scene/singular.c; none if all pivots are constant."""
     if not build.has_jumps:
         return
@@ -227,7 +227,7 @@ def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) ->
     build.line(Rescue(force, rhs))
 
 
-def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
+def _append_powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
     """Append the powers in W of the drives, of the dissipative force elements and of the joints with play.
 
     A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.

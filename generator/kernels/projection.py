@@ -123,6 +123,6 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     build.line(Largest("worst", tuple(phi.values())))
     build.line(Return())
     outs = (result(name) for name in ("dq", "dv", "worst"))
-    # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
+    # a switching function of lengths and parameters alone is not an event function, so its branch is not held
     kernel = build.build((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
     return with_branches(kernel)

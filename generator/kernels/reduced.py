@@ -53,7 +53,7 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels
     chains = ChainKernels(system, system.chain) if system.chain else None
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
     corners = chains.corners if chains else None
-    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # what is followed is not watched
+    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # a driven motion has no events here
     if watched and system.chain and reads_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)

@@ -31,7 +31,7 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-Pair = tuple[int, int]  # node (coordinates, then rows, frictions, inner states), column (coordinate or state)
+Pair = tuple[int, int]  # node (coordinates, equations, frictions, inner states), column (coordinate or state)
 
 
 @dataclass

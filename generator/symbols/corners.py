@@ -183,7 +183,7 @@ class Switches(Freezable):
     """The switching functions of a scene, each once."""
 
     found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
-    spare: list[int] = field(default_factory=list)  # numbers of the scene's own corners on the other side
+    spare: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
 
     def beside(self) -> Switches:
         """Return the table for other functions of the same scene: the joints' switches are shared, others are new."""
@@ -254,7 +254,7 @@ class Switches(Freezable):
             case sp.Max() | sp.Min():
                 return picked(arguments, side, up=isinstance(expression, sp.Max))
             case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
-                # what is not known to stay above zero is no number below it, and must not become one
+                # a base that may be negative gives NaN there, and must not become a number
                 base = Magnitude(arguments[0]) if expression.base.is_nonnegative else arguments[0]
                 return base ** arguments[1]
         return expression.func(*arguments)

@@ -44,7 +44,7 @@ def where(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp.Expr) -> s
 
 
 _HALF = sp.Rational(1, 2)
-_BITS = 4096  # of a number that was not written, at most
+_BITS = 4096  # of numbers that were not written, at most
 
 
 def exponential(exponent: sp.Expr) -> sp.Expr:

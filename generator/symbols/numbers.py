@@ -58,10 +58,10 @@ class Slots(Freezable):
         self.symbols = symbols
         self.entries: dict[str, SlotEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
-        self.of_owner: dict[sp.Symbol, Owned] = {}  # of derived numbers those that one joint or element has
-        self.unwritten: set[sp.Expr] = set()  # derived numbers of the integration alone, which no document writes
+        self.of_owner: dict[sp.Symbol, Owned] = {}  # roles of derived parameters of one joint or element
+        self.unwritten: set[sp.Expr] = set()  # derived parameters of the integration only, which no document prints
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
-        self.tables: dict[str, list[sp.Symbol]] = {}  # numbers that are an array of Parameters, by its name
+        self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters, self._instead = scene.parameters, scene.instead
         for name in scene.parameters:
@@ -105,7 +105,7 @@ class Slots(Freezable):
         follows = to_sympy(quantity.value, symbol) if names_any(quantity) else None
         default = float(evaluate(quantity.value, number))
         value = sp.Float(default, 17) if follows is None else follows
-        short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
+        short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is not y
         shown = address if short else ""
         symbol = self.symbols.new(wanted, home, address, shown=shown)
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)

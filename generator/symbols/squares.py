@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-_LONG, DEGREE = 60, 8  # operations under a root, and a power there, beyond which nobody wrote a square
+_LONG, DEGREE = 60, 8  # operations under a root, and a power there, up to which squares are looked for
 _DIGITS = 10**15  # a whole number that binary64 has
 
 

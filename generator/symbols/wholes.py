@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import sympy as sp
 
-_FAR = 60  # decades from 1 beyond which no number is made that was not written
+_FAR = 60  # decades from 1 within which numbers that were not written are accepted
 _HIGH = 16  # a power that is given to the factors of its base one by one, at most
 
 
