@@ -222,6 +222,7 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
     derived: dict[str, sp.Expr] = {}
 
     def told(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+        """Return a derived parameter and record it under its name in the law."""
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 

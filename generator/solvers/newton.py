@@ -102,11 +102,13 @@ class Newton:
         """Return the parts with each value stored once in the pool, up to its sign."""
 
         def keep(value: sp.Expr, name: str) -> sp.Expr:
+            """Return the symbol of a value that is stored in the pool."""
             return self.values.keep(build, tangents.shared(value), name)
 
         def pooled(
             what: str, part: Mapping[Pair, sp.Expr], rows: Sequence[str], columns: Sequence[str] = self.names
         ) -> dict[Pair, sp.Expr]:
+            """Return the stored entries of one part."""
             return {(i, j): keep(value, f"{what}_{rows[i]}_{columns[j]}") for (i, j), value in part.items()}
 
         states = self.names[self.first_state :]
@@ -130,6 +132,7 @@ class Newton:
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
         def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
+            """Return (row, column, index, sign) of the entries of one part."""
             return [(i, first + k, *self.values.place(build, value)) for (i, k), value in part.items()]
 
         return {

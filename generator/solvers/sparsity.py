@@ -84,10 +84,12 @@ def choose_elimination(
         return (node >= end, graph[node] != pattern[node], *fill(graph, node, wait))
 
     def shallow(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of least fill-in, then of the shortest chain of divisions."""
         _, missing, near, _ = fill(graph, node, wait)
         return (node >= end, missing, wait, near, node)
 
     def early(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of the shortest chain of divisions, then of least fill-in."""
         return (node >= end, wait, *fill(graph, node, wait))
 
     keys = (degree, fill, bodies_first, untouched, shallow, early)

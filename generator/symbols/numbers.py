@@ -97,9 +97,11 @@ class Slots(Freezable):
         parts = {part.address: part for part in quantity.of}
 
         def symbol(path: str) -> sp.Expr:
+            """Return the symbol of a name in the expression."""
             return self.use(parts[path]) if path in parts else self._parameter(path)
 
         def number(path: str) -> float:
+            """Return the default value of a name in the expression."""
             return self.entries[path if path in parts else f"parameters.{path}"].default
 
         follows = to_sympy(quantity.value, symbol) if names_any(quantity) else None
