@@ -23,7 +23,7 @@ _MEANINGS = {
 }
 
 
-class _Plain(StrPrinter):  # type: ignore[misc]
+class _Plain(StrPrinter):
     """Printer of expressions in the notation of comments: min, max, abs, branches as `where(g < 0, a, b)`."""
 
     def _print_Max(self, e: sp.Expr) -> str:
