@@ -114,6 +114,7 @@ class Constraints(Freezable):
         slots, define = self.geometry.slots, self.symbols.define
 
         def symbol_of(path: str) -> sp.Symbol:
+            """Return the symbol of time or of a parameter."""
             return self.t if path == "t" else slots.entries[f"parameters.{path}"].symbol
 
         value = quantity_to_sympy(drive.value, symbol_of)

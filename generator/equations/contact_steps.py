@@ -41,7 +41,7 @@ F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t
 # Of a bearing with a contour, which has a depth more than its circle at each angle:
 theta_i, beta_i, u_x, u_y, worn, worn_slope = map(_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope"))
 beta_rate, slant, steep, F_N = map(_symbol, ("beta_rate", "slant", "steep", "F_N"))
-along = _symbol("along")  # of a slider's corner: where it is along its guide
+along = _symbol("along")  # position of a slider's corner along its guide
 de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
 
 
@@ -216,7 +216,7 @@ def resultant(clearance: Clearance) -> list[Step]:
     normal, radial = -(F_N if clearance.contour else _symbol("F_n")), _symbol("F_r")
     steps: list[Step] = []
     if dry and film:
-        steps += blend(clearance) if clearance.mixed is None else []  # a law is told by itself
+        steps += blend(clearance) if clearance.mixed is None else []  # a law of mixed lubrication is printed by itself
         mixed = {s: (of_part(s, "dry"), of_part(s, "film")) for s in (F_along_t, M_i, M_j)}
         mixed = {F_along_n: (normal, radial), **mixed}
         steps += [Step(s, share * of_dry + (1 - share) * of_film) for s, (of_dry, of_film) in mixed.items()]

@@ -216,13 +216,13 @@ class Geometry(Freezable):
 
         `wanted` is the base of its symbols' names.
         """
-        s = self._beside(ref, offset, wanted)
+        s = self._offset_vector(ref, offset, wanted)
         if ref.body == GROUND:
             return PointFrame(self, None, s)
         body = self.bodies[ref.body]
         return PointFrame(self, body, self.turn(body, s, f"arm_{wanted}"))
 
-    def _beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
+    def _offset_vector(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
         """Return the vector to such a point from the centre of mass, or its position on the ground.
 
         The opposite of a known vector is its negative.

@@ -148,7 +148,7 @@ class Model:
     clearances: tuple[Clearance, ...]
     elements: Mapping[str, AppliedElement]  # the section `forces`
     frictions: tuple[Friction, ...]  # slips that friction may hold
-    redundancy: Redundancy  # rows that were left out
+    redundancy: Redundancy  # constraint equations that were left out
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
     events: tuple[Event, ...] = ()  # what the user watches

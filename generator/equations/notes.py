@@ -63,12 +63,12 @@ def jumping_drives(model: Model) -> tuple[str, ...]:
 
 def refuse_massless(model: Model) -> None:
     """Raise MissingKeyError for bodies without mass or inertia if the motion depends on them."""
-    asks = _asks(model)
+    asks = _reason_for_masses(model)
     if asks and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))):
         raise together(errors)
 
 
-def _asks(model: Model) -> str:
+def _reason_for_masses(model: Model) -> str:
     """Return why a scene needs masses, for messages; "" if it does not."""
     if model.clearances:
         return f"has play in {', '.join(clearance.name for clearance in model.clearances)}"

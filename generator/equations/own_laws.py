@@ -38,7 +38,7 @@ from gudgeon.language.units import (
     describe,
 )
 
-LOOKS = 400  # penetrations at which a force is looked at
+N_PENETRATIONS = 400  # penetrations at which a force is sampled
 _SMALLEST = 1e-6  # of the largest of them
 
 
@@ -61,16 +61,18 @@ def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: Slots) -> sp
     if not value.has(delta):
         hint = "expected an expression such as 1e8 N/m * delta: its terms cancel"
         raise BadValueError(f"{force.address} does not follow delta, the penetration", force.where, hint)
-    _look(force, most, slots)
-    _look_at_slope(force, value, delta, slots)
+    _check_force(force, most, slots)
+    _check_slope(force, value, delta, slots)
     if value.subs(delta, 0) != 0:
         slots.use(at_onset(force))
     return value
 
 
-def _look(force: Quantity, most: float, slots: Slots) -> None:
+def _check_force(force: Quantity, most: float, slots: Slots) -> None:
     """Raise BadValueError if the force is not finite or negative at sampled penetrations, with the scene's values."""
-    depths = np.union1d(np.geomspace(_SMALLEST * most, most, LOOKS // 2), np.linspace(0.0, most, LOOKS // 2)[1:])
+    depths = np.union1d(
+        np.geomspace(_SMALLEST * most, most, N_PENETRATIONS // 2), np.linspace(0.0, most, N_PENETRATIONS // 2)[1:]
+    )
     found = np.broadcast_to(
         evaluate(
             force.value,
@@ -84,7 +86,7 @@ def _look(force: Quantity, most: float, slots: Slots) -> None:
         raise BadValueError(f"{force.address} is {load:.6g} N at delta = {depth:.6g} m", force.where, hint)
 
 
-def _look_at_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: Slots) -> None:
+def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: Slots) -> None:
     """Raise BadValueError if the slope at δ = 0 is infinite, so that no Jacobian exists."""
     numbers = {entry.symbol: sp.Float(entry.default, 17) for entry in slots.entries.values()}
     slope = sp.diff(value, delta).xreplace(numbers).subs(delta, 0)
@@ -120,13 +122,13 @@ class _Flexible:
 
 
 _BARE, _ANY = _Flexible(), _Flexible()
-_Found = Dimension | _Flexible
+_DimensionOrFlexible = Dimension | _Flexible
 
 
 def check_units(law: Law, use: LawUse) -> None:
     """Raise LawError if a result of a law has another unit than its role needs, or if unlike units are added."""
     made = probe(law, use.options, use.quantities)
-    known: dict[str, _Found] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
+    known: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
     known |= {f"probe_{name}": number.dimension or _ANY for name, number in use.quantities.items()}
     known |= {name: _VARIABLES[name] for name in law.variables if name in _VARIABLES}
     known |= {state.name: LENGTH for state in law.states}
@@ -147,21 +149,21 @@ class _Units:
     """Dimensions of a law's expressions, found from those of its symbols in `known`."""
 
     law: Law
-    known: Mapping[str, _Found]  # by names of symbols
-    seen: dict[sp.Expr, _Found] = field(default_factory=dict)
+    known: Mapping[str, _DimensionOrFlexible]  # by names of symbols
+    seen: dict[sp.Expr, _DimensionOrFlexible] = field(default_factory=dict)
 
     @property
     def whose(self) -> str:
         """Return the beginning of a message: the law and the file that defines it."""
         return prefix(self.law.name, ORIGINS.get(self.law.name))
 
-    def of(self, name: str, e: sp.Expr) -> _Found:
+    def of(self, name: str, e: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression in the step `name`. Raise LawError if it has none."""
         if e not in self.seen:
             self.seen[e] = self._of(name, e)
         return self.seen[e]
 
-    def _of(self, name: str, e: sp.Expr) -> _Found:
+    def _of(self, name: str, e: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression without looking it up in the cache."""
         if e.is_number:
             return _BARE
@@ -180,7 +182,7 @@ class _Units:
         self._pure(name, type(e).__name__, found[0])
         return DIMENSIONLESS
 
-    def _one(self, name: str, e: sp.Expr, found: list[_Found]) -> _Found:
+    def _one(self, name: str, e: sp.Expr, found: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
         """Return the common dimension of terms that are added or compared. Raise LawError if they differ."""
         units = sorted({x for x in found if isinstance(x, Dimension)}, key=str)
         bare = next((part for part, x in zip(e.args, found, strict=True) if x is _BARE and not part.is_zero), None)
@@ -190,12 +192,12 @@ class _Units:
         if unlike:
             what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
             raise LawError(
-                f"{self.whose}{name} {what} {describe(units[0])} and {unlike}: {sp.sstr(_shown(e))[:120]}",
+                f"{self.whose}{name} {what} {describe(units[0])} and {unlike}: {sp.sstr(_with_law_names(e))[:120]}",
                 hint="a number with a unit is one of the law's fields",
             )
         return units[0] if units else _ANY if _ANY in found else _BARE
 
-    def _power(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _Found:
+    def _power(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of base**exponent. Raise LawError if the exponent has a unit."""
         self._pure(name, "an exponent", self.of(name, exponent))
         found = self.of(name, base)
@@ -203,14 +205,14 @@ class _Units:
             return found
         return found ** Fraction(str(exponent)).limit_denominator(1000) if exponent.is_number else _ANY
 
-    def _pure(self, name: str, what: str, found: _Found) -> None:
+    def _pure(self, name: str, what: str, found: _DimensionOrFlexible) -> None:
         """Raise LawError if a value that must be dimensionless, described by `what`, has a unit."""
         if isinstance(found, Dimension) and found != DIMENSIONLESS:
             told = f"{self.whose}{name} has {what} of {describe(found)}, expected {describe(DIMENSIONLESS)}"
             raise LawError(told, hint="divide by a number of that unit: one of the law's fields")
 
     @staticmethod
-    def _product(found: list[_Found]) -> _Found:
+    def _product(found: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
         """Return the dimension of a product of factors."""
         if _ANY in found:
             return _ANY
@@ -221,13 +223,13 @@ class _Units:
         return _BARE if made is None else made
 
 
-def _shown(e: sp.Expr) -> sp.Expr:
+def _with_law_names(e: sp.Expr) -> sp.Expr:
     """Return an expression with parameters named as in the law, for messages."""
     return e.xreplace({s: sp.Symbol(s.name.removeprefix("probe_"), real=True) for s in e.free_symbols})
 
 
-# Where forces are looked at: δ (m), ratios, δ̇ (m/s); F_n (N), slip (m/s); ε, 1/s. A state is a deflection (m).
-_LOOKS: Mapping[str, tuple[float, ...]] = {
+# States at which forces are sampled: δ (m), ratios, δ̇ (m/s); F_n (N), slip (m/s); ε, 1/s. A state is a deflection (m).
+_SAMPLES: Mapping[str, tuple[float, ...]] = {
     "delta": (0.0, 1e-9, 1e-6, 1e-4),
     "ratio": (1.0, 0.3, 0.0, -0.4, -1.0),
     "deltadot": (1.0, 1e-3, 0.0, -1e-3, -1.0),
@@ -271,10 +273,10 @@ class _Names:
             try:
                 check_name(name, "number or abbreviation")
             except LawError as error:
-                raise LawError(f"{_whose(self.law)}{error.message}", hint=error.hint) from None
+                raise LawError(f"{_law_prefix(self.law)}{error.message}", hint=error.hint) from None
             if name in given or every.count(name) > 1:
                 hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
-                raise LawError(f"{_whose(self.law)}{name!r} is given to the law for something else", hint=hint)
+                raise LawError(f"{_law_prefix(self.law)}{name!r} is given to the law for something else", hint=hint)
 
 
 def _check_together(dry: Sequence[_Names]) -> None:
@@ -285,10 +287,10 @@ def _check_together(dry: Sequence[_Names]) -> None:
     for one, other in itertools.permutations(dry, 2):
         if both := {*one.locals} & {*other.locals, *other.numbers}:
             told = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
-            raise LawError(f"{_whose(one.law)}{told}", hint="call the abbreviation of your own law otherwise")
+            raise LawError(f"{_law_prefix(one.law)}{told}", hint="call the abbreviation of your own law otherwise")
 
 
-def _whose(law: Law) -> str:
+def _law_prefix(law: Law) -> str:
     """Return the beginning of a message: the law and the file that defines it."""
     return prefix(law.name, ORIGINS.get(law.name))
 
@@ -298,25 +300,27 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
     numbers = {symbol: np.float64(number_of(slots, symbol)) for symbol in _constants(steps, slots)}
     known, functions = [*numbers, *variables], {}
     for name, step in steps.items():
-        functions[name] = sp.lambdify(known, step, "numpy")  # symbols of known names alone: build has looked
+        functions[name] = sp.lambdify(
+            known, step, "numpy"
+        )  # contains symbols of known names only, as `build` has checked
         known.append(sp.Symbol(name, real=True))
-    for state in itertools.product(*(_LOOKS.get(symbol.name, _STATE) for symbol in variables)):
+    for state in itertools.product(*(_SAMPLES.get(symbol.name, _STATE) for symbol in variables)):
         values = [*numbers.values(), *map(np.float64, state)]
         for name, function in functions.items():
             with np.errstate(all="ignore"):
                 try:
                     values.append(np.float64(function(*values)))
                 except (ArithmeticError, TypeError, ValueError) as error:
-                    told = f"{_whose(law)}{name} cannot be computed: {type(error).__name__}: {error}"
+                    told = f"{_law_prefix(law)}{name} cannot be computed: {type(error).__name__}: {error}"
                     raise LawError(told, hint="expected a finite real number for every δ > 0") from error
             if not math.isfinite(values[-1]):
                 at = ", ".join(
                     f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip() for s, x in zip(variables, state, strict=True)
                 )
-                told = f"{_whose(law)}{name} is {values[-1]:g} at {at}"
+                told = f"{_law_prefix(law)}{name} is {values[-1]:g} at {at}"
                 raise LawError(f"{told}, with the file's numbers", hint="expected a finite real number there")
             if name == "share" and not (0.0 <= values[-1] <= 1.0 and (state[0] > 0.0 or values[-1] == 0.0)):
-                told = f"{_whose(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
+                told = f"{_law_prefix(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
                 raise LawError(told, hint="expected a number between 0 and 1, and 0 at δ = 0, where film alone ends")
 
 

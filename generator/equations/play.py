@@ -31,7 +31,7 @@ from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
 from gudgeon.language.units import VELOCITY
 
-Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a number
+Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a derived parameter
 VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
 
 
@@ -222,6 +222,7 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
     derived: dict[str, sp.Expr] = {}
 
     def told(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+        """Return a derived parameter and record it under its name in the law."""
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 

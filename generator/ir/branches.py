@@ -1,4 +1,4 @@
-"""Branches of expressions as lines of their own: what is picked is picked once, and has a name.
+"""Branches of expressions as statements of their own, so that each choice is made once and has a name.
 
 Values stay as they are and keep the order of their terms; a printer writes the name that `Branches` knows for a branch.
 """
@@ -18,12 +18,15 @@ from gudgeon.generator.symbols.storage import Key, Place
 
 @dataclass(frozen=True)
 class JointsAlone(Line):
-    """Where no accelerations are asked for a function ends here: joints with play are evaluated."""
+    """The end of a function if no accelerations are requested: the joints with play have been evaluated."""
 
 
 @dataclass(frozen=True)
 class Branch(Line):
-    """`target` is `otherwise` where the side is below zero, else `then` (a NaN stays in it)."""
+    """A conditional assignment of `then` or `otherwise` by the sign of a switching function.
+
+    `target` is `otherwise` where the function is below zero, else `then`, also at NaN.
+    """
 
     target: Key
     value: sp.Expr  # Pick(side, then, otherwise)
@@ -31,45 +34,46 @@ class Branch(Line):
 
     @property
     def side(self) -> sp.Expr:
-        """By which it is decided."""
+        """Return the active branch (sign of the switching function) that decides."""
         return self.value.args[0]
 
     @property
     def then(self) -> sp.Expr:
-        """Not below zero."""
+        """Return the value on the branch that is not below zero."""
         return self.value.args[1]
 
     @property
     def otherwise(self) -> sp.Expr:
-        """Below zero."""
+        """Return the value on the branch below zero."""
         return self.value.args[2]
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """All of them."""
+        """Return the expression that is read."""
         return (self.value,)
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """The array or argument that is stored to."""
+        """Return the array or argument that is stored to."""
         return self.target.names if isinstance(self.target, Place) else NONE
 
     @property
     def defines(self) -> str:  # type: ignore[override]
-        """The local."""
+        """Return the local that is declared, or ""."""
         return self.target if isinstance(self.target, str) else ""
 
 
 class Branches:
-    """`lines` puts a branch in front of the first line that reads it; `names` are what they are called."""
+    """Inserts a Branch before the first line that reads it; `names` are the names of branches by expression."""
 
     def __init__(self, taken: Iterable[str]) -> None:
+        """Begin without branches; `taken`: names in use."""
         self.names: dict[sp.Expr, str] = {}
         self._taken = set(taken)
         self._told: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
 
     def lines(self, lines: Iterable[Line]) -> list[Line]:
-        """The same lines with their branches."""
+        """Return the same lines with their branches inserted."""
         found: list[Line] = []
         for line in lines:
             if isinstance(line, Statement) and isinstance(line.value, Pick) and self._is_new(line.value):
@@ -87,7 +91,7 @@ class Branches:
         return found
 
     def _branches(self, expression: sp.Basic) -> list[Line]:
-        """Those in it that have no name yet, inner ones first."""
+        """Return the branches in an expression that have no name yet, inner ones first."""
         if not expression.has(Pick):
             return []
         found: list[Line] = []
@@ -98,11 +102,11 @@ class Branches:
         return found
 
     def _is_new(self, pick: Pick) -> bool:
-        """One number or another is worth no line."""
+        """Return whether a branch needs a line; a choice between two numbers does not."""
         return pick not in self.names and not all(argument.is_Number for argument in pick.args[1:])
 
     def _new(self, pick: Pick) -> str:
-        """What a branch is called: after the larger or the smaller of two, where it is that."""
+        """Return a new name for a branch: "larger", "smaller" or "branch", with a number."""
         side, a, b = pick.args
         difference = self._told.get(side)
         kind = {a - b: "larger", b - a: "smaller"}.get(difference, "branch")

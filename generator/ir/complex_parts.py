@@ -1,8 +1,8 @@
-"""A kernel at complex numbers, as a kernel of real ones: each statement becomes two, of its real and imaginary part.
+"""A kernel at complex numbers, as a kernel of real ones: each statement becomes its real and its imaginary part.
 
-Newton's matrix of a method whose stages are solved together is that of a single stage at complex h γ, so that its
-kernels are derived once and printed twice, for single runs and for runs side by side. What hangs on nothing complex
-stays one real statement. Arrays hold both parts one behind the other.
+Newton's matrix of a method whose stages are solved together is that of a single stage at complex h γ. Its kernels are
+therefore derived once and printed twice, for single runs and for lanes. Statements without complex operands stay
+single. Arrays hold real and imaginary parts alternately.
 """
 
 from __future__ import annotations
@@ -25,22 +25,25 @@ Parts = tuple[sp.Expr, sp.Expr]
 
 
 def at_complex(kernel: Kernel, arrays: Iterable[Key], zero: Iterable[str] = ()) -> Kernel:
-    """The twin of a kernel, its name with SUFFIX behind.
+    """Return the complex version of a kernel, its name with SUFFIX appended.
 
-    arrays: which of the arguments are complex, their elements too; and arrays at places. `zero`: arguments that are 0
-    and none of the twin's. Raises ValueError for a line that has no complex counterpart.
+    arrays: which arguments are complex, with their elements; and arrays at places. `zero`: arguments that are 0 and are
+    left out. Raises ValueError for a line that has no complex counterpart.
     """
-    return _Twin(kernel, frozenset(arrays), frozenset(zero)).kernel()
+    return _ComplexConverter(kernel, frozenset(arrays), frozenset(zero)).kernel()
 
 
-class _Twin:
+class _ComplexConverter:
+    """Converter of one kernel, line by line."""
+
     def __init__(self, kernel: Kernel, complex_: frozenset[Key], zero: frozenset[str]) -> None:
+        """Begin with the names of complex and of vanishing arguments."""
         self.source, self.complex, self.locals, self.zero = kernel, complex_, set[str](), zero
         self.before: list[Line] = []  # what the next line reads
         self.counts = {"size": 0, "divisor": 0, "factor": 0}
 
     def kernel(self) -> Kernel:
-        """The whole of it."""
+        """Return the complex version of the kernel."""
         sections = tuple(
             Section(section.title, tuple(line for each in section.statements for line in self._lines(each)))
             for section in self.source.sections
@@ -51,11 +54,12 @@ class _Twin:
             name=f"{self.source.name}{SUFFIX}",
             arguments=arguments,
             sections=sections,
-            doc=(*self.source.doc, "At complex eta: real and imaginary parts one behind the other."),
+            doc=(*self.source.doc, "At complex eta: real and imaginary parts alternate."),
         )
         return without_unused(twin)
 
     def _argument(self, argument: Argument) -> list[Argument]:
+        """Return the arguments that replace one: none, the same, or real and imaginary part."""
         if argument.name in self.zero:
             return []
         if argument.name == LINEARIZATION:
@@ -65,17 +69,20 @@ class _Twin:
         return [argument]
 
     def _lines(self, line: Line) -> list[Line]:
+        """Return the lines that replace one, with the locals that they need before them."""
         after = self._counterparts(line)
         before, self.before = self.before, []
         return before + after
 
     def _local(self, kind: str, value: sp.Expr) -> sp.Symbol:
+        """Return a new local of a kind for a value, declared before the next line."""
         self.counts[kind] += 1
         local = sp.Symbol(f"{kind}_{self.counts[kind]}", real=True)
         self.before.append(Statement(local.name, value))
         return local
 
     def _counterparts(self, line: Line) -> list[Line]:
+        """Return the lines that replace one."""
         match line:
             case Statement():
                 return self._statement(line)
@@ -91,9 +98,11 @@ class _Twin:
         raise ValueError(f"a line of a kernel that has no complex counterpart: {line}")
 
     def _is_complex(self, line: Line) -> bool:
+        """Return whether a line reads a complex number."""
         return any(self._pair(s) for x in line.expressions for s in x.free_symbols)
 
     def _statement(self, line: Statement) -> list[Line]:
+        """Return the statements of the real and imaginary part."""
         real, imaginary = self._value(line.value)
         if local := line.defines:
             if imaginary == ZERO:
@@ -105,6 +114,7 @@ class _Twin:
         return [replace(line, value=real)]
 
     def _value(self, value: Value) -> tuple[Value, Value]:
+        """Return the real and imaginary part of the value of a statement."""
         match value:
             case Place():
                 return self._places(value) or (value, ZERO)
@@ -117,20 +127,21 @@ class _Twin:
         raise ValueError(f"a value of a kernel that has no complex counterpart: {value}")
 
     def _places(self, place: Key) -> tuple[Place, Place] | None:
-        """Where both parts of an array's element are."""
+        """Return the places of both parts of an array's element; None if it is real."""
         match place:
             case Place(base, (*of, int() as k)) if {base, Place(base, (*of,))} & self.complex:
                 return Place(base, (*of, 2 * k)), Place(base, (*of, 2 * k + 1))
         return None
 
     def _pair(self, symbol: sp.Symbol) -> Parts | None:
+        """Return the symbols of both parts of a symbol; None if it is real."""
         name = symbol.name
         if both := self._places(key_of(symbol)):
             return PlaceSymbol(both[0]), PlaceSymbol(both[1])
         return (symbol, sp.Symbol(name + IMAGINARY)) if name in self.locals or name in self.complex else None
 
     def parts(self, value: sp.Expr) -> Parts:
-        """Real and imaginary part."""
+        """Return the real and imaginary part of an expression."""
         value = sp.sympify(value)
         if value.is_Symbol:
             if value.name in self.zero:
@@ -156,7 +167,7 @@ class _Twin:
         return real * share, -imaginary * share
 
     def _product(self, value: sp.Mul) -> Parts:
-        """Real factors last: each part is multiplied by them once."""
+        """Return the parts of a product; real factors are multiplied last, once for each part."""
         found: Parts | None = None
         real: list[sp.Expr] = []
         for each in map(self.parts, value.args):
@@ -168,12 +179,12 @@ class _Twin:
         return (factor * found[0], factor * found[1]) if found else (factor, ZERO)
 
     def _simple(self, parts: Parts) -> Parts:
-        """As locals where they are more than a number or its negative: a product reads each twice."""
+        """Return the parts as locals unless they are symbols or negatives: a product reads each twice."""
         real, imaginary = (x if (-x).is_Symbol or x.is_Symbol else self._local("factor", x) for x in parts)
         return real, imaginary
 
     def _guard(self, line: Guard, test: Test) -> list[Line]:
-        """Sizes are compared, of both parts together."""
+        """Return the test of a pivot with |real| + |imaginary| as its size."""
         real, imaginary = self.parts(test.value)
         if imaginary == ZERO:
             return [line]
@@ -185,9 +196,11 @@ class _Twin:
         return [replace(line, test=replace(test, value=local, bound=bound, size=False))]
 
     def _bound(self, size: sp.Expr) -> sp.Expr:
+        """Return a size in a bound as |real| + |imaginary| if it is complex."""
         real, imaginary = self.parts(size.args[0])
         return self._local("size", Size(real) + Size(imaginary)) if imaginary != ZERO else size
 
 
 def _times(a: Parts, b: Parts) -> Parts:
+    """Return the product of two complex numbers."""
     return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]

@@ -1,4 +1,4 @@
-"""What of a function hangs on what: marks of some lines, carried to all lines that these need."""
+"""Data dependence within a function: marks of some lines, passed to all lines that these depend on."""
 
 from __future__ import annotations
 
@@ -28,7 +28,10 @@ class Slices:
 
 
 def slices(own: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slices:
-    """`marks` of a line go to every line that computes what it reads, and so on, up to the numbers of the run."""
+    """Return the marks of all lines; those of a line are passed to every line, and parameter, on which it depends.
+
+    `marks` gives the marks of a line by itself.
+    """
     needed: defaultdict[Key, set[str]] = defaultdict(set)
     stored: defaultdict[Key, set[str]] = defaultdict(set)
     called: dict[Key, Key] = {place: name for name, place in own.names.items() if isinstance(place, Place)}
@@ -50,7 +53,7 @@ def slices(own: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slice
 
 
 def _reads(line: Statement | Branch, own: Readable) -> set[Key]:
-    """Names of symbols, places, names of branches that have a line of their own."""
+    """Return what a line reads: names of symbols, places, names of branches that have a line of their own."""
     found = {key_of(symbol) for x in line.expressions for symbol in x.free_symbols} | set(line.reads)
     if isinstance(line, Statement) and isinstance(line.value, Place):
         found.add(line.value)
@@ -61,9 +64,10 @@ def _reads(line: Statement | Branch, own: Readable) -> set[Key]:
 
 
 def _frozen(found: Mapping[Any, set[str]]) -> dict[Any, Marks]:
+    """Return the entries with marks, as frozen sets."""
     return {name: frozenset(marks) for name, marks in found.items() if marks}
 
 
 def free_names(expression: sp.Expr) -> set[str]:
-    """Names of an expression's symbols."""
+    """Return the names of an expression's symbols."""
     return {symbol.name for symbol in expression.free_symbols}

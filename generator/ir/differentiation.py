@@ -1,9 +1,8 @@
 """Forward differentiation: d expression / d base, through the derived symbols of a model.
 
-A derived symbol carries its tangent, the non-zero derivatives by the base symbols (coordinates, velocities,
-time, or whatever a kernel is differentiated by). Its rules give it where it has some, else its definition
-does. Tangents that are more than a symbol become locals of the kernel, so that nothing is computed twice.
-
+A derived symbol has a tangent, the non-zero derivatives by the base symbols (coordinates, velocities, time, or other
+variables by which a kernel is differentiated). It follows from the symbol's rules, else from its definition. Tangents
+that are more than a symbol become locals of the kernel, so that nothing is computed twice.
 A. Griewank, A. Walther, Evaluating Derivatives, SIAM (2008), chapter 3.
 """
 
@@ -28,7 +27,7 @@ TINY = sp.Float(1e-150)
 
 
 class Tangents:
-    """Tangents in one kernel; corners are sides of the switches of `owner` (switches.py).
+    """Tangents of symbols in one kernel; branches are those of the switches of `owner` (symbols/corners.py).
 
     `share_powers`: x^n with n ≥ 1, as in contact laws, is written as x · x^(n−1), which its derivative needs too.
     """
@@ -41,6 +40,7 @@ class Tangents:
         owner: str = "",
         share_powers: bool = False,
     ) -> None:
+        """Begin with the base symbols, each with derivative 1 by itself."""
         self._symbols, self._build, self._owner, self._share_powers = symbols, build, owner, share_powers
         self._sides: dict[sp.Symbol, sp.Expr] = {}
         self._renamed: Mapping[sp.Symbol, sp.Symbol] = {}
@@ -48,19 +48,22 @@ class Tangents:
         self._known: dict[sp.Symbol, Tangent] = {base: {base: ONE} for base in bases}
 
     def inside(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
-        """Tangents in the same kernel of expressions in other variables, by what these are called here."""
+        """Return tangents in the same kernel for expressions in other variables.
+
+        renamed: the symbols of these variables here.
+        """
         inner = Tangents(self._symbols, self._build, renamed.values(), self._owner, self._share_powers)
         inner._sides, inner._powers, inner._renamed = self._sides, self._powers, renamed
         return inner
 
     def know(self, symbol: sp.Symbol, tangent: Tangent) -> None:
-        """Tells the tangent of a symbol that C computes in its own way; longer entries become locals."""
+        """Set the tangent of a symbol that C computes in its own way; longer entries become locals."""
         self._known[symbol] = {base: self._named(symbol, base, value) for base, value in tangent.items()}
 
     def of(self, symbol: sp.Symbol) -> Tangent:
-        """The tangent of a symbol; empty for a constant."""
+        """Return the tangent of a symbol; empty for a constant."""
         if symbol not in self._known:
-            self._known[symbol] = {}  # a number of `prepare`, a held multiplier
+            self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
             if symbol in self._symbols.rules:
                 self.know(symbol, self.through(self._symbols.rules[symbol]))
             elif symbol in self._symbols.definitions and not self._symbols.info[symbol].home:
@@ -68,11 +71,11 @@ class Tangents:
         return self._known[symbol]
 
     def through(self, tangent: Tangent) -> Tangent:
-        """A tangent by other symbols, whose own tangents are known here, by the bases."""
+        """Return a tangent by other symbols as a tangent by the bases (chain rule)."""
         return self.sum((factor, self.of(symbol)) for symbol, factor in tangent.items())
 
     def held(self, expression: sp.Expr) -> sp.Expr:
-        """The expression with its corners as sides, which are told to the kernel."""
+        """Return the expression with branches taken from the switches, whose functions are printed."""
         before = len(self._sides)
         held = self._symbols.switches.hold(expression, self._owner, self._sides)
         for side, value in list(self._sides.items())[before:]:
@@ -80,7 +83,7 @@ class Tangents:
         return held.xreplace(self._renamed)
 
     def gradient(self, expression: sp.Expr, known_as: sp.Symbol | None = None) -> Tangent:
-        """The non-zero derivatives; `known_as` is a symbol that holds the expression's value."""
+        """Return the non-zero derivatives of an expression by base; `known_as`: a symbol of its value."""
         held = self.held(expression)
         order = sorted(held.free_symbols, key=lambda s: s.name)
         if known_as is not None and held.is_Pow and held.exp == sp.Rational(1, 2):
@@ -89,7 +92,7 @@ class Tangents:
         return self.sum((partial(held, s), self.of(s)) for s in order if self.of(s))
 
     def sum(self, parts: Iterable[tuple[sp.Expr, Tangent]]) -> Tangent:
-        """Σ factor · tangent."""
+        """Return Σ factor · tangent."""
         terms: dict[sp.Symbol, list[sp.Expr]] = {}
         for factor, tangent in parts:
             for base, value in tangent.items():
@@ -98,12 +101,13 @@ class Tangents:
         return {base: value for base, value in sums.items() if value != 0}
 
     def _named(self, symbol: sp.Symbol, base: sp.Symbol, value: sp.Expr) -> sp.Expr:
+        """Return a derivative as it is if it is simple, else as a local of the kernel."""
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
         return self._build.local(f"{symbol.name}_by_{base.name}", self.shared(value))
 
     def shared(self, value: sp.Expr) -> sp.Expr:
-        """The value with what a function and its derivatives share as locals: denominators, powers of contact laws."""
+        """Return the value with denominators and powers as locals that its derivatives share."""
         if not value.has(sp.Pow):
             return value
         divided = value.replace(is_division, lambda part: self._local("inverse", 1 / part.base) ** -part.exp)
@@ -112,20 +116,20 @@ class Tangents:
         return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._power)
 
     def _power(self, power: sp.Pow) -> sp.Expr:
-        """x^n as x · x^(n−1)."""
+        """Return x^n as x · x^(n−1), with the power as a local."""
         if power.exp.as_coeff_Add()[0] == -1:
             return self._local("power", power)
         return power.base * self._local("power", power.base ** (power.exp - 1))
 
     def _local(self, what: str, value: sp.Expr) -> sp.Symbol:
-        """The local that holds a power; named after its base where that is a symbol."""
+        """Return the local that holds a power, named after its base if that is a symbol."""
         if value not in self._powers:
             self._powers[value] = self._build.local(f"{what}_{base_name(value)}", value)
         return self._powers[value]
 
 
 def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """∂/∂by of smooth pieces; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0."""
+    """Return ∂/∂by of smooth pieces; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0."""
     if expression.is_Add:
         return sp.Add(*(partial(term, by) for term in expression.args if by in symbols_of(term)))
     if expression.is_Mul and by in expression.args:  # most terms are linear: SymPy's own way is slower

@@ -1,11 +1,10 @@
-"""Slopes of terms that stay finite while what they are made of, or its square, overflows.
+"""Derivatives that stay finite where the inner values of a term, or their squares, overflow.
 
-A term such as 1/(1 + e^u), 1/cosh u, atan(e^u) or e^(-1/x) is saturated where its derivative as written is ∞/∞ or 0 ·
-∞, so that its rise over a short way tells the slope: most often exactly 0. Which terms are like that, their form says;
-all others are differentiated alone.
-
-Where v is a number of C and v² is none, the derivative of 1/v is −(1/v)(v′/v), the quotient kept together. As −v′/v² it
-would be 0, a number, in silence. Which denominators are like that, their form says; parameters do not.
+A term such as 1/(1 + e^u), 1/cosh u, atan(e^u) or e^(-1/x) is saturated where its derivative as written is ∞/∞ or
+0 · ∞. There a difference quotient over a short distance gives the derivative: most often exactly 0. The form of a term
+shows whether it can saturate; all others are differentiated as usual.
+If v is a finite number of C and v² is not, the derivative of 1/v is −(1/v)(v′/v), with the quotient kept together. As
+−v′/v² it would silently be 0. The form of a denominator shows this case; values of parameters do not.
 """
 
 from __future__ import annotations
@@ -24,13 +23,13 @@ _HIGH = 8  # a power of which neither the value nor its square overflows for a n
 
 
 class Slope(sp.Function):
-    """Slope(d, ahead, behind, way): the derivative d where it is finite, else (ahead − behind)/way."""
+    """Slope(d, ahead, behind, distance): the derivative d if it is finite, else (ahead − behind)/distance."""
 
     nargs = 4
     is_real = True
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Where d is finite."""
+        """Return the derivative of d, which holds where d is finite."""
         return derivative(self.args[0], s)
 
 
@@ -40,6 +39,7 @@ class Upon(sp.Function):
     nargs = 1
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Return 0."""
         return sp.Integer(0)
 
 
@@ -61,7 +61,7 @@ class JustBehind(sp.Function):
 
 
 def overflowing(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
-    """The outermost terms of an expression that may be finite where their derivative by a symbol is not."""
+    """Return the outermost terms of an expression that may be finite where their derivative `by` a symbol is not."""
     if not any(map(_saturates, expression.atoms(sp.Pow, *_SATURATING))) or by not in expression.free_symbols:
         return []
     if isinstance(expression, Slope):
@@ -74,14 +74,14 @@ def overflowing(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
 
 
 def _saturates(term: sp.Expr) -> bool:
-    """Whether it may be finite where what it is made of is not."""
+    """Return whether a term may be finite where its inner values are not."""
     if term.is_Pow:
         return bool(term.exp.is_extended_negative or not term.exp.is_number)
     return isinstance(term, _SATURATING)
 
 
 def _grows(part: sp.Basic, by: sp.Symbol) -> bool:
-    """Whether a part may overflow."""
+    """Return whether a part of an expression may overflow as a function of a symbol."""
     if by not in part.free_symbols:
         return False
     return isinstance(part, _GROWING) or bool(
@@ -90,9 +90,9 @@ def _grows(part: sp.Basic, by: sp.Symbol) -> bool:
 
 
 def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
-    """∂ term/∂ by, as the derivative has it where that is a number.
+    """Return ∂ term/∂ by as a Slope: the derivative as written where it is finite, else a difference quotient.
 
-    Elsewhere 0 of a term with corners, which are at their own places only, and of the slope of a slope's slope.
+    It is 0 instead of the quotient for terms with switching points and for derivatives of derivatives.
     """
     if term.has(*_CORNERS) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
         return Slope(derivative, *_ZERO)
@@ -101,7 +101,7 @@ def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
 
 
 def has_distance(expression: sp.Expr, by: sp.Symbol) -> bool:
-    """Whether a root of a sum of squares is in it, a distance or speed: at 0 its slope is 0/0, of products mostly 0."""
+    """Return whether an expression contains a root of a sum of squares: at 0 its derivative is 0/0."""
     return any(
         power.exp.is_number
         and power.exp > 0
@@ -114,28 +114,29 @@ def has_distance(expression: sp.Expr, by: sp.Symbol) -> bool:
 
 
 def _is_square(term: sp.Expr) -> bool:
+    """Return whether a term is a positive number times even powers."""
     number, rest = term.as_coeff_Mul()
     return bool(number > 0 and all(factor.is_Pow and factor.exp.is_even for factor in sp.Mul.make_args(rest)))
 
 
 def flat_at_zero(derivative: sp.Expr) -> Slope:
-    """The derivative, and 0 where it is no number."""
+    """Return the derivative as a Slope that is 0 where the derivative is not finite."""
     return Slope(derivative, *_ZERO)
 
 
 def as_written(expression: sp.Expr) -> sp.Expr:
-    """The same, and branches by the step function: for ranges, in which 0 · ∞ is 0."""
+    """Return the expression without Slopes and with branches as step functions, for ranges, in which 0 · ∞ is 0."""
     expression = without_slopes(expression)
     return expression.replace(Pick, _stepped) if expression.has(Pick) else expression
 
 
 def without_slopes(expression: sp.Expr) -> sp.Expr:
-    """The expression with its slopes as their derivatives are written."""
+    """Return the expression with Slopes replaced by the derivatives as written."""
     return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression
 
 
 def _stepped(side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """A branch picked by a sign, by the step function; by a held side as it is."""
+    """Return a branch that a sign chooses as a step function; a held branch as it is."""
     if not side.has(sp.sign):
         return Pick(side, a, b)
     return b + sp.Heaviside(side.replace(sp.sign, lambda x: x)) * (a - b)
@@ -143,11 +144,11 @@ def _stepped(side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 _EXPONENTIAL = classes_where(lambda f: f.is_exponential)
 _SQUARING = classes_where(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
-_FAR = 100  # decades from 1 beyond which a number's square, with what it is a factor of, may be none
+_FAR = 100  # decades from 1 beyond which the square of a number may overflow together with other factors
 
 
 def far_terms(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
-    """The outermost terms that are differentiated in this way, or hold such derivatives."""
+    """Return the outermost terms whose derivative keeps quotients together, or that contain such derivatives."""
     if by not in symbols_of(expression):
         return []
     if isinstance(expression, (Share, Slope)) or _is_squared(expression):
@@ -156,7 +157,7 @@ def far_terms(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
 
 
 def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """∂/∂by of smooth pieces as their forms say it."""
+    """Return ∂/∂by of smooth pieces in the form that keeps quotients v′/v together."""
     if isinstance(expression, Slope):
         return written(expression.args[0], by)
     if isinstance(expression, Share):
@@ -180,13 +181,13 @@ def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
 
 
 def for_readers(expression: sp.Expr) -> sp.Expr:
-    """The expression without what keeps its numbers finite."""
+    """Return the expression as a document shows it, without the forms that keep its values finite."""
     shown = without_slopes(expression)
     return shown.replace(Share, lambda x: x) if shown.has(Share) else shown
 
 
 def _plain(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """∂/∂by as SymPy writes it."""
+    """Return ∂/∂by in SymPy's form."""
     rate = derivative(expression, by)
     if any(power.exp.free_symbols and power.base.has(by) for power in expression.atoms(sp.Pow)):
         rate = sp.powsimp(rate, combine="exp")
@@ -194,7 +195,10 @@ def _plain(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
 
 
 def _is_squared(power: sp.Expr) -> bool:
-    """Whether it is v^-n, n a number, and v² may be no number of C; or atan(v), and so may a factor of v squared."""
+    """Return whether differentiation would square a value whose square may overflow.
+
+    Such terms are v^-n with a number n, and atan(v).
+    """
     if isinstance(power, _SQUARING):
         squares = power.args[0].is_Mul or bool(_far_derivative(power))
         return squares and any(map(_is_far, sp.preorder_traversal(power.args[0])))
@@ -204,11 +208,12 @@ def _is_squared(power: sp.Expr) -> bool:
 
 
 def _far_derivative(term: sp.Expr) -> str:
-    """Return the derivative that does not square the argument, as the table of functions writes it; "": none."""
+    """Return the derivative that does not square the argument, as in the table of functions; "" if none."""
     return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
 def _is_far(part: sp.Basic) -> bool:
+    """Return whether a part is, or may become, so large or small that its square leaves the range of numbers."""
     if part.is_Number:
         return bool(part.is_finite and abs(part) >= sp.Float(f"1e{_FAR}"))
     if part.is_Mul and part.args[0].is_Number:  # a small term alone keeps a sum from 0

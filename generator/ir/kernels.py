@@ -1,8 +1,8 @@
 """Kernels: named inputs → named temporaries → named outputs, ready to be printed in any language.
 
-A `KernelBuilder` takes the statements of one function and adds in front what they need: the coordinates and parameters
-that they read and the definitions (cosines, arms, drives) that they use. A `Pool` stores numbers of one function for
-others, each once up to its sign.
+A `KernelBuilder` collects the statements of one function and adds before them what they need: the coordinates and
+parameters that they read and the definitions (cosines, arms, drives) that they use. A `Pool` stores values of one
+function for others, each once up to its sign.
 """
 
 from __future__ import annotations
@@ -23,13 +23,15 @@ from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
 
 @dataclass(frozen=True)
 class Section:
+    """A titled group of lines of a function."""
+
     title: str
     statements: tuple[Line, ...]
 
 
 @dataclass(frozen=True)
 class Kernel:
-    """One function; `status`: it returns a number, 0 or that of what failed."""
+    """One function of straight-line statements; with `status` it returns 0 or the number of what failed."""
 
     name: str
     doc: tuple[str, ...]
@@ -39,11 +41,11 @@ class Kernel:
     inline: bool = False
     attribute: str = ""  # of the compiler: "noinline"
     names: Mapping[Key, Key] = field(default_factory=dict)  # what symbols are called in its text
-    first_corner: int | None = None  # its corners are counted from the argument `corner`; None: by their own numbers
+    first_corner: int | None = None  # switches are counted from the argument `corner`; None: by their own numbers
 
     @property
     def operations(self) -> int:
-        """Additions, multiplications, divisions and function calls that the statements perform."""
+        """Return the number of additions, multiplications, divisions and function calls of the statements."""
         return sum(
             count_operations(value)
             for section in self.sections
@@ -53,15 +55,15 @@ class Kernel:
         )
 
     def has(self, function: type[sp.Function]) -> bool:
-        """Whether a statement calls it."""
+        """Return whether a statement calls a function."""
         statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
         return any(isinstance(s.value, sp.Expr) and s.value.has(function) for s in statements)
 
 
 def count_operations(expression: sp.Expr) -> int:
-    """SymPy's count, with a negation counted as nothing: it is folded into an addition.
+    """Return SymPy's operation count, with a negation counted as nothing: it is folded into an addition.
 
-    Sums, and products without quotients, are most of what there is and are counted here: SymPy takes ten times as long.
+    Sums and products without quotients are most of all and are counted here: SymPy takes ten times as long.
     """
     total, left = 0, [sp.sympify(expression)]
     while left:
@@ -78,7 +80,7 @@ def count_operations(expression: sp.Expr) -> int:
 
 
 def _is_plain_product(part: sp.Basic) -> bool:
-    """Of numbers without a denominator, and of what has none."""
+    """Return whether an expression is a product of symbols, integers, sums and positive integer powers."""
     return part.is_Mul and all(
         x.is_Symbol or x.is_Integer or x.is_Add or (x.is_Pow and x.exp.is_Integer and x.exp.is_positive)
         for x in part.args
@@ -86,19 +88,23 @@ def _is_plain_product(part: sp.Basic) -> bool:
 
 
 def _counted_by_sympy(expression: sp.Basic) -> int:
+    """Return SymPy's operation count without negations."""
     counts = sp.sympify(sp.count_ops(expression, visual=True)).as_coefficients_dict()
     return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
 def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False) -> list[Section]:
-    """The sections with every corner (or only_known) as the side of its switch; told before it is first read."""
+    """Return the sections with every switching function (or only_known ones) replaced by its held branch.
+
+    Each branch is assigned before it is first read.
+    """
     known: dict[sp.Symbol, sp.Expr] = {}
     held = []
     for section in sections:
         statements: list[Line] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
-                if isinstance(statement.value, BranchOf):  # told by the author of the kernel: once is enough
+                if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
                     if (told := sp.Symbol(statement.defines, real=True)) not in known:
                         known[told] = statement.value
                         statements.append(statement)
@@ -113,7 +119,10 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
 
 
 def without_unread(lines: Sequence[Line], read: set[str]) -> list[Line]:
-    """Without locals that nothing behind them reads; `read` is what is read behind, and becomes all that is."""
+    """Return the lines without locals that no later line reads.
+
+    `read`: the names that lines after these read; names that these lines read are added to it.
+    """
     kept: list[Line] = []
     for line in reversed(lines):
         if line.defines and line.defines not in read:
@@ -124,45 +133,51 @@ def without_unread(lines: Sequence[Line], read: set[str]) -> list[Line]:
 
 
 def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
-    """A statement with its expression changed; other lines as they are."""
+    """Return a statement with its expression changed; other lines as they are."""
     if isinstance(line, Statement) and isinstance(line.value, sp.Basic):
         return replace(line, value=change(line.value))
     return line
 
 
 LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
-HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides
+HELD = "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
 
 
 def with_branches(kernel: Kernel, told: str = "nobody") -> Kernel:
-    """The kernel behind the line that says which sides are held and where the others are told, if it reads any."""
+    """Return the kernel with the line that declares held branches before it, if it reads any.
+
+    told: where the kernel writes its switching functions, see `Branches`.
+    """
     if not _reads_sides(kernel):
         return kernel
     return replace(kernel, sections=(Section(HELD, (Branches(told),)), *kernel.sections))
 
 
 def _reads_sides(kernel: Kernel) -> bool:
+    """Return whether a kernel reads the branch of a switching function."""
     lines = (s for section in kernel.sections if section.title != HELD for s in section.statements)
     return any("branch" in line.reads for line in lines)
 
 
 class KernelBuilder:
-    """Collects statements in sections, then resolves what they read."""
+    """Collects the statements of one function in sections, then resolves what they read."""
 
     def __init__(self, symbols: Symbols, name: str, doc: Sequence[str]) -> None:
+        """Begin a function with a name and the lines of its comment."""
         self._symbols, self._name, self._doc = symbols, name, tuple(doc)
         self._sections: list[tuple[str, list[Line]]] = []
 
     @property
     def has_jumps(self) -> bool:
-        """Whether some line so far leads to a rescue."""
+        """Return whether any line so far jumps to the code for a vanishing pivot."""
         return any(getattr(line, "jumps", False) for _, lines in self._sections for line in lines)
 
     def section(self, title: str) -> None:
+        """Begin a section with a title."""
         self._sections.append((title, []))
 
     def line(self, line: Line) -> None:
-        """Anything; a local whose name is already known to be free."""
+        """Append a line; a local that it declares must have an unused name."""
         self._sections[-1][1].append(line)
 
     def local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
@@ -172,7 +187,7 @@ class KernelBuilder:
         return sp.Symbol(unique, real=True)
 
     def out(self, target: Place, value: Value, comment: str = "") -> None:
-        """Store the value."""
+        """Store the value at a place, with a comment."""
         self._sections[-1][1].append(Statement(target, value, comment))
 
     def build(
@@ -184,13 +199,14 @@ class KernelBuilder:
         prune: bool = False,
         only_known: bool = False,
     ) -> Kernel:
-        """The kernel, with its inputs and definitions in front.
+        """Return the kernel, with its inputs and definitions before the collected sections.
 
-        With an `owner` ("": the scene) corners are sides of switches, or only_known ones: the function then reads
-        `branch` and writes `g` (switches.py). `prune`: locals that nothing reads are left out.
+        With an `owner` ("": the scene) switching functions, or only_known ones, are replaced by branches: the function
+        then
+        reads `branch` and writes `g` (symbols/corners.py). `prune`: locals that nothing reads are left out.
         """
         if prune:
-            self._sections = _pruned(self._sections)
+            self._sections = _prune_sections(self._sections)
         lines = [s for _, group in self._sections for s in group]
         declared = {line.defines for line in lines if line.defines}
         expressions = [x for line in lines for x in line.expressions]
@@ -217,7 +233,7 @@ class KernelBuilder:
         return Kernel(self._name, self._doc, tuple(arguments), kept, status, inline, names=names)
 
     def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
-        """Definitions to compute (in the order in which they were made) and inputs to read."""
+        """Return the definitions to compute, in the order in which they were made, and the inputs to read."""
         info, definitions = self._symbols.info, self._symbols.definitions
         seen: set[sp.Symbol] = set()
         waiting = [s for e in expressions for s in symbols_of(e)]
@@ -232,14 +248,15 @@ class KernelBuilder:
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
 
 
-def _pruned(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
+def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
+    """Return the sections without locals that no later line reads."""
     read: set[str] = set()
     return [(title, without_unread(group, read)) for title, group in reversed(list(sections))][::-1]
 
 
 def without_unused(kernel: Kernel) -> Kernel:
-    """The kernel without locals that nothing reads, such as pivots of coordinates that no row touches."""
-    pruned = _pruned((section.title, section.statements) for section in kernel.sections)
+    """Return the kernel without locals that nothing reads, such as pivots of coordinates that no equation contains."""
+    pruned = _prune_sections((section.title, section.statements) for section in kernel.sections)
     left = replace(kernel, sections=tuple(Section(title, tuple(group)) for title, group in pruned if group))
     if _reads_sides(left):
         return left
@@ -247,16 +264,17 @@ def without_unused(kernel: Kernel) -> Kernel:
 
 
 class Pool:
-    """`keep` stores a value and gives the symbol that reads it; what needs no storing stays as it is."""
+    """Values of one function that others read; `keep` stores a value and returns the symbol that reads it."""
 
     def __init__(self, symbols: Symbols, array: Place) -> None:
+        """Begin an empty pool in an array."""
         self._symbols, self.array = symbols, array
         self._kept: dict[sp.Expr, sp.Symbol] = {}
         self._place: dict[sp.Expr, int] = {}
         self.size = 0
 
     def keep(self, build: KernelBuilder, value: sp.Expr, wanted: str) -> sp.Expr:
-        """The value itself if it is a number or one of `prepare`, else ± the symbol of its place."""
+        """Store a value and return ± the symbol of its place; a number or parameter is returned as it is."""
         for sign in (1, -1):
             if value.is_Number or self._is_parameter(sign * value):
                 return value
@@ -267,24 +285,26 @@ class Pool:
         return symbol
 
     def adopt(self, build: KernelBuilder, value: sp.Expr) -> sp.Expr:
-        """Stores the local of which a value is ±, so that other functions read it under the same name."""
+        """Store the local of which a value is ±, so that other functions read it under the same name."""
         symbol = next(iter(value.free_symbols), None)
         if symbol is not None and symbol not in self._symbols.info:
             self._symbols.info[symbol] = SymbolInfo(self.array[self._store(build, symbol)], "", "")
         return value
 
     def place(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
-        """(index, sign) of a value that `keep` gave; numbers and parameters are stored for it."""
+        """Return (index, sign) of a value that `keep` returned; numbers and parameters are stored for it."""
         for sign in (1, -1):
             if sign * value in self._place:
                 return self._place[sign * value], sign
         return self._store(build, value), 1
 
     def _store(self, build: KernelBuilder, value: sp.Expr) -> int:
+        """Store a value at the next index and return that index."""
         build.out(self.array[self.size], value)
         self._place[value] = self.size
         self.size += 1
         return self._place[value]
 
     def _is_parameter(self, value: sp.Expr) -> bool:
+        """Return whether a value is a parameter of the run."""
         return bool(value.is_Symbol and value in self._symbols.info and self._symbols.info[value].is_parameter)

@@ -1,7 +1,7 @@
-"""A function as it is read: branches as lines, nothing copied under another name.
+"""Readable form of a function: branches as lines, and no copies of values under other names.
 
-Only what is written changes: values stay as they are, with the order of their terms, so that every target computes the
-same bits. What a symbol is called in the text is in `Kernel.names`, branches are in `Readable.branches`.
+Only the text changes: values stay as they are, with the order of their terms, so that every target computes the
+same bits. The names of symbols in the text are in `Kernel.names`, those of branches in `Readable.branches`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _MOST = 1000  # times PI
 
 @dataclass(frozen=True)
 class Readable:
-    """Sections, what symbols and locals are called, what branches are called, where corners are counted from."""
+    """Sections of a function with the names of symbols, locals and branches in the text, and its first switch."""
 
     sections: tuple[Section, ...]
     names: Mapping[Key, Key] = field(default_factory=dict)
@@ -34,29 +34,32 @@ class Readable:
 
 @dataclass(frozen=True)
 class ShareOfPi:
-    """count π/of, computed from left to right: the same bits as the number for which it stands."""
+    """A number count π/of, computed from left to right: the same bits as the number that it replaces."""
 
     count: int
     of: int
 
     @property
     def value(self) -> float:
-        """As a target computes it."""
+        """Return the number as a target computes it."""
         return self.count * math.pi / self.of
 
     @property
     def is_one(self) -> bool:
-        """π itself."""
+        """Return whether the number is π itself."""
         return self.count == self.of == 1
 
     def text(self, pi: str, whole: str = "") -> str:
-        """With `pi` and, behind a number, `whole` as the language has them."""
+        """Return the text of the number; `pi` and the suffix `whole` of integers are those of the language."""
         above = {1: pi, -1: f"-{pi}"}.get(self.count, f"{self.count}{whole}*{pi}")
         return above if self.of == 1 else f"{above}/{self.of}{whole}"
 
 
 def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
-    """What of π a number is, of a few shares and to the last bit; `number`: a float, or a ratio times π."""
+    """Return a number as a simple fraction of π, if that is exact to the last bit; None otherwise.
+
+    number: a float, or a ratio times π.
+    """
     if number.is_Float:
         return _share_of_pi(float(sp.Float(number, 17)))
     ratio, rest = number.as_coeff_Mul()
@@ -68,6 +71,7 @@ def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
 
 @lru_cache(10_000)
 def _share_of_pi(value: float) -> ShareOfPi | None:
+    """Return a float as a simple fraction of π with the same bits; None if there is none."""
     if not 0 < abs(value) <= _MOST * math.pi:
         return None
     tried = (ShareOfPi(round(value * of / math.pi), of) for of in _DENOMINATORS)
@@ -75,7 +79,7 @@ def _share_of_pi(value: float) -> ShareOfPi | None:
 
 
 def readable(kernel: Kernel, branching: bool = True) -> Readable:
-    """Without copies of arguments and numbers; with lines for branches."""
+    """Return the readable form of a kernel: without copies of arguments and parameters, with lines for branches."""
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
     taken = {name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)}
@@ -89,12 +93,12 @@ def readable(kernel: Kernel, branching: bool = True) -> Readable:
 
 
 def lines(statements: Sequence[Statement]) -> Readable:
-    """Statements that stand in a function of a template."""
+    """Return the readable form of statements that stand in a function of a template."""
     return readable(Kernel("", (), (), (Section("", tuple(statements)),)))
 
 
 def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
-    """Locals that are no more than an argument or a number of the run are read there, under the name that it has."""
+    """Return the lines without locals that are copies of arguments or parameters; these are read directly."""
     kept: list[Line] = []
     for line in lines:
         place = line.value if isinstance(line, Statement) and line.defines else None
@@ -110,7 +114,7 @@ def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: di
 
 
 def _stored(before: Line, line: Line) -> Statement | None:
-    """`p.x = value` for `y = value` and then `p.x = y`, where p.x is a parameter."""
+    """Return `p.x = value` for `y = value` followed by `p.x = y`, where p.x is a parameter; None otherwise."""
     if not (isinstance(before, Statement) and isinstance(line, Statement) and before.defines):
         return None
     same = line.value == sp.Symbol(before.defines, real=True)

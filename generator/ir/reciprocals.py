@@ -1,7 +1,7 @@
 """Divisions as products: one reciprocal for each denominator, those of parameters alone computed once a run.
 
-A division keeps the processor's divider busy for as long as several products take. Force laws divide by the same
-few lengths over and over.
+A division occupies the processor's divider for as long as several products take. Force laws divide by the same
+few lengths repeatedly.
 """
 
 from __future__ import annotations
@@ -18,24 +18,26 @@ from gudgeon.generator.symbols.storage import PlaceSymbol
 
 
 def is_division(part: sp.Basic) -> bool:
-    """Whether it is x^-n, n a whole number, of an x that is no number."""
+    """Return whether an expression is x^-n, n an integer, of an x that is not a number."""
     return bool(part.is_Pow and part.exp.is_Integer and part.exp < 0 and part.free_symbols)
 
 
 def base_name(power: sp.Basic) -> str:
-    """What a local of 1/x is named after: x where that is a symbol."""
+    """Return the name for a local 1/x: that of x if it is a symbol."""
     if isinstance(power.base, PlaceSymbol):
         return power.base.place.member
     return power.base.name if power.base.is_Symbol else "sum"
 
 
 def hoisted(slots: Slots, value: sp.Expr) -> sp.Expr:
-    """The value with its constant denominators as numbers that `prepare` derives."""
+    """Return the value with reciprocals of constant denominators as derived parameters."""
 
     def constant(part: sp.Basic) -> bool:
+        """Return whether a part divides by parameters alone."""
         return is_division(part) and slots.is_constant(part.base)
 
     def derived(part: sp.Pow) -> sp.Expr:
+        """Return the division as a power of a derived parameter."""
         name = base_name(part)
         return slots.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
 
@@ -43,11 +45,12 @@ def hoisted(slots: Slots, value: sp.Expr) -> sp.Expr:
 
 
 def with_reciprocals(kernel: Kernel) -> Kernel:
-    """The kernel with each denominator that it divides by more than once as the local `inverse_…`."""
+    """Return the kernel with each denominator that occurs more than once as a local `inverse_…`."""
     return replace(kernel, sections=tuple(_divided(kernel.sections)))
 
 
 def _divided(sections: tuple[Section, ...]) -> list[Section]:
+    """Return the sections with a local for each denominator that occurs more than once."""
     statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
     values = [s.value for s in statements if isinstance(s.value, sp.Expr)]
     often = Counter(part.base for value in values for part in sp.preorder_traversal(value) if is_division(part))
@@ -55,6 +58,7 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
     names: dict[sp.Expr, sp.Symbol] = {}
 
     def shared(part: sp.Basic) -> bool:
+        """Return whether a part is a division by a denominator that occurs more than once."""
         return is_division(part) and often[part.base] > 1
 
     found = []
@@ -73,6 +77,7 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
 
 
 def _new(power: sp.Basic, taken: set[str]) -> sp.Symbol:
+    """Return a new symbol for a reciprocal and add its name to `taken`."""
     wanted = name = f"inverse_{base_name(power)}"
     for k in range(2, len(taken) + 3):
         if name not in taken:

@@ -1,15 +1,14 @@
-"""Taylor series of a straight-line function: its statements at order 0, and what is left of them at each higher order.
+"""Taylor series of a straight-line function: its statements at order 0, and the rest of them at each higher order.
 
 Where arguments are series in time every local is one too, and its coefficient of order k follows from those of its
 operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor
 methods, Experimental Mathematics 14, 2005, section 2.1). For c = a b it is c_k = a_0 b_k + b_0 a_k + S_k with the sum
-S_k = a_1 b_{k-1} + ... + a_{k-1} b_1; quotients, roots, powers, sines and their like are products too, of series and of
-their rates (series_rules.py). So a function becomes two: `values` at order 0, and `terms`, the same lines at every
-order k > 0, linear in coefficients of order k, with coefficients of order 0 and the sums S_k for numbers. The sums read
-lower orders alone: all of them are known before a line of order k is, and need no order among themselves.
-
-A linear system is solved by lines as well, so that loops which are closed by rows need nothing more: at order k the
-lines of its factors and substitutions solve for the coefficients of order k.
+S_k = a_1 b_{k-1} + ... + a_{k-1} b_1; quotients, roots, powers, sines and similar functions are products too, of
+series and of their rates (series_rules.py). So a function becomes two: `values` at order 0, and `terms`, the same
+lines at every order k > 0, linear in coefficients of order k, with coefficients of order 0 and the sums S_k as
+numbers. The sums read lower orders alone: all of them are known before a line of order k is computed.
+A linear system is solved by lines as well, so that closed loops need nothing more: at order k the lines of its
+factors and substitutions solve for the coefficients of order k.
 """
 
 from __future__ import annotations
@@ -45,10 +44,14 @@ Titled = tuple[str, Line]  # a line and its section's title
 
 
 def late_last(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Titled]:
-    """What is known last of a sum is added last, so that nothing waits for it that need not; `unique` gives names."""
+    """Return the lines with sums split so that the terms that are known last are added last.
+
+    `unique` returns an unused name. No line then waits longer than it must.
+    """
     depth: dict[str, int] = {}
 
     def late(value: sp.Expr) -> int:
+        """Return the length of the longest chain of such splits that an expression depends on."""
         return max((depth.get(s.name, 0) for s in value.free_symbols), default=0)
 
     ordered: list[Titled] = []
@@ -71,7 +74,10 @@ def late_last(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Tit
 
 
 def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
-    """Cosines and sines of a - b that are made of those of a and b: a - b, the other of the two, by which sign."""
+    """Return the cosines and sines of differences a − b that are formed from those of a and b, by local.
+
+    For each: the angle a − b, the local of the other function, and the sign in its derivative.
+    """
     values = {line.defines: line.value for line in statements if line.defines and isinstance(line.value, sp.Expr)}
     turned = {name: value for name, value in values.items() if isinstance(value, (sp.cos, sp.sin))}
     found: dict[sp.Expr, dict[type, str]] = {}
@@ -92,7 +98,7 @@ def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str
 
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
-Wanted = Callable[[Place], Place | None]  # where a result goes; None: nobody wants it
+Wanted = Callable[[Place], Place | None]  # place of a result; None: it is not requested
 _DROPPED = (Status, JointsAlone, Jump, Rescue)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
@@ -100,16 +106,16 @@ _DOC_VALUES = (
 )
 _DOC_TERMS = (
     "Order k > 0 of the same: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
-    "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of a and power (those of",
+    "add to each product; share = 1/k, next = 1/(k + 1). Results: coefficients of order k + 1 of a and power (those of",
     "q are v next), and the factors of the sums of higher orders.",
 )
 
 
 @dataclass(frozen=True)
 class Series:
-    """Both functions, what `values` keeps for `terms`, and the sums that stand in front of each order.
+    """Both functions of a Taylor series, the values that `values` keeps for `terms`, and the sums S_k of each order.
 
-    Sines of `values` are not put side by side yet.
+    Cosines and sines of `values` are not paired in vectors yet.
     """
 
     values: Kernel
@@ -122,8 +128,9 @@ class Series:
 class Linear:
     """A linear system A x = b within a function: A_0 x_k = b_k - A_1 x_{k-1} - ... - A_k x_0, by the factors of A_0.
 
-    `entries` of A by two nodes, the locals `loads` that are b and `unknowns` that are x by node; `title` of the section
-    that factorizes A: at higher orders nothing of it is left.
+    `entries` of A by two nodes, the locals `loads` that are b and `unknowns` that are x by node; `title`: the section
+    that
+    factorizes A, of which higher orders need nothing.
     """
 
     title: str
@@ -133,7 +140,7 @@ class Linear:
 
 
 def series_of(kernel: Kernel, wanted: Wanted, name: str, linear: Linear | None = None) -> Series:
-    """The series of a function's results, which `wanted` gives their places. Raises NoSeries."""
+    """Return the Taylor series of a function's results; `wanted` gives the place of each result. Raises NoSeries."""
     lines = _lines(kernel, wanted)
     made = _Series(lines, linear)
     for title, line in lines:
@@ -142,12 +149,12 @@ def series_of(kernel: Kernel, wanted: Wanted, name: str, linear: Linear | None =
 
 
 def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
-    """Those that lead to what is wanted; what is stored elsewhere is no more than a local."""
+    """Return the lines that lead to requested results; other stored values become locals."""
     lines: list[Titled] = []
     local: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
-            line = _with(line, local)
+            line = _with_locals(line, local)
             if isinstance(line, Statement) and isinstance(stored := line.target, Place):
                 name = "".join(c if c.isalnum() else "_" for c in str(stored).replace(".", "__")).strip("_")
                 local[PlaceSymbol(stored)] = sp.Symbol(name, real=True)
@@ -157,17 +164,19 @@ def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
                     line = replace(line, target=place, value=sp.Symbol(name, real=True))
             if not isinstance(line, _DROPPED):
                 lines.append((section.title, line))
-    return _pruned(lines)
+    return _prune_lines(lines)
 
 
-def _with(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+def _with_locals(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+    """Return a line with places replaced by locals."""
     return changed(line, lambda value: value.xreplace(local))
 
 
 class _Series(Rules):
-    """Line by line: lines of order 0 and of order k."""
+    """Builder of both functions, line by line: lines of order 0 and of order k."""
 
     def __init__(self, lines: Sequence[Titled], linear: Linear | None) -> None:
+        """Begin without lines, with the names and cosines of all statements known."""
         statements = [line for _, line in lines if isinstance(line, Statement)]
         super().__init__({line.defines for line in statements})
         self._values: list[Titled] = []
@@ -177,7 +186,7 @@ class _Series(Rules):
         self._title, self._linear = "", linear
 
     def line(self, title: str, line: Line) -> None:
-        """The next one of the function."""
+        """Add the next line of the function to both."""
         self._title = title
         match line:
             case Statement(value=Place() as place):
@@ -192,6 +201,7 @@ class _Series(Rules):
                 raise NoSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
 
     def _read(self, line: Statement, place: Place) -> None:
+        """Add a line that reads time, state or a parameter."""
         if not line.defines or place.base not in ("t", "q", "v", "p"):
             raise NoSeries(f"{place} is no function of time and state")
         self._values.append((self._title, line))
@@ -199,17 +209,18 @@ class _Series(Rules):
         (self.numbers if place.base == "p" else self.moving).add(line.defines)
 
     def _assign(self, line: Statement, value: sp.Expr) -> None:
+        """Add an assignment of an expression."""
         if not line.defines:
             self._values.append((self._title, line))
             result = ZERO if self.is_fixed(value) else value * NEXT
             self._terms.append((self._title, replace(line, value=result, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
-        elif line.defines not in self.moving:  # else a function beside it has asked for it
+        elif line.defines not in self.moving:  # else the partner function has defined it already
             self.define(line.defines, value)
 
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
-        """A local of both functions, or of order 0 alone."""
+        """Add a local to both functions, or to order 0 alone if it is constant; return its symbol."""
         symbol = sp.Symbol(target, real=True)
         loads = self._linear.loads if self._linear else {}
         if self.is_fixed(value) and not (moving or target in loads):
@@ -230,7 +241,7 @@ class _Series(Rules):
         return symbol
 
     def _carried(self, linear: Linear, row: int) -> sp.Expr:
-        """A_1 x_{k-1} + ... + A_k x_0 of a row."""
+        """Return A_1 x_{k-1} + ... + A_k x_0 of one equation of the linear system."""
         parts = []
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
@@ -242,24 +253,27 @@ class _Series(Rules):
         return sp.Add(*parts)
 
     def _of_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
-        """The cosine or sine of a difference of angles, of which both are made: by its rate, not four products."""
+        """Return the cosine or sine of a difference of angles, by its rate instead of four products.
+
+        None if the local is not one.
+        """
         if symbol.name not in self._turned:
             return None
         angle, partner, sign = self._turned[symbol.name]
         return value, sign * self.by_rate(self.atom(angle), sp.Symbol(partner, real=True))
 
     def beside(self, value: sp.Expr) -> sp.Symbol:
-        """Another function of the same argument, by the name that the function has for it, if any."""
+        """Return the symbol of another function of the same argument; the function's own name is used if it has one."""
         if value in self.known:
             return self.known[value]
         return self.define(self._own.get(value) or self.unique(type(value).__name__), value)
 
     def finished(self, name: str) -> Series:
-        """Both functions, without what nothing reads."""
+        """Return both functions, without lines that nothing reads."""
         products, known = list[Product](), -1
         while known < len(products):  # a sum that is read asks for its factors, and they for other sums
             known = len(products)
-            terms = _pruned([*self._terms, *_stores(products)])
+            terms = _prune_lines([*self._terms, *_stores(products)])
             read = {key_of(s) for _, line in terms for e in line.expressions for s in e.free_symbols}
             products = [product for product in self.products.values() if Place(SUMS)[product.name] in read]
         kept = tuple(sorted(x.member for x in read if isinstance(x, Place) and x.base == VALUES))
@@ -268,7 +282,7 @@ class _Series(Rules):
             ("values that higher orders read", Statement(Place(VALUES)[x], inverses.get(x, sp.Symbol(x, real=True))))
             for x in kept
         ]
-        values = _pruned([*self._values, *keeps])
+        values = _prune_lines([*self._values, *keeps])
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)
         later = _sections(late_last(terms, self.unique))
@@ -276,7 +290,7 @@ class _Series(Rules):
 
 
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
-    """Of both functions."""
+    """Return the arguments of both functions."""
     rates = (result("a"), result("power"))
     factors = (result(LEFT, "Wide"), result(RIGHT, "Wide"))
     order = tuple(Argument(symbol.name, access=Access.CONSTANT) for symbol in (ORDER, SHARE, NEXT))
@@ -286,9 +300,10 @@ def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
 
 
 def _stores(products: Sequence[Product]) -> list[Titled]:
-    """What the sums of higher orders read."""
+    """Return the lines that store the factors for the sums of higher orders."""
 
     def value(factor: Factor) -> sp.Expr:
+        """Return the coefficient of a factor; of a rate, times its order."""
         symbol = sp.Symbol(factor.name, real=True)
         return ORDER * symbol if factor.rate else symbol
 
@@ -300,12 +315,14 @@ def _stores(products: Sequence[Product]) -> list[Titled]:
     return lines
 
 
-def _pruned(lines: list[Titled]) -> list[Titled]:
+def _prune_lines(lines: list[Titled]) -> list[Titled]:
+    """Return the lines without locals that nothing reads."""
     left = {id(line) for line in without_unread([line for _, line in lines], set())}
     return [item for item in lines if id(item[1]) in left]
 
 
 def _sections(lines: Iterable[Titled]) -> tuple[Section, ...]:
+    """Return the titled lines grouped into sections."""
     sections: list[tuple[str, list[Line]]] = []
     for title, line in lines:
         if not sections or sections[-1][0] != title:

@@ -1,8 +1,8 @@
 """Order k of each operation on Taylor series, from order k of its operands and from sums over lower orders.
 
-A function c = f(u) satisfies a differential equation whose other coefficients are series that are known: sines have
-c' = u' cos u, a power a c' = n a' c, an inverse tangent (1 + u^2) c' = u'. Rates stand in sums as j u_j, so that what
-comes of them is k c_k.
+A function c = f(u) satisfies a differential equation whose other coefficients are known series: sines have
+c' = u' cos u, a power a c' = n a' c, an inverse tangent (1 + u^2) c' = u'. Rates stand in sums as j u_j, so that the
+results are k c_k.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ _HALF = sp.Rational(1, 2)
 
 
 class NoSeries(Exception):
-    """What of a function has no series, in words."""
+    """Raised with the reason, in words, why a function has no Taylor series."""
 
 
 @dataclass(frozen=True)
 class Factor:
-    """A local in a sum S_k: its coefficients or, of its rate, each times its order."""
+    """A local in a sum S_k: its coefficients or, for its rate, each coefficient times its order."""
 
     name: str
     rate: bool = False
@@ -46,7 +46,7 @@ class Product:
 
 @dataclass(frozen=True)
 class Gathered(Line):
-    """So many numbers become a row of an array of vectors at once: what then reads the row has not to wait."""
+    """A line that stores values as one row of an array of vectors, so that readers of the row need not wait."""
 
     array: str
     row: int
@@ -54,7 +54,7 @@ class Gathered(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """The numbers."""
+        """Return the values."""
         return self.values
 
 
@@ -62,31 +62,32 @@ Lowered = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both by 
 
 
 class Rules(ABC):
-    """Expressions of locals, some of which are `moving`: more than their order 0. `numbers` are those of the run."""
+    """Series of expressions of locals; locals in `moving` have orders above 0, `numbers` are parameters of the run."""
 
     def __init__(self, taken: set[str]) -> None:
+        """Begin with time as the only moving local; `taken`: names in use."""
         self.moving, self.numbers = {"t"}, set[str]()
         self.products: dict[tuple[Factor, Factor], Product] = {}
         self.known: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
-        self.later: list[tuple[str, sp.Expr]] = []  # to be defined behind what is being defined
+        self.later: list[tuple[str, sp.Expr]] = []  # to be defined after the current definition
         self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # c by what it is 1 over: products with c are quotients
         self.inverses: dict[str, sp.Symbol] = {}  # 1/b_0 by name
         self._taken = taken
 
     @abstractmethod
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
-        """A local; `moving`: one that may be fixed stands where series do."""
+        """Define a local and return its symbol; `moving`: as a series even if it is constant."""
 
     @abstractmethod
     def beside(self, value: sp.Expr) -> sp.Symbol:
-        """The name of another function of the same argument."""
+        """Return the symbol of another function of the same argument."""
 
     def is_fixed(self, value: sp.Basic) -> bool:
-        """Whether it is no more than its order 0."""
+        """Return whether a value has only order 0."""
         return not any(s.name in self.moving for s in value.free_symbols)
 
     def unique(self, name: str) -> str:
-        """A name that is free."""
+        """Return an unused name."""
         k = 1
         while f"{name}_{k}" in self._taken:
             k += 1
@@ -94,17 +95,17 @@ class Rules(ABC):
         return f"{name}_{k}"
 
     def atom(self, value: sp.Expr) -> sp.Symbol:
-        """A name for a value."""
+        """Return a symbol for a value, defined if necessary."""
         if value.is_Symbol:
             return value
         return self.known[value] if value in self.known else self.define(self.unique("part"), value)
 
     def series(self, value: sp.Expr) -> sp.Symbol:
-        """The same of what is fixed too: a series with nothing behind its order 0."""
+        """Return a symbol for a value as a series; a constant gets zeros at higher orders."""
         return self.define(self.unique("still"), value, True) if self.is_fixed(value) else self.atom(value)
 
     def lower(self, value: sp.Expr, whole: sp.Symbol | None = None) -> Lowered:
-        """A value by names; `whole` is its own, which a rule may read."""
+        """Return a value at orders 0 and k in names of locals; `whole` is its own symbol, which a rule may read."""
         if self.is_fixed(value):
             return value, sp.Integer(0)
         if value.is_Symbol:
@@ -120,7 +121,7 @@ class Rules(ABC):
         return self._power(value, whole) if value.is_Pow else self._function(value, whole)
 
     def _product(self, value: sp.Expr, whole: sp.Symbol | None) -> Lowered:
-        """Of what is fixed, and of two names or a quotient of names."""
+        """Return a product of a constant and of two names or a quotient of names, at orders 0 and k."""
         fixed = sp.Mul(*(x for x in sp.Mul.make_args(value) if self.is_fixed(x)))
         moving = [x for x in sp.Mul.make_args(value) if not self.is_fixed(x)]
         below = [x for x in moving if x.is_Pow and x.exp.is_number and x.exp.is_negative]
@@ -142,7 +143,7 @@ class Rules(ABC):
         return fixed * a * b, self.fixed(fixed) * (at(a) * b + at(b) * a + summed)
 
     def _parts(self, values: list[sp.Expr]) -> list[sp.Symbol]:
-        """At most two names whose product it is; or one sum as it is."""
+        """Return at most two names whose product is that of the values; or one sum as it is."""
         if len(values) == 1 and values[0].is_Add:
             return values
         parts: list[sp.Symbol] = []
@@ -157,10 +158,11 @@ class Rules(ABC):
         return parts
 
     def _one(self, parts: list[sp.Symbol]) -> sp.Symbol:
+        """Return one name for the product of some names."""
         return self.atom(sp.Mul(*parts))
 
     def _power(self, value: sp.Expr, whole: sp.Symbol) -> Lowered:
-        """c = a^n: a c' = n a' c; of a root a = c c; of 1/a as of a quotient."""
+        """Return c = a^n by a c' = n a' c; a root by a = c c; 1/a as a quotient."""
         if not self.is_fixed(value.exp):
             raise NoSeries("a power has an exponent that moves")
         a, n = self.atom(value.base), value.exp
@@ -178,6 +180,7 @@ class Rules(ABC):
         return a**value.exp, (n * a * at(whole) + (n * first - second) * SHARE) * self.inverse(a)
 
     def _function(self, value: sp.Expr, whole: sp.Symbol) -> Lowered:
+        """Return a function of series by its derivative. Raises NoSeries if that is unknown."""
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
             raise NoSeries(f"{type(value).__name__.lower()}() has corners, or its series is not known")
@@ -186,50 +189,50 @@ class Rules(ABC):
         return value.func(*u), term
 
     def fixed(self, value: sp.Expr) -> sp.Expr:
-        """What is fixed, as higher orders read it: numbers of the run, and locals of order 0."""
+        """Return a constant as higher orders read it: parameters of the run, and locals of order 0."""
         if value.free_symbols and not (value.is_Symbol or (-value).is_Symbol):
             value = self.atom(value)
         return value.xreplace({s: at(s) for s in value.free_symbols if s.name not in self.numbers})
 
     def quotient(self, a: sp.Expr, b: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-        """c = a/b: a_k = c_0 b_k + c_k b_0 + S_k."""
+        """Return order k of c = a/b: a_k = c_0 b_k + c_k b_0 + S_k."""
         return (a - at(whole) * b - self.sum(Factor(whole.name), Factor(b.name))) * self.inverse(b)
 
     def inverse(self, b: sp.Symbol) -> sp.Expr:
-        """1/b_0, a number: kept once."""
+        """Return the stored number 1/b_0."""
         name = f"{b.name}_inverse"
         self.inverses[name] = b
         return PlaceSymbol(Place(VALUES)[name])
 
     def by_rate(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
-        """c with c' = u' w."""
+        """Return order k of c with c' = u' w."""
         return u * at(w) + self.sum(Factor(u.name, True), Factor(w.name)) * SHARE
 
     def over(self, u: sp.Expr, w: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-        """c with w c' = u'."""
+        """Return order k of c with w c' = u'."""
         return (u - self.sum(Factor(w.name), Factor(whole.name, True)) * SHARE) * self.inverse(w)
 
     def sum(self, left: Factor, right: Factor) -> sp.Symbol:
-        """S_k of a product."""
+        """Return the symbol of the sum S_k of a product."""
         pair = (left, right) if (left.name, left.rate) <= (right.name, right.rate) else (right, left)
         words = "__".join(f"{x.name}{'_rate' * x.rate}" for x in pair)
         product = self.products.setdefault(pair, Product(words, *pair))
         return PlaceSymbol(Place(SUMS)[product.name])
 
     def square(self, whole: sp.Symbol) -> sp.Symbol:
-        """Of what is being defined: it is defined right behind."""
+        """Return a symbol for the square of the value that is being defined; it is defined right after."""
         name = self.unique("square")
         self.later.append((name, whole**2))
         return sp.Symbol(name, real=True)
 
 
 def at(symbol: sp.Symbol) -> sp.Symbol:
-    """Order 0 of a local."""
+    """Return the symbol of order 0 of a local."""
     return PlaceSymbol(Place(VALUES)[symbol.name])
 
 
 def _arc(rules: Rules, y: sp.Symbol, x: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-    """The angle c of (x, y): (x^2 + y^2) c' = x y' - y x'."""
+    """Return order k of the angle c of (x, y): (x^2 + y^2) c' = x y' - y x'."""
     r = rules.atom(x**2 + y**2)
     one = rules.sum(Factor(x.name), Factor(y.name, True))
     other = rules.sum(Factor(y.name), Factor(x.name, True))
@@ -237,7 +240,10 @@ def _arc(rules: Rules, y: sp.Symbol, x: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
 
 
 def _by_derivative(rules: Rules, derivative: str, u: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
-    """c = f(u) by its derivative n/w, n a number: w c' = n u'; or by a sum of terms, c' = u' w for each."""
+    """Return order k of c = f(u) by its derivative n/w, n a number: w c' = n u'.
+
+    A derivative that is a sum of terms gives c' = u' w for each.
+    """
     above, below = sp.fraction(derivative_at(derivative, u, whole))
     if below != 1:
         return rules.over(above * u, below if below.is_Symbol else rules.atom(below), whole)

@@ -13,7 +13,7 @@ from gudgeon.generator.symbols.storage import Place
 
 
 class Number(Enum):
-    """Types of numbers."""
+    """Types of numbers in the arguments of functions."""
 
     REAL = auto()
     INTEGER = auto()
@@ -24,7 +24,7 @@ Type: TypeAlias = Number | str  # str: the name of a struct
 
 
 class Access(Enum):
-    """How a function has an argument."""
+    """How a function accesses an argument."""
 
     VALUE = auto()
     CONSTANT = auto()  # a value that is declared never to change
@@ -34,13 +34,14 @@ class Access(Enum):
 
 @dataclass(frozen=True)
 class Argument:
-    """An argument of a kernel; an array by the type of its elements."""
+    """An argument of a kernel; for an array, `type` is that of its elements."""
 
     name: str
     type: Type = Number.REAL
     access: Access = Access.VALUE
 
     def __getitem__(self, step: str | int) -> Place:
+        """Return the place of an element or field of the argument."""
         return Place(self.name)[step]
 
 

@@ -1,8 +1,8 @@
-"""Sines and cosines side by side: the pairs of a kernel are computed four at a time (trigonometry.c).
+"""Cosines and sines in vectors: the pairs of a kernel are computed four at a time (trigonometry.c).
 
 Library calls for each pair cost more than half of a small right-hand side. Four angles in one vector take hardly
-longer than one; a last incomplete group repeats its last angle. A single pair takes a twentieth of the time of a
-small run longer than the library's, and is put into a vector all the same: runs side by side then have it too.
+longer than one; an incomplete last group repeats its last angle. A single pair takes a twentieth of the time of a
+small run longer than the library's, and is put into a vector all the same, so that lanes use the same function.
 """
 
 from __future__ import annotations
@@ -22,17 +22,20 @@ Written = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[L
 
 
 def side_by_side(kernel: Kernel) -> Kernel:
-    """The kernel with the cosines and sines of symbols taken from vectors, as soon as their angles are known."""
+    """Return the kernel with cosines and sines computed in vectors, as soon as their angles are known."""
     return _paired(kernel, _vectors)
 
 
 def lane_by_lane(kernel: Kernel) -> Kernel:
-    """The same angles, each already a vector of as many runs (lanes.h): the same functions, so the same bits."""
+    """Return the kernel with cosines and sines of angles that are vectors of several runs (lanes.h).
+
+    The same functions are used, so that the bits are the same.
+    """
     return _paired(kernel, _lanes)
 
 
 def _paired(kernel: Kernel, written: Written) -> Kernel:
-    """Section by section: a cosine or sine that a section before has is read there, numbers of groups go on."""
+    """Return the kernel with grouped cosines and sines, section by section; known ones are not computed again."""
     known: dict[sp.Expr, sp.Symbol] = {}
     sections: list[Section] = []
     first = 0  # groups, or angles, so far
@@ -47,17 +50,21 @@ def _paired(kernel: Kernel, written: Written) -> Kernel:
 
 
 def _known(line: Line, known: Mapping[sp.Expr, sp.Symbol]) -> Line:
+    """Return a line that reads a cosine or sine of an earlier section instead of computing it."""
     return changed(line, lambda value: known.get(value, value))
 
 
 def _angle(statement: Line) -> sp.Symbol | None:
-    """The symbol whose cosine or sine a statement is."""
+    """Return the symbol whose cosine or sine a statement computes; None for other statements."""
     value = statement.value if isinstance(statement, Statement) else None
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
 
 
 def _grouped(section: Section, written: Written, before: int) -> tuple[Section, int]:
-    """First what the angles need, then these as they are `written`, then the rest; how many are numbered then."""
+    """Return a section with what the angles need first, then the grouped functions, then the rest.
+
+    The number of groups so far is `before`, and is returned increased.
+    """
     statements = [s for s in section.statements if isinstance(s, Statement) and isinstance(s.value, sp.Basic)]
     if len(statements) < len(section.statements):
         return section, before
@@ -81,7 +88,10 @@ def _grouped(section: Section, written: Written, before: int) -> tuple[Section, 
 
 
 def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int) -> tuple[list[Line], int]:
-    """Groups of four angles, and the statements that read the results; many groups in a loop, which is shorter."""
+    """Return the lines for groups of four angles, and the statements that read the results.
+
+    More than MANY groups are computed in a loop, which is shorter.
+    """
     named = [*angles, *[angles[-1]] * (-len(angles) % 4)]
     count = len(named) // 4
     many, of = count > MANY, f"of_{before}" if before else "of"
@@ -99,7 +109,7 @@ def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: in
 
 
 def _lanes(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int) -> tuple[list[Line], int]:
-    """One call an angle, and the statements that read the results."""
+    """Return one call for each angle, and the statements that read the results."""
     place = {angle: k for k, angle in enumerate(angles, before)}
     lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in place.items()]
     for s in taken:

@@ -1,18 +1,16 @@
-"""A long function cut into parts that a compiler gets through.
+"""Division of a long function into parts that a compiler can handle.
 
 Compilers allocate registers for a function as a whole, in more than linear time: the dynamics of 64 four-bars as one
 function of ten thousand statements would take gcc a minute. So a kernel longer than LONG becomes several of PART
-statements, called one after the other; what one computes and another reads passes through an array, each number by
-its name at both ends. Shorter kernels, that is all but long chains, stay as they are.
-
-Cut are runs of plain statements and of tests of pivots. What declares, calls or jumps stays in the function itself, and
-so does what reads names that only such lines know.
-
-Before that, statements are put near what reads them (`nearby`). As derived, a kernel first computes all directions and
-arms, then all pivots, then all substitutions: in a long one each value is out of the registers and of the nearest cache
-before it is read. Here what is asked for (tests of pivots, results) pulls what it needs just before itself, and what
-can be computed from the values at hand is computed then. Each statement stays as it is and comes behind what it reads:
-the numbers are the same, bit for bit.
+statements, called one after the other. A value that one part computes and another reads is passed through an array,
+under the same name in both. Shorter kernels, that is all except long chains, stay as they are.
+Runs of plain statements and of tests of pivots are divided. Lines that declare, call or jump stay in the function
+itself, and so do lines that read names which only such lines know.
+Before that, statements are moved near those that read them (`nearby`). As derived, a kernel first computes all
+directions and arms, then all pivots, then all substitutions: in a long one each value has left the registers and the
+nearest cache before it is read. Here a result or a test of a pivot is preceded by what it needs, and what can be
+computed from the values at hand is computed then. Each statement stays as it is and follows what it reads: the numbers
+are the same, bit for bit.
 """
 
 from __future__ import annotations
@@ -28,7 +26,10 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def nearby(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]:
-    """The order of statements: the k-th reads the names `reads[k]` and defines `defines[k]` ("": a result, a test)."""
+    """Return an order of statements in which each is near those that read it.
+
+    Statement k reads the names `reads[k]` and defines `defines[k]` ("": a result or a test).
+    """
     home = {name: k for k, name in enumerate(defines) if name}
     needs = [{home[name] for name in names if name in home} - {k} for k, names in enumerate(reads)]
     readers: list[list[int]] = [[] for _ in reads]
@@ -40,6 +41,7 @@ def nearby(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]
     placed = [False] * len(reads)
 
     def place(first: int) -> None:
+        """Append a statement and those that can be computed after it."""
         ready = [first]
         while ready:
             k = ready.pop()
@@ -80,12 +82,12 @@ class Item:
 
     @property
     def defines(self) -> str:
-        """The local that it declares, or ""."""
+        """Return the local that the line declares, or ""."""
         return self.what.defines
 
 
 def cut(kernel: Kernel) -> tuple[Kernel, ...]:
-    """The parts in front of the function that calls them; a short kernel is its only part."""
+    """Return the parts of a long kernel and the function that calls them; a short kernel is its only part."""
     if sum(len(section.statements) for section in kernel.sections) <= LONG:
         return (kernel,)
     items, sources = _items(kernel)
@@ -118,7 +120,10 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
 
 
 def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
-    """Everything in its order but for the sources, by name: what reads an argument is read again where it is needed."""
+    """Return all lines in order except sources, and the sources by name.
+
+    A source copies an argument to a local; each part reads the argument again where it needs it.
+    """
     listed = [(section.title, what) for section in kernel.sections for what in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
     constant |= set(_arrays(kernel))
@@ -139,23 +144,23 @@ def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
 
 
 def _is_plain(what: Line) -> bool:
-    """A statement, or a test that fails with its number: both may stand in a part."""
+    """Return whether a line is a statement or a test of a pivot, which may stand in a part."""
     return isinstance(what, (Statement, Guard))
 
 
 def _source_of(what: Line) -> str:
-    """The argument or array that a local is a copy from; "" where it is none."""
+    """Return the argument or array that a local is a copy of; "" if it is not one."""
     return what.value.base if isinstance(what, Statement) and what.defines and isinstance(what.value, Place) else ""
 
 
 def _arrays(kernel: Kernel) -> dict[str, str]:
-    """Arrays of results that the function fills before its parts read them, with their type."""
+    """Return the arrays of cosines and sines that the function fills before its parts read them, with their type."""
     lines = [what for section in kernel.sections for what in section.statements]
     return {name: "Four" for what in lines if isinstance(what, Sines) and what.count for name in what.arrays}
 
 
 def _pieces(items: Sequence[Item]) -> list[list[Item]]:
-    """Runs of what may move, each cut into equal shares of at most PART; what stays, as it stands."""
+    """Return runs of movable lines, each divided into equal pieces of at most PART, and other lines as they stand."""
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
         run = _near(list(group))
@@ -169,11 +174,12 @@ def _pieces(items: Sequence[Item]) -> list[list[Item]]:
 
 
 def _is_part(piece: Sequence[Item]) -> bool:
+    """Return whether a piece becomes a function of its own."""
     return piece[0].movable
 
 
 def _slots(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
-    """A place for every local that one piece computes and another reads, in the order in which they are computed."""
+    """Return an index for every local that one piece computes and another reads, in the order of computation."""
     home = {item.defines: k for k, piece in enumerate(pieces) for item in piece if item.defines}
     crossing = {
         name
@@ -186,6 +192,7 @@ def _slots(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
 
 
 def _unused_name(name: str, items: Sequence[Item]) -> str:
+    """Return the name with underscores appended until no line uses it."""
     taken = {n for item in items for n in (*item.reads, item.defines)}
     while name in taken:
         name += "_"
@@ -193,7 +200,7 @@ def _unused_name(name: str, items: Sequence[Item]) -> str:
 
 
 def _near(run: list[Item]) -> list[Item]:
-    """In the order of locality.py, unless something reads what is no local."""
+    """Return lines in the order of `nearby`, unless one reads an array that another writes."""
     written = frozenset().union(*(item.what.writes for item in run))
     if any(written & item.what.reads for item in run):
         return run
@@ -201,13 +208,15 @@ def _near(run: list[Item]) -> list[Item]:
 
 
 def _load(name: str, place: Place) -> Item:
-    return Item("what comes back", Statement(name, place), place.names, False)
+    """Return the line that reads a local back from its place."""
+    return Item("values from the part", Statement(name, place), place.names, False)
 
 
 def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
-    """The function itself with the sources that it reads: arguments first of all, arrays behind what fills them.
+    """Return the lines of the calling function with the sources that it reads inserted.
 
-    Not where they are read: that may be in a block, or behind a label.
+    Arguments are read first of all, arrays after the line that fills them. The reading line itself may be in a block or
+    after a label.
     """
     needed = [item for name, item in sources.items() if any(name in other.reads for other in main)]
     filled = {name for item in main for name in _filled(item.what)}
@@ -219,13 +228,13 @@ def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
 
 
 def _filled(what: Line) -> set[str]:
-    """The arrays of sines that a line fills in a loop."""
+    """Return the arrays of cosines and sines that a line fills in a loop."""
     return set(what.arrays) if isinstance(what, Sines) and what.count else set()
 
 
 @dataclass(frozen=True)
 class _Cut:
-    """A kernel with the arguments of its parts, and what passes between them: places in `passed`, sources."""
+    """A kernel with the arguments of its parts, the places of passed values, and the sources."""
 
     kernel: Kernel
     slots: dict[str, int]
@@ -233,16 +242,16 @@ class _Cut:
     sources: dict[str, Item]
 
     def store(self, name: str) -> Item:
-        """For a part."""
+        """Return the line of a part that stores a local for others."""
         statement = Statement(Place(self.passed)[self.slots[name]], Place(name))
-        return Item("what the next part reads", statement, frozenset({name}), False)
+        return Item("values for later parts", statement, frozenset({name}), False)
 
     def load(self, name: str) -> Item:
-        """Of a part before."""
+        """Return the line that reads a local of an earlier part."""
         return _load(name, Place(self.passed)[self.slots[name]])
 
     def part(self, name: str, piece: list[Item]) -> Kernel:
-        """One part: what it reads of others, its own statements, what others read of it."""
+        """Return one part as a function: values of other parts, its own lines, values for other parts."""
         own = {item.defines for item in piece}
         tested = any(isinstance(item.what, Guard) for item in piece)
         within: list[Item] = []
@@ -268,7 +277,7 @@ class _Cut:
         )
 
     def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
-        """The call, what the function itself reads of the part, and what is done where a test failed."""
+        """Return the lines that call a part, read its values and end the function if a test failed."""
         arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
         call = Call(name, arguments, (Place(self.passed),))
         tests = [item.what for item in piece if isinstance(item.what, Guard)]
@@ -283,10 +292,11 @@ class _Cut:
         return [
             *(Item(title, line, frozenset(), False) for line in lines),
             *loads,
-            *(Item("what comes back", line, frozenset(), False) for line in after),
+            *(Item("values from the part", line, frozenset(), False) for line in after),
         ]
 
 
 def _sections(items: Sequence[Item]) -> tuple[Section, ...]:
+    """Return lines grouped into sections by their titles."""
     grouped = ((title, tuple(item.what for item in group)) for title, group in groupby(items, key=lambda i: i.title))
     return tuple(Section(title, statements) for title, statements in grouped)

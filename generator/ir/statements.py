@@ -1,4 +1,4 @@
-"""What functions are made of: lines that know what they read, write and declare, in no language yet."""
+"""Lines of functions in no particular language, which know what they read, write and declare."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 
 @dataclass(frozen=True)
 class Line:
-    """Any of them: expressions and other names that it reads, arrays that it writes, the local that it declares."""
+    """A line of a function: expressions and names that it reads, arrays that it writes, the local that it declares."""
 
     writes: ClassVar[Names] = NONE
     defines: ClassVar[str] = ""
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Everything of SymPy in it that is read."""
+        """Return all SymPy expressions that are read."""
         return ()
 
     @property
     def names(self) -> Names:
-        """What else is read."""
+        """Return all other names that are read."""
         return NONE
 
     @cached_property
     def reads(self) -> Names:
-        """All names that are read."""
+        """Return all names that are read."""
         return self.names.union(*map(names_in, self.expressions))
 
 
 @dataclass(frozen=True)
 class Statement(Line):
-    """`target = value`; a target that is no place is a local, which is declared there."""
+    """An assignment `target = value`; a target that is a string is a local, which is declared here."""
 
     target: Key
     value: Value
@@ -46,28 +46,28 @@ class Statement(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Of the value."""
+        """Return the expressions in the value."""
         return (self.value,) if isinstance(self.value, sp.Basic) else self.value.expressions
 
     @property
     def names(self) -> Names:
-        """Of the value."""
+        """Return the other names in the value."""
         return NONE if isinstance(self.value, sp.Basic) else self.value.names
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """The array or argument that is stored to."""
+        """Return the array or argument that is stored to."""
         return self.target.names if isinstance(self.target, Place) else NONE
 
     @property
     def defines(self) -> str:  # type: ignore[override]
-        """The local."""
+        """Return the local that is declared, or ""."""
         return self.target if isinstance(self.target, str) else ""
 
 
 @dataclass(frozen=True)
 class Declare(Line):
-    """An array of a function's own."""
+    """The declaration of a local array."""
 
     type: Type
     name: str
@@ -75,13 +75,13 @@ class Declare(Line):
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """Nobody has it from elsewhere."""
+        """Return the array, which no other function sees."""
         return frozenset([self.name])
 
 
 @dataclass(frozen=True)
 class Call(Line):
-    """`function(given, …, results, …)`; structs are handed over by their address."""
+    """A call `function(given, …, results, …)`; structs are passed by their address."""
 
     function: str
     given: tuple[sp.Basic | Place, ...]
@@ -89,25 +89,27 @@ class Call(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Those that are given."""
+        """Return the expressions that are passed."""
         return tuple(x for x in self.given if isinstance(x, sp.Basic))
 
     @property
     def names(self) -> Names:
-        """Places that are given."""
+        """Return the arguments and arrays that are passed."""
         return frozenset(x.base for x in self.given if isinstance(x, Place))
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """What is filled."""
+        """Return the arguments and arrays that the call fills."""
         return frozenset(place.base for place in self.results)
 
 
 @dataclass(frozen=True)
 class Guard(Line):
-    """Fails with a number unless the test holds, or a call returns 0; `only`: asked only where this holds.
+    """A test, or a call that must return 0; if it fails, the function fails with a number.
 
-    To fail is to return the number, or to note it as `pivot` and to jump to what deals with dependent rows.
+    To fail is to return the number, or to store it as `pivot` and to jump to the code for dependent equations. With
+    `only`
+    the test is made only where that holds.
     """
 
     test: Test | Call
@@ -117,54 +119,54 @@ class Guard(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Of the tests."""
+        """Return the expressions in the tests."""
         return (*self.test.expressions, *(self.only.expressions if self.only else ()))
 
     @property
     def names(self) -> Names:
-        """Of a call."""
+        """Return the names in the test or call."""
         return self.test.names | (self.test.writes if isinstance(self.test, Call) else NONE)
 
 
 @dataclass(frozen=True)
 class When(Line):
-    """A statement that is made where a test holds."""
+    """A statement that is executed only if a test holds."""
 
     test: Test
     statement: Statement
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Of both."""
+        """Return the expressions in the test and in the statement."""
         return (*self.test.expressions, *self.statement.expressions)
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """Of the statement."""
+        """Return what the statement writes."""
         return self.statement.writes
 
 
 @dataclass(frozen=True)
 class Passed(Line):
-    """The status of a part of the function goes to a local, or to `pivot`."""
+    """The call of a part of the function, whose status is assigned to a local or to `pivot`."""
 
     call: Call
     status: str
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Of the call."""
+        """Return the expressions that are passed."""
         return self.call.expressions
 
     @property
     def names(self) -> Names:
-        """Of the call."""
+        """Return the names that the call reads and writes."""
         return self.call.names | self.call.writes
 
 
 @dataclass(frozen=True)
 class Ended(Line):
-    """Where the status of a part is not 0 this function ends as well."""
+    """The end of this function if the status of a part is not 0."""
 
     status: str
     jumps: bool
@@ -172,112 +174,115 @@ class Ended(Line):
 
 @dataclass(frozen=True)
 class Return(Line):
-    """With the status: 0, or the pivot that vanished."""
+    """The return with the status: 0, or the number of the pivot that vanished."""
 
     pivot: bool = False
 
 
 @dataclass(frozen=True)
 class Status(Line):
-    """No pivot has vanished yet."""
+    """The declaration of the status: no pivot has vanished yet."""
 
 
 @dataclass(frozen=True)
 class Jump(Line):
-    """Over what deals with dependent rows, to the powers."""
+    """The jump to the powers, over the code for dependent equations."""
 
 
 @dataclass(frozen=True)
 class Rescue(Line):
-    """Where a pivot vanished: solved by the rows' own rank; with no forces given, by the absolute formulation."""
+    """The code for a vanished pivot, which finds the dependent equations.
+
+    It solves by the rank of the equations or, without forces, in absolute coordinates.
+    """
 
     force: tuple[sp.Basic, ...] = ()
     rhs: tuple[sp.Basic, ...] = ()
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Forces and right-hand sides."""
+        """Return the forces and right-hand sides."""
         return (*self.force, *self.rhs)
 
     @property
     def names(self) -> Names:
-        """What the solution is told."""
+        """Return the arguments that the solution reads."""
         own = () if self.force else ("v",)
         return frozenset(["t", "q", "discrete", PARAMETERS, "a", "rhs", *own])
 
 
 @dataclass(frozen=True)
 class Largest(Line):
-    """The largest magnitude of some values; NaN counts as nothing. No corner of the motion."""
+    """The largest magnitude of some values, ignoring NaN; it is not a switching point of the motion."""
 
     target: str
     values: tuple[sp.Basic, ...]
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """The values."""
+        """Return the values."""
         return self.values
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """The result."""
+        """Return the name of the result."""
         return frozenset([self.target])
 
 
 @dataclass(frozen=True)
 class LargestRow(Line):
-    """The number, from 1, of the value with the largest magnitude, in `row`."""
+    """The number, from 1, of the value with the largest magnitude, stored in `row`."""
 
     values: tuple[sp.Basic, ...]
     writes: ClassVar[Names] = frozenset(["row"])
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """The values."""
+        """Return the values."""
         return self.values
 
 
 @dataclass(frozen=True)
 class Unread(Line):
-    """A local that is told for its own sake."""
+    """A mark that a local is deliberately not read."""
 
     name: str
 
     @property
     def names(self) -> Names:
-        """It."""
+        """Return the local."""
         return frozenset([self.name])
 
 
 @dataclass(frozen=True)
 class Branches(Line):
-    """Which sides of corners are held (or none), and where they are told: "" nowhere, "nobody", "rhs"."""
+    """The declaration of held branches, and of where switching functions are written: "" nowhere, "nobody", "rhs"."""
 
     told: str
     held: bool = True
 
     @property
     def names(self) -> Names:
-        """Where sides are held, and told."""
+        """Return the names that the declaration reads."""
         told = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.told]
         return frozenset(["branch", *told, *(["discrete"] if self.held else [])])
 
 
 @dataclass(frozen=True)
 class RunNumbers(Line):
-    """p, read from the linearization."""
+    """The declaration of p, read from the linearization."""
 
     writes: ClassVar[Names] = frozenset([PARAMETERS])
 
     @property
     def names(self) -> Names:
-        """Where it is."""
+        """Return the name of the linearization."""
         return frozenset(["lin"])
 
 
 @dataclass(frozen=True)
 class Sines(Line):
-    """Cosines and sines of angles: a vector of four, with `count` so many of them in a loop, or one of each run."""
+    """Cosines and sines of angles: a vector of four, `count` vectors in a loop, or one angle of each lane."""
 
     angles: tuple[sp.Symbol, ...]
     suffix: str
@@ -286,15 +291,15 @@ class Sines(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """The angles."""
+        """Return the angles."""
         return self.angles
 
     @property
     def arrays(self) -> tuple[str, str]:
-        """What is filled."""
+        """Return the names of the arrays of sines and cosines."""
         return f"sines_{self.suffix}", f"cosines_{self.suffix}"
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """The vectors."""
+        """Return the names of the vectors."""
         return frozenset([f"angles_{self.suffix}", *self.arrays])

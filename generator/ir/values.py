@@ -1,6 +1,6 @@
-"""Values that statements assign: SymPy expressions, and the few forms that SymPy has no word for.
+"""Values that statements assign: SymPy expressions, and the few forms that SymPy does not have.
 
-Names are those of locals and arguments; a symbol may also stand for a place, and then reads the argument that leads to
+Names are those of locals and arguments; a symbol may also stand for a place, and then reads the argument that contains
 it.
 """
 
@@ -22,19 +22,19 @@ NONE: Names = frozenset()
 
 @lru_cache(20_000)
 def names_in(value: sp.Basic) -> Names:
-    """What an expression reads: locals, bases of places; of a side what holds it and is told it."""
+    """Return the names that an expression reads: locals and arguments; for a branch also `branch` and `g`."""
     names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in symbols_of(value))
     return names | ({"branch", "g"} if value.has(BranchOf) else NONE)
 
 
 class Threshold(float):
-    """A number of a bound with the name under which every target writes it; C may read it from a `place` instead."""
+    """A number in a bound with the name under which every target writes it; C may read it from a `place` instead."""
 
     name: str
     place: Place | None
 
     def __new__(cls, name: str, value: float, place: Place | None = None) -> Threshold:
-        """Of that value."""
+        """Return the threshold of a value."""
         own = super().__new__(cls, value)
         own.name, own.place = name, place
         return own
@@ -42,7 +42,7 @@ class Threshold(float):
 
 @dataclass(frozen=True)
 class Test:
-    """`value relation bound`, the bound a product, or a flag alone; `size`: of the value's magnitude."""
+    """A comparison `value relation bound`, the bound a product, or a flag alone; `size`: of the value's magnitude."""
 
     value: sp.Basic
     relation: str = ""  # ">", "!=", "=="; of ">" NaN fails
@@ -51,19 +51,19 @@ class Test:
 
     @property
     def names(self) -> Names:
-        """Where thresholds are read: not of a share of the value itself."""
+        """Return the arguments from which thresholds are read; none if the bound is a fraction of the value itself."""
         if self.of_itself:
             return NONE
         return frozenset(x.place.base for x in self.bound if isinstance(x, Threshold) and x.place)
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """On both sides."""
+        """Return the expressions on both sides."""
         return (self.value, *(x for x in self.bound if isinstance(x, sp.Basic)))
 
     @property
     def of_itself(self) -> bool:
-        """Whether the bound is a share of the value itself: what is asked is whether it is above zero, and finite."""
+        """Return whether the bound is a fraction of the value itself: the test is value > 0 and finite."""
         if self.relation != ">" or len(self.bound) != 2 or not isinstance(self.bound[0], float):
             return False
         return 0 < self.bound[0] < 1 and self.bound[1] == (Size(self.value) if self.size else self.value)
@@ -71,7 +71,7 @@ class Test:
 
 @dataclass(frozen=True)
 class Chosen:
-    """`then` where the test holds, else `otherwise`."""
+    """A conditional value: `then` if the test holds, else `otherwise`."""
 
     test: Test
     then: sp.Basic
@@ -80,26 +80,26 @@ class Chosen:
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """All of them."""
+        """Return the expressions in the test and in both values."""
         return (*self.test.expressions, self.then, self.otherwise)
 
 
 @dataclass(frozen=True)
 class Sum:
-    """Of places, in their order."""
+    """A sum of places, in their order."""
 
     places: tuple[Place, ...]
     expressions: ClassVar[tuple[sp.Basic, ...]] = ()
 
     @property
     def names(self) -> Names:
-        """Their bases."""
+        """Return the arguments in which the places are."""
         return frozenset(place.base for place in self.places)
 
 
 @dataclass(frozen=True)
 class Given:
-    """Slot k as it is given, or else its default."""
+    """Parameter k as it is given, or else its default."""
 
     k: int
     default: sp.Expr
@@ -107,7 +107,7 @@ class Given:
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """The default."""
+        """Return the default."""
         return (self.default,)
 
 

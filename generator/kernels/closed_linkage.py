@@ -18,7 +18,7 @@ from gudgeon.generator.symbols.storage import Place
 def prepare_kernel(model: Model) -> Kernel:
     """Return the C function that fills the parameter table of a run.
 
-    Given values replace the defaults of the file; then the derived parameters are computed from them.
+    Values that are given replace the defaults of the file; then the derived parameters are computed from them.
     """
     slots: list[Statement] = []
     info = model.symbols.info
@@ -32,7 +32,7 @@ def prepare_kernel(model: Model) -> Kernel:
         derived.append(Statement(model.slots.place(symbol), symbol))
     return Kernel(
         "prepare",
-        ("Every number of a run: slots given or by default, then what follows from them.",),
+        ("Fill all parameters of a run: given values or defaults, then derived parameters.",),
         (source("given"), source("is_given", Number.BYTE), result(PARAMETERS.name, PARAMETERS.type)),
         (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
     )
@@ -40,7 +40,9 @@ def prepare_kernel(model: Model) -> Kernel:
 
 def mass_kernel(model: Model) -> Kernel:
     """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates."""
-    build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
+    build = KernelBuilder(
+        model.symbols, "mass_matrix", ["The diagonal of the mass matrix M (n) in absolute coordinates."]
+    )
     build.section("M")
     for k, mass in enumerate(model.masses):
         build.out(Place("m")[k], mass)
@@ -58,21 +60,48 @@ def row_kernels(model: Model) -> list[Kernel]:
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):
-            build.out(Place(out)[r], value(row), f"{row.name}, {row.unit}{per}")
+            build.out(Place(out)[r], value(row), f"{row.name}, {row.unit}{per}{_absence(model, row)}")
         arguments = (*STATE, PARAMETERS, result(out))
         return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
+    which = " Rows marked 'open' or 'redundant' do not constrain the motion."
+    which *= any(_absence(model, row) for row in model.all_rows)
     return [
-        kernel("constraints", "Phi(q, t) of the closed linkage; m and rad.", "phi", False, lambda row: row.phi),
+        kernel("constraints", f"Phi(q, t) of the closed linkage; m and rad.{which}", "phi", False, lambda row: row.phi),
         _jacobian_kernel(model),
-        kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu, "/s"),
-        kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma, "/s^2"),
+        kernel(
+            "velocity_rhs",
+            "Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.",
+            "nu",
+            False,
+            lambda row: row.nu,
+            "/s",
+        ),
+        kernel(
+            "acceleration_rhs",
+            "Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.",
+            "gamma_rows",
+            True,
+            lambda row: row.gamma,
+            "/s^2",
+        ),
     ]
+
+
+def _absence(model: Model, row: Row) -> str:
+    """Return why an equation does not constrain the motion, for its comment; "" if it does."""
+    if row.owner in model.scene.play:
+        return f"; open: {row.owner} has play in this scene"
+    return "; redundant, left out" if row.name in model.redundancy.dropped else ""
 
 
 def _jacobian_kernel(model: Model) -> Kernel:
     """Return the C function of the dense constraint Jacobian Φ_q of the closed linkage, without zero entries."""
-    build = KernelBuilder(model.symbols, "jacobian", ["Phi_q of the closed linkage, dense, row by row; zeros kept."])
+    build = KernelBuilder(
+        model.symbols,
+        "jacobian",
+        ["The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written."],
+    )
     build.section("non-zeros")
     place = {q: k for k, q in enumerate(model.q)}
     for r, row in enumerate(model.all_rows):
@@ -86,7 +115,11 @@ def start_kernel(model: Model) -> Kernel:
 
     Those of journals follow the set values and rates of coordinates.
     """
-    build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
+    build = KernelBuilder(
+        model.symbols,
+        "start_values",
+        ["Values of the file's start: guesses, set values, then rates; those of journals follow."],
+    )
     build.section("start")
     for key, group in start_values(model).items():
         for k, (quantity, sign) in enumerate(group):

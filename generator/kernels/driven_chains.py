@@ -69,7 +69,7 @@ class ChainKernels:
             self.symbols,
             DIRECTIONS,
             [
-                "Cosines and sines of all angles in the chains' closures, behind the coordinates in q.",
+                "Cosines and sines of all angles in the closures of dependent loops, stored in q after coordinates.",
             ],
         )
         build.section("directions")
@@ -92,8 +92,7 @@ class ChainKernels:
             self.symbols,
             STEP,
             [
-                "Newton's step of the driven chains' coordinates, Phi_c newton = Phi, and with it Chebyshev's of order "
-                "3,",
+                "Newton's step of the dependent coordinates, Phi_c newton = Phi, and Chebyshev's step of order 3,",
                 "step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row "
                 "with",
                 "the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
@@ -107,7 +106,7 @@ class ChainKernels:
         solvers = self.square.factorize(build)
         build.section("Newton's step")
         newton = self.square.solve(build, solvers, phi, "newton")
-        build.section("what the rows' curvature adds")
+        build.section("correction by the curvature of the constraints")
         bend = self.square.solve(build, solvers, [self._curvature(row, newton) / 2 for row in self.chain.rows], "bend")
         for k, (x, more) in enumerate(zip(newton, bend, strict=True)):
             build.out(Place("step")[k], x + more)
@@ -128,9 +127,9 @@ class ChainKernels:
             self.symbols,
             RATES,
             [
-                "First and second rates of the driven chains' coordinates, where these close their loops: "
+                "First and second rates of the dependent coordinates at positions that close their loops: "
                 "Phi_c c' = nu,",
-                "Phi_c c'' = gamma. They go behind those of the other coordinates in v.",
+                "Phi_c c'' = gamma. They are stored after those of the other coordinates in v.",
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
@@ -157,7 +156,7 @@ class ChainKernels:
             self.symbols,
             THIRD,
             [
-                "Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.",
+                "Third rates of the dependent coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.",
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
@@ -198,7 +197,7 @@ class ChainKernels:
 
         No other function evaluates these.
         """
-        build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of what drives the chains."])
+        build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."])
         build.section("corners")
         for side in dict.fromkeys(sides):
             name = f"side_{side.args[0]}"

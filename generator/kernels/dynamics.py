@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
@@ -21,11 +22,12 @@ from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 _DOC = (
-    "Accelerations a (n) and multipliers in `rhs` at a state:",
+    "Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
-    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+    "Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.",
 )
-# What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
+_MAX_PIVOTS = 60  # listed in the comment
+# Appends what solves the system where a pivot vanishes, from generalized forces and right-hand sides by node.
 OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
 
@@ -43,24 +45,24 @@ def dynamics_kernel(
     Without `stabilised` the right-hand sides are γ alone and Φ, Φ̇ are not computed: for methods that project.
     """
     model = system.model
-    build = KernelBuilder(model.symbols, name, doc)
+    build = KernelBuilder(model.symbols, name, (*doc, *elimination_lines(kkt)))
     if kkt.rows and not model.rows_change:
         build.section("status")
         build.line(Status())
-    _events(model, build)
+    _append_events(model, build)
     loads = [load for element in model.elements.values() for load in element.on_points()]
     for index, clearance in enumerate(model.clearances):
-        loads += _clearance_call(build, index, clearance)
+        loads += _append_clearance_call(build, index, clearance)
     if model.clearances and not stabilised:
-        build.section("without a (NULL) joints with play alone are asked for")
+        build.section("if a is NULL, only the joints with play are evaluated")
         build.line(JointsAlone())
     acting, on_given = system.generalized(loads)
     forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
-    slips = _slips(model, build, kkt, forces)
+    slips = _append_slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
-    # where constraints come and go a vanishing pivot is told, not mended
+    # with changing constraints a vanishing pivot is reported, not handled
     factor = kkt.factorize(build) if model.rows_change else kkt.factorize(build, True, LEAST, LEAST_SIZE)
     x = kkt.solve(build, factor, b)
     build.section("results")
@@ -68,18 +70,39 @@ def dynamics_kernel(
         build.out(Place("a")[k], x[k])
     for r, _ in enumerate(kkt.rows):
         build.out(RHS["lambda"][r], x[kkt.n + r])
-    _friction_forces(build, kkt, x)
-    _half_squares(build, kkt.system, x)
+    _append_friction_forces(build, kkt, x)
+    _append_half_squares(build, kkt.system, x)
     if kkt.rows and not model.rows_change:
-        (rescue or _dependent_rows)(build, kkt, b)
-    _powers(build, kkt, on_given)
+        (rescue or _append_dependent_rows)(build, kkt, b)
+    _append_powers(build, kkt, on_given)
     build.line(Return(pivot=bool(kkt.rows and not model.rows_change)))
     arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
     kernel = build.build(arguments, status=True, owner="")
     return with_branches(kernel, "rhs")
 
 
-def _events(model: Model, build: KernelBuilder) -> None:
+def elimination_lines(kkt: KKT) -> list[str]:
+    """Return comment lines that name the unknowns in the order in which the pivots eliminate them.
+
+    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation.
+    """
+    names = [coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
+    names += [f"lambda of {row.name}" for row in kkt.rows] + [
+        f"lambda of {friction.name}" for friction in kkt.frictions
+    ]
+    blocks = [" with ".join(names[k] for k in block) for block in kkt.blocks]
+    more = [f"and {len(blocks) - _MAX_PIVOTS} more"] if len(blocks) > _MAX_PIVOTS else []
+    listed = "; ".join(one.replace(" ", "\0") for one in (*blocks[:_MAX_PIVOTS], *more))
+    head = "Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:"
+    return [head, *("    " + line.replace("\0", " ") for line in textwrap.wrap(f"{listed}.", 104))] if blocks else []
+
+
+def coordinate_name(meaning: str) -> str:
+    """Return the name of a coordinate for comments: an angle of a tree has that of its body alone."""
+    return meaning if "." in meaning else f"{meaning}.theta"
+
+
+def _append_events(model: Model, build: KernelBuilder) -> None:
     """Append the user's event functions, which are known at every state, also where a pivot vanishes."""
     if model.events:
         build.section("events")
@@ -87,7 +110,7 @@ def _events(model: Model, build: KernelBuilder) -> None:
         build.out(RHS["event"][index], event.expression, event.name)
 
 
-def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
+def _append_clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
     """Append the call of a joint's force function; return its force and moments as loads on both bodies."""
     name, out = clearance.label, RHS["clearance"][index]
     build.section(f"clearance {clearance.kind} {clearance.name}")
@@ -132,14 +155,14 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
     return rhs
 
 
-def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
+def _append_slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
     """Append the slip velocity and kinetic force of each dry friction element; return the right-hand sides for stick.
 
     The kinetic force is added to `forces`, the generalized forces by coordinate, in place.
     """
     rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
-        build.section("friction: slip, or stick as a row")
+        build.section("friction: slip, or stick as a constraint equation")
     place = {q: k for k, q in enumerate(kkt.system.q)}
     two_alpha = stick_gain(model) if kkt.frictions else ZERO
     for r, friction in enumerate(kkt.frictions):
@@ -156,7 +179,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     return rhs
 
 
-def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+def _append_friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
     """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ."""
     place = {q: k for k, q in enumerate(kkt.system.q)}
     for r, friction in enumerate(kkt.frictions):
@@ -168,7 +191,7 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
         build.line(When(Test(stick, "!=", (0.0,)), force))
 
 
-def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
+def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
     """Append half the second derivative of e · e in joints with rigid surfaces.
 
     A run determines the contact forces of these joints from it.
@@ -194,17 +217,17 @@ def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[i
     return straight + turning * along + omega * (2 * sliding - omega * (e[0] * n_x + e[1] * n_y))
 
 
-def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+def _append_dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Append the branch for a vanishing pivot, which calls engine/scene/singular.c; none if all pivots are constant."""
     if not build.has_jumps:
         return
     build.line(Jump())
-    build.section("a pivot vanished: rows depend on each other here")
+    build.section("a pivot vanished: constraint equations depend on each other here")
     force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))
     build.line(Rescue(force, rhs))
 
 
-def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
+def _append_powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
     """Append the powers in W of the drives, of the dissipative force elements and of the joints with play.
 
     A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.

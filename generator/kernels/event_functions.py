@@ -28,8 +28,8 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.wholes import Whole
 
 WATCHED, _RANGES = "watched_functions", "watched_ranges"
-_WATCHED_DOC = ("Switching functions of the scene's own corners, in rhs->g, and what the user watches, in rhs->event.",)
-_RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
+_WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
+_RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's events over ranges of t, q and v.",)
 _KNOWN_LATE = RHS.name  # what reads this is known only once forces or accelerations are
 
 
@@ -47,7 +47,7 @@ def watched_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None 
         s: out
         for section in every
         for s in section.statements
-        if isinstance(s, Statement) and (out := _out(s, corners))
+        if isinstance(s, Statement) and (out := _output_statement(s, corners))
     }
     by_target = {
         s.defines: s for section in every for s in section.statements if isinstance(s, Statement) and s.defines
@@ -116,7 +116,7 @@ def reads_beyond(kernel: Kernel, count: int) -> bool:
     return any(place.path >= (count,) for place in places)
 
 
-def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
+def _output_statement(statement: Statement, corners: Collection[int]) -> Statement | None:
     """Return the statement that writes an event function if `statement` computes one, else None."""
     value = statement.value
     if isinstance(value, BranchOf) and int(value.args[0]) in corners:
@@ -127,7 +127,7 @@ def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
 
 _TIME_TERMS = "time_terms"
 MOST = 32  # terms of a scene
-_TIME_TERMS_DOC = ("Terms that hang on time alone and may rise and fall within a step.",)
+_TIME_TERMS_DOC = ("Terms that depend on time alone and may rise and fall within a step (transients).",)
 _LINEAR = (sp.sin, sp.cos, sp.exp)  # what shows at the stages of a step, of a linear argument
 _POWERS = range(1, 5)  # likewise, of what does
 
@@ -154,18 +154,18 @@ def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
 
     rests: stick or a rigid contact may hold the motion while forces vary, so that sines count too.
     """
-    found = _read(dynamics, False)
+    found = _collect_terms(dynamics, False)
     terms = list(found.terms)[:MOST]
     pulses = len(terms)
     if rests:
-        found = _read(dynamics, True)
+        found = _collect_terms(dynamics, True)
         terms = [*terms, *(term for term in found.terms if term not in terms)][:MOST]
-    return TimeTerms(_kernel(dynamics, found, terms) if terms else None, pulses)
+    return TimeTerms(_terms_kernel(dynamics, found, terms) if terms else None, pulses)
 
 
-def _read(dynamics: Kernel, rests: bool) -> _Terms:
+def _collect_terms(dynamics: Kernel, rests: bool) -> _TermCollector:
     """Return the reader of terms after it has read all statements of a right-hand side."""
-    found = _Terms(rests)
+    found = _TermCollector(rests)
     for section in dynamics.sections:
         for statement in section.statements:
             if isinstance(statement, Statement):
@@ -173,7 +173,7 @@ def _read(dynamics: Kernel, rests: bool) -> _Terms:
     return found
 
 
-def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
+def _terms_kernel(dynamics: Kernel, found: _TermCollector, terms: list[sp.Expr]) -> Kernel:
     """Return the C function that evaluates the collected terms at a time."""
     outs = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
@@ -182,14 +182,14 @@ def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
     return replace(named, arguments=arguments, sections=sections, status=False)
 
 
-class _Terms:
+class _TermCollector:
     """Collector of terms of time alone from statements; `terms` keeps the order in which they are found."""
 
     def __init__(self, rests: bool) -> None:
         """Begin without terms; with `rests`, sines and cosines count as terms too, exponentials do not."""
         self.shows = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
-        self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
+        self.timed: dict[str, sp.Expr] = {}  # those of them that depend on time, with definitions inserted
         self.terms: dict[sp.Expr, None] = {}
         self.time = TIME.name
         self._tame: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
@@ -296,10 +296,10 @@ class _Terms:
                 read.add(name)
                 value = self.known[name].value
                 waiting += [s.name for s in value.free_symbols] if isinstance(value, sp.Expr) else []
-        return [_unheld(s) for name, s in self.known.items() if name in read]
+        return [_without_held_branch(s) for name, s in self.known.items() if name in read]
 
 
-def _unheld(statement: Statement) -> Statement:
+def _without_held_branch(statement: Statement) -> Statement:
     """Return a statement whose branch follows the sign of its switching function instead of the held branch.
 
     Over a range of time no branch is held.
@@ -309,4 +309,4 @@ def _unheld(statement: Statement) -> Statement:
     return statement
 
 
-_JUMPS_DOC = ("Switching functions that hang on time alone.",)
+_JUMPS_DOC = ("Switching functions that depend on time alone.",)

@@ -53,7 +53,7 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
         [
             "Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:",
             "all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.",
-            "Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.",
+            "Returns 0, or the number of a row that depends on others here; all_q and all_v are written also then.",
         ],
     )
     bodies = system.model.bodies

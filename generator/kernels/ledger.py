@@ -22,8 +22,8 @@ def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks
     `blocks`: the groups of equations that are solved one after the other where no degree of freedom is left.
     """
     tree = system.tree if isinstance(system, TreeSystem) else None
-    steps = [*_opened(model), *(_reduced(model, system) if isinstance(system, TreeSystem) else ())]
-    names = _unknowns(model, system)
+    steps = [*_opening_steps(model), *(_reduction_steps(model, system) if isinstance(system, TreeSystem) else ())]
+    names = _unknown_names(model, system)
     return Story(
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         rows=tuple(row.name for row in model.all_rows),
@@ -31,8 +31,8 @@ def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks
         steps=tuple(step for step in steps if step.owners),
         tree=tuple(Placed(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.links) if tree else (),
         costs=tree.costs if tree else (),
-        before=_solve(absolute),
-        after=_solve(solved) if solved else None,
+        before=_describe_solve(absolute),
+        after=_describe_solve(solved) if solved else None,
         groups=tuple(
             Group(tuple(system.rows[r].name for r in block.rows), tuple(names[k] for k in block.columns))
             for block in blocks
@@ -40,14 +40,14 @@ def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks
     )
 
 
-def _unknowns(model: Model, system: System) -> tuple[str, ...]:
+def _unknown_names(model: Model, system: System) -> tuple[str, ...]:
     """Return the names of the unknowns of a system: tree coordinates, or all absolute coordinates."""
     if isinstance(system, TreeSystem):
         return system.unknowns
     return tuple(model.symbols.info[q].meaning for q in model.q)
 
 
-def _solve(kkt: KKT) -> Solve:
+def _describe_solve(kkt: KKT) -> Solve:
     """Return the size and cost of a factorization: unknowns, equations, non-zeros of the matrix and of L, products."""
     elimination = kkt.elimination
     return Solve(
@@ -59,7 +59,7 @@ def _solve(kkt: KKT) -> Solve:
     )
 
 
-def _opened(model: Model) -> Iterator[Step]:
+def _opening_steps(model: Model) -> Iterator[Step]:
     """Yield the steps from the closed linkage to the equations of the scene: joints with play, redundant equations."""
     dropped = model.redundancy.dropped
     open_rows = tuple(r.name for r in model.all_rows if r.owner in model.scene.play)
@@ -68,16 +68,16 @@ def _opened(model: Model) -> Iterator[Step]:
     yield Step(told.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
 
 
-def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
+def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     """Yield the steps from the absolute constraint equations to the loop closures of the tree."""
-    yield from _angles(model, system.tree)
-    yield from _hubs(system.tree)
+    yield from _angle_steps(model, system.tree)
+    yield from _hub_steps(system.tree)
     links = [link for link in system.tree.links if link.joint]
     for kind in (told.HINGES, told.SLIDES):
         some = [link for link in links if link.slides == (kind == told.SLIDES)]
         yield Step(
             kind,
-            _owners(some),
+            _owner_names(some),
             tuple(f"{link.body}.{axis}" for link in some for axis in "xy"),
             tuple(name for link in some for name in link.coordinates),
             tuple(row for link in some for row in link.rows),
@@ -91,12 +91,12 @@ def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
         yield Step(told.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), gone, rows_gone=rows)
 
 
-def _owners(links: Iterable[Link]) -> tuple[str, ...]:
+def _owner_names(links: Iterable[Link]) -> tuple[str, ...]:
     """Return the names of the joints of some links of the tree."""
     return tuple(link.joint.name for link in links if link.joint)
 
 
-def _angles(model: Model, tree: Tree) -> Iterator[Step]:
+def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
     """Yield the elimination of angles that equations give in other angles: prescribed, constant and dependent ones.
 
     Each equation used has eliminated one angle.
@@ -122,7 +122,7 @@ def _angles(model: Model, tree: Tree) -> Iterator[Step]:
         )
 
 
-def _hubs(tree: Tree) -> Iterator[Step]:
+def _hub_steps(tree: Tree) -> Iterator[Step]:
     """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use."""
     for hub in tree.hubs:
         taken = [link.joint for link in tree.links if link.joint in hub.pairs]

@@ -20,7 +20,7 @@ def outputs_kernel(model: Model) -> Kernel:
         model.symbols,
         "outputs",
         [
-            "Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),",
+            "Reactions (Fx, Fy, M on the second body at the joint's point, its part of -Phi_q^T lambda),",
             "drive torques on the driven body, kinetic and potential energy.",
         ],
     )

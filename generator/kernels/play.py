@@ -16,6 +16,7 @@ from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, result
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.kernels.formulas import formula_lines
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
 from gudgeon.generator.kinds.laws.law import OWN
 from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slopes, in_place, share_slope, unlatched
@@ -29,11 +30,11 @@ def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> di
         if law is not None:
             kernel = _law_kernel(model, clearance, law)
             numbers = joint_numbers(model, clearance)
-            found[law.law.role] = shared.call(kernel, numbers, clearance.label, _meanings(model, law))
+            found[law.law.role] = shared.call(kernel, numbers, clearance.label, _parameter_meanings(model, law))
     return found
 
 
-def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
+def _parameter_meanings(model: Model, equations: LawEquations) -> dict[str, str]:
     """Return the meanings of a law's parameters, by the names that they have in the law."""
     info = model.symbols.info
     law = equations.law
@@ -53,7 +54,9 @@ def law_name(equations: LawEquations) -> str:
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
     """Return the C function of a law: its steps become locals, its results are written to `F_…_out`."""
     results = equations.results
-    build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations))
+    fields = joint_numbers(model, clearance)
+    names = {s: fields[own.home] for s, own in model.symbols.info.items() if own.home in fields}
+    build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations, names))
     build.section("")
     for name, equation in equations.steps.items():
         value = hoisted(model.slots, sp.sympify(equation))
@@ -67,9 +70,15 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
     return with_reciprocals(kernel)
 
 
-def law_doc(equations: LawEquations) -> list[str]:
-    """Return the lines of a law's C comment: title, source, validity, options."""
+def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
+    """Return the lines of a law's C comment: title, formula, source, validity, options.
+
+    names: what parameters are called in the formula; None: as in the law's file.
+    """
     law = equations.law
+    if names is None:
+        own = {**equations.numbers, **equations.derived}
+        names = {symbol: name for name, symbol in own.items() if symbol.is_Symbol}
     chosen = [f"{name}: {value}" for name, value in equations.options.items()]
     usual = {option.name: option.default for option in law.options}
     whose = [
@@ -80,6 +89,7 @@ def law_doc(equations: LawEquations) -> list[str]:
     ]
     return [
         f"{law.title}.",
+        *formula_lines(equations, names),
         f"Source: {law.source}.",
         f"Valid: {law.validity}.",
         *([f"Options: {', '.join(chosen)}."] if chosen else []),
@@ -90,16 +100,16 @@ def law_doc(equations: LawEquations) -> list[str]:
 Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
 _AT_CENTRE = {contact.n_x: sp.Integer(1), contact.n_y: sp.Integer(0)}
-_APART, _INVERSE = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
+_OFF_CENTRE, _INVERSE = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
 _GUARDED = {
-    contact.n_x: Chosen(_APART, contact.e_x * _INVERSE, sp.Integer(1)),
-    contact.n_y: Chosen(_APART, contact.e_y * _INVERSE, sp.Integer(0)),
+    contact.n_x: Chosen(_OFF_CENTRE, contact.e_x * _INVERSE, sp.Integer(1)),
+    contact.n_y: Chosen(_OFF_CENTRE, contact.e_y * _INVERSE, sp.Integer(0)),
 }
 _SLANTED = Test(contact.slant, ">", (0.0,))
 _GUARDED_OF_CONTOUR = {
     contact.u_x: _GUARDED[contact.n_x],
     contact.u_y: _GUARDED[contact.n_y],
-    contact.steep: Chosen(_APART, contact.slant * _INVERSE, sp.Integer(1)),
+    contact.steep: Chosen(_OFF_CENTRE, contact.slant * _INVERSE, sp.Integer(1)),
 }
 
 
@@ -140,7 +150,7 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
 
     def held(steps: Sequence[Step]) -> Statements:
         """Return the statements of some steps, with guards at the centre and with held branches."""
-        return _statements(model, steps, name, _guards(clearance, steps))
+        return _make_statements(model, steps, name, _guarded_values(clearance, steps))
 
     laws, parts = law_calls(model, clearance, shared), {}
     if clearance.normal is not None:
@@ -158,7 +168,7 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
     return Pin(clearance, laws, gap, corners=corners, **parts)
 
 
-def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Chosen]:
+def _guarded_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Chosen]:
     """Return the replacements, by symbol, for steps that divide by zero at e = 0."""
     if not clearance.contour:
         return {} if clearance.wall else _GUARDED
@@ -167,11 +177,11 @@ def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, C
     turning = value.get(contact.beta_rate)
     if turning is not None:
         away = (turning + contact.omega_i) * contact.e
-        n[contact.beta_rate] = Chosen(_APART, away * _INVERSE - contact.omega_i, -contact.omega_i)
+        n[contact.beta_rate] = Chosen(_OFF_CENTRE, away * _INVERSE - contact.omega_i, -contact.omega_i)
     return _GUARDED_OF_CONTOUR | n
 
 
-def _statements(model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]) -> Statements:
+def _make_statements(model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]) -> Statements:
     """Return steps as statements that read parameters in place and take branches from the joint's switches."""
     statements = []
     for step in steps:

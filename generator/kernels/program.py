@@ -47,8 +47,8 @@ class Integrated:
     kkt: KKT
     angles: tuple[int, ...]
     reduced: bool
-    watched: Kernel | None  # of what is watched, if it hangs on no forces (event_functions.py)
-    pivots: tuple[str, ...]  # rows that a status of motion() counts through
+    watched: Kernel | None  # event functions, if they do not depend on forces (event_functions.py)
+    pivots: tuple[str, ...]  # equations to which a status number of motion() refers
     chain: Chain | None = None
 
     @property

@@ -30,8 +30,8 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
         model.symbols,
         name,
         [
-            "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
-            "the closed linkage, redundant ones are not looked at.",
+            "The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows",
+            "of the closed linkage; those of open joints and redundant ones are ignored.",
             "Returns 0, or the number of the pivot that vanished.",
         ],
     )
@@ -98,12 +98,12 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     """
     weighed = with_least_masses(system)
     kkt = KKT(with_film_masses(weighed), system.rows)
-    held = [] if kkt.system is weighed else ["M has 1e6 times the mass of all bodies for motions that squeeze a film."]
+    held = [] if kkt.system is weighed else ["Motions that squeeze a film have 1e6 times the mass of all bodies in M."]
     build = KernelBuilder(
         system.model.symbols,
         name,
         [
-            "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
+            "The smallest dq and dv (n) in the metric of M with Phi_q dq = Phi and Phi_q dv = Phi_dot; to subtract.",
             *held,
             "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
         ],
@@ -123,6 +123,6 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     build.line(Largest("worst", tuple(phi.values())))
     build.line(Return())
     outs = (result(name) for name in ("dq", "dv", "worst"))
-    # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
+    # a switching function of lengths and parameters alone is not an event function, so its branch is not held
     kernel = build.build((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
     return with_branches(kernel)

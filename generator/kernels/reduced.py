@@ -23,9 +23,9 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
-    "Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:",
+    "Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.",
-    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+    "Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.",
 )
 
 
@@ -53,7 +53,7 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels
     chains = ChainKernels(system, system.chain) if system.chain else None
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
     corners = chains.corners if chains else None
-    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # what is followed is not watched
+    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # a driven motion has no events here
     if watched and system.chain and reads_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
@@ -65,7 +65,7 @@ def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     if not build.has_jumps:
         return
     build.line(Jump())
-    build.section("a pivot vanished: rows depend on each other here")
+    build.section("a pivot vanished: constraint equations depend on each other here")
     build.line(Rescue())
 
 
@@ -97,14 +97,18 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
         model.symbols,
         "reduce_state",
         [
-            "Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.",
+            "Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.",
         ],
     )
     state.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         state.out(Place("s")[k], position, names[k])
         state.out(Place("s_rate")[k], rate)
-    accelerations = KernelBuilder(model.symbols, "reduce_accelerations", ["Their second rates a, from absolute all_a."])
+    accelerations = KernelBuilder(
+        model.symbols,
+        "reduce_accelerations",
+        ["Second rates a of the tree coordinates, from absolute accelerations all_a."],
+    )
     accelerations.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
@@ -150,5 +154,10 @@ def _closures(system: TreeSystem) -> list[Kernel]:
 
     return [
         kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),
-        kernel("closure_rates", "Its rate Phi_q v - nu.", True, lambda row: row.phi_q_v - row.nu),
+        kernel(
+            "closure_rates",
+            "Rate Phi_q v - nu of the loop closures in tree coordinates.",
+            True,
+            lambda row: row.phi_q_v - row.nu,
+        ),
     ]

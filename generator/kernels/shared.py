@@ -32,7 +32,7 @@ class SharedCall:
 
     kernel: Kernel
     numbers: tuple[Place, ...]
-    corner: int | None  # None: it has no corners
+    corner: int | None  # None: it has no switches
 
 
 class SharedFunctions:
@@ -51,7 +51,7 @@ class SharedFunctions:
         `numbers`: names in the function of the parameters that a joint has (`p.pin_radius` -> `R_i`).
         `meanings` by these names are added to the function's comment.
         """
-        called, given = _called(kernel, numbers)
+        called, given = _name_parameters(kernel, numbers)
         names = [called[place] for place in given]
         first = min(_corners(kernel), default=None)
         if first is not None:
@@ -62,11 +62,11 @@ class SharedFunctions:
             kernel,
             doc=doc,
             arguments=_arguments(kernel, names, first is not None),
-            sections=_without_numbers(kernel),
+            sections=_without_parameter_copies(kernel),
             names={**kernel.names, **called},
             first_corner=first,
         )
-        key = (kernel.name, shared.arguments, *_contents(shared))
+        key = (kernel.name, shared.arguments, *_distinguishing_parts(shared))
         if key not in self._known:
             taken = any(other.name == kernel.name for other in self.kernels)
             self._known[key] = replace(shared, name=f"{kernel.name}_of_{joint}_") if taken else shared
@@ -84,8 +84,8 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
     named += [("transition", clearance.transition)]
     info = model.symbols.info
     taken = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}
-    for name, symbol in _of_file(model, laws):
-        named.append((f"{name}_of_file" if name in taken else name, symbol))
+    for name, symbol in _file_parameters(model, laws):
+        named.append((f"{name}_file_parameters" if name in taken else name, symbol))
     homes = {symbol: own.home for symbol, own in info.items() if own.home}
     fields: dict[Place, str] = {}
     for name, symbol in named:
@@ -97,7 +97,7 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
     return fields
 
 
-def _of_file(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
+def _file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
     """Yield the parameters in a law's user expression with their names, in the file's order."""
     varying = [law.numbers[own.name] for law in laws for own in law.law.expressions]
     used = set().union(*(value.free_symbols for value in varying))
@@ -106,9 +106,9 @@ def _of_file(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, 
             yield model.slots.field(entry.symbol), entry.symbol
 
 
-def _called(kernel: Kernel, numbers: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
+def _name_parameters(kernel: Kernel, numbers: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
     """Return the names of symbols and parameters in the shared function, and its parameters in argument order."""
-    fields: dict[Key, Place] = {line.defines: place for line in _lines(kernel) if (place := _number(line))}
+    fields: dict[Key, Place] = {line.defines: place for line in _lines(kernel) if (place := _parameter_of(line))}
     for line in _lines(kernel):
         for expression in line.expressions:
             read = (s.place for s in expression.free_symbols if isinstance(s, PlaceSymbol))
@@ -123,15 +123,15 @@ def _lines(kernel: Kernel) -> Iterator[Line]:
     return (line for section in kernel.sections for line in section.statements)
 
 
-def _number(line: Line) -> Place | None:
+def _parameter_of(line: Line) -> Place | None:
     """Return the parameter that a local is a copy of; None if it is not one."""
     place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
     return place if place and place.is_parameter else None
 
 
-def _without_numbers(kernel: Kernel) -> tuple[Section, ...]:
+def _without_parameter_copies(kernel: Kernel) -> tuple[Section, ...]:
     """Return the sections of a function without the statements that copy parameters to locals."""
-    left = (Section(s.title, tuple(x for x in s.statements if not _number(x))) for s in kernel.sections)
+    left = (Section(s.title, tuple(x for x in s.statements if not _parameter_of(x))) for s in kernel.sections)
     return tuple(section for section in left if section.statements)
 
 
@@ -153,7 +153,7 @@ def _corners(kernel: Kernel) -> set[int]:
     return {int(part.args[0]) for line in _lines(kernel) for x in line.expressions for part in x.atoms(BranchOf)}
 
 
-def _contents(kernel: Kernel) -> Iterator[object]:
+def _distinguishing_parts(kernel: Kernel) -> Iterator[object]:
     """Yield what distinguishes two functions: their statements, in the names of the printed text."""
     first = kernel.first_corner or 0
 

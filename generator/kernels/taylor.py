@@ -50,19 +50,19 @@ def _series(program: Program) -> Series:
         raise NoSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
     if jumping_drives(model):
         raise NoSeries("the rate of a drive may jump")
-    return _of_motion(tree.system)
+    return _derive_series(tree.system)
 
 
-def _of_motion(system: TreeSystem) -> Series:
+def _derive_series(system: TreeSystem) -> Series:
     """Return the series of the right-hand side, derived with a record of its linear system."""
-    kkt = _Told(system, daring=is_rescued(system))
-    dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_nobody))
+    kkt = _RecordedKKT(system, daring=is_rescued(system))
+    dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_no_rescue))
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
     linear = Linear(FACTORS, {**kkt.entry, **diagonal}, kkt.loads, kkt.unknowns)
-    return series_of(dynamics, _place, NAME, linear)
+    return series_of(dynamics, _result_place, NAME, linear)
 
 
-class _Told(KKT):
+class _RecordedKKT(KKT):
     """A KKT system that records its right-hand sides as named locals, and the symbols of its unknowns, by node."""
 
     loads: dict[str, int]
@@ -87,11 +87,11 @@ class _Told(KKT):
         return x
 
 
-def _nobody(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+def _no_rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Append nothing for a vanishing pivot: another method takes the step then."""
 
 
-def _place(target: Place) -> Place | None:
+def _result_place(target: Place) -> Place | None:
     """Return where a result is written: accelerations and powers; None for results that a series does not need."""
     match target:
         case Place("a"):

@@ -28,7 +28,7 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-LARGEST = 8  # rows of a block: a larger one is cheaper solved with its multipliers, which keeps zeros
+MAX_BLOCK_ROWS = 8  # a larger block is cheaper to solve with its multipliers, which keeps zeros
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def with_directions(chain: Chain, system: System, frames: Iterable[Frame], presc
     `prescribed`: names of the coordinates that drives prescribe.
     """
     symbols = system.model.symbols
-    read = _read(symbols, [x for row in chain.rows for x in (row.phi, row.phi_q_v, row.nu, row.gamma)])
+    read = _symbols_read(symbols, [x for row in chain.rows for x in (row.phi, row.phi_q_v, row.nu, row.gamma)])
     place = {name: k for k, name in enumerate(chain.names)}
     directions: list[Direction] = []
     for frame in frames:
@@ -69,7 +69,7 @@ def with_directions(chain: Chain, system: System, frames: Iterable[Frame], presc
     return replace(chain, directions=tuple(directions))
 
 
-def _read(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
+def _symbols_read(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
     """Return all symbols that expressions read, directly or through definitions."""
     found: set[sp.Symbol] = set()
     waiting = [s for e in expressions for s in e.free_symbols]
@@ -91,7 +91,7 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
     owner = match_rows(pattern)
     free = {column for column in range(n) if column not in owner}
     grown = True
-    while grown:  # from a free coordinate to the rows in it, and on to the coordinates that these are matched with
+    while grown:  # from a free coordinate to its equations, and to the coordinates matched with these
         reached = {column for column, row in owner.items() if pattern[row] & free}
         grown = not reached <= free
         free |= reached
@@ -106,7 +106,7 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
     for block in blocks:
         own = {columns[k] for k in block.columns}
         used = {c for r in block.rows for c in pattern[rows[r]]}
-        if len(own) <= LARGEST and used <= known | own and not own & (banned | doubtful):
+        if len(own) <= MAX_BLOCK_ROWS and used <= known | own and not own & (banned | doubtful):
             known |= own
             found.append(Block(tuple(rows[r] for r in block.rows), tuple(columns[k] for k in block.columns)))
     return found
@@ -142,7 +142,7 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
     rates, then second and third rates of the dependent ones.
     """
     kept = [k for k in range(len(system.q)) if k not in columns]
-    known = _homes(system, names, kept, columns)
+    known = _move_to_places(system, names, kept, columns)
     second = {k.q: k.second for k in known}
     rates = {k.q: k.rate for k in known}
     place = {k: i for i, k in enumerate(kept)}
@@ -155,15 +155,15 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
         """Return the applied force on a coordinate minus M c̈ of the dependent coordinates."""
         return sp.Add(system.applied[k], *(-mass(k, c) * x.second for c, x in zip(columns, known, strict=True)))
 
-    given = tuple(_given(g, place, columns, known) for g in system.given)
+    given = tuple(_reduce_given(g, place, columns, known) for g in system.given)
     given += tuple(
         Given(names[c], x.rate, {place[k]: m for k in kept if (m := mass(k, c)) != 0}, applied(c))
         for c, x in zip(columns, known, strict=True)
     )
-    others = tuple(_row(row, rates, second, system) for r, row in enumerate(system.rows) if r not in rows)
-    frictions = tuple(_friction(friction, second) for friction in system.frictions)
+    others = tuple(_reduce_row(row, rates, second, system) for r, row in enumerate(system.rows) if r not in rows)
+    frictions = tuple(_reduce_friction(friction, second) for friction in system.frictions)
     model = replace(system.model, rows=others, all_rows=others, frictions=frictions)
-    motions = {body: _motion(motion, place, columns, known) for body, motion in system.motions.items()}
+    motions = {body: _reduce_motion(motion, place, columns, known) for body, motion in system.motions.items()}
     reduced = replace(
         system,
         model=model,
@@ -180,7 +180,9 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
     return reduced, Chain(tuple(names[c] for c in columns), known, tuple(system.rows[r] for r in rows))
 
 
-def _homes(system: System, names: Sequence[str], kept: Sequence[int], columns: Sequence[int]) -> tuple[Known, ...]:
+def _move_to_places(
+    system: System, names: Sequence[str], kept: Sequence[int], columns: Sequence[int]
+) -> tuple[Known, ...]:
     """Move the coordinates and rates to their new places in C; return the dependent coordinates with their rates."""
     symbols = system.model.symbols
     info = symbols.info
@@ -201,14 +203,16 @@ def _homes(system: System, names: Sequence[str], kept: Sequence[int], columns: S
     return tuple(known)
 
 
-def _given(given: Given, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Given:
+def _reduce_given(given: Given, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Given:
     """Return a prescribed coordinate with the dependent accelerations in its applied force."""
     pushed = (-given.mass[c] * x.second for c, x in zip(columns, known, strict=True) if c in given.mass)
     own = {place[k]: m for k, m in given.mass.items() if k in place}
     return replace(given, mass=own, applied=sp.Add(given.applied, *pushed))
 
 
-def _row(row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System) -> Row:
+def _reduce_row(
+    row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System
+) -> Row:
     """Return a constraint equation with Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈."""
     rate_of = dict(zip(system.q, system.v, strict=True))
     own = {q: entry for q, entry in row.phi_q.items() if q not in rates}
@@ -222,14 +226,14 @@ def _row(row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symb
     )
 
 
-def _friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
+def _reduce_friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
     """Return a friction with J s̈ = γ − J_c c̈; the slip itself contains the dependent rates."""
     moved = (-entry * second[q] for q, entry in friction.jacobian.items() if q in second)
     own = {q: entry for q, entry in friction.jacobian.items() if q not in second}
     return replace(friction, jacobian=own, gamma=sp.Add(friction.gamma, *moved))
 
 
-def _motion(motion: Motion, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Motion:
+def _reduce_motion(motion: Motion, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Motion:
     """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias."""
     second = {c: x.second for c, x in zip(columns, known, strict=True)}
     bias = tuple(

@@ -303,7 +303,7 @@ class TreeGeometry(Geometry):
 
     def beside(self, ref: PointRef, offset: Pair, wanted: str) -> TreePoint:
         """Return the frame of a point at an offset from a named point, given in its body's frame."""
-        s = self._beside(ref, offset, wanted)
+        s = self._offset_vector(ref, offset, wanted)
         if ref.body == GROUND:
             return TreePoint(self, None, s, {(GROUND, ""): s}, s, (ZERO, ZERO))
         names = (f"{wanted}_x", f"{wanted}_y", f"{wanted}_vx", f"{wanted}_vy")

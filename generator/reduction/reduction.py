@@ -32,8 +32,8 @@ class TreeSystem(System):
 
     tree: Tree
     unknowns: tuple[str, ...]
-    slides: Mapping[str, Affine]  # slides that a drive prescribes, or that another slide tells
-    sliding: tuple[str, ...]  # the rows that say so, one a slide
+    slides: Mapping[str, Affine]  # slides that drives or other slides determine
+    sliding: tuple[str, ...]  # the equations that determine them, one per slide
     chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 

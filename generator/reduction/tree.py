@@ -68,7 +68,7 @@ LIGHT_END = 10**6  # a body at the end of a chain whose mass is lumped at the jo
 PLAIN = 5  # an entry of M with x or y of a body that moves freely
 
 
-def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
+def _coupled_coordinates(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
     """Return the coordinates that are coupled with each one in M; x and y of a free body are not coupled."""
     near: list[set[int]] = [set() for _ in place]
     for keys in moving:
@@ -103,15 +103,15 @@ class Estimate:
         """Return the estimated operations of a tree."""
         held = {row for link in links for row in link.rows}
         paths: dict[str, list[Link]] = {}
-        reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
-        moving: list[frozenset[str]] = []  # what a centre of mass moves with
+        reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # coordinates that move a body's points
+        moving: list[frozenset[str]] = []  # coordinates that move a centre of mass
         for link in links:
             paths[link.body] = [*paths.get(link.parent, []), link]
             reach[link.body] = reach[link.parent] | self.turns[link.body] | set(link.coordinates)
             moving.append(frozenset(link.coordinates) if link.joint is None else reach[link.body])
         place = {name: k for k, name in enumerate(sorted(frozenset().union(*reach.values())))}
         plain = {place[name] for link in links if link.joint is None for name in link.coordinates}
-        near = _coupled(place, moving, plain)
+        near = _coupled_coordinates(place, moving, plain)
         cost = sum(PLAIN if k in plain or j in plain else PAIR for k, js in enumerate(near) for j in js if j < k)
         open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.closing(links)]
         for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
@@ -172,11 +172,11 @@ class Tree:
     angles: Mapping[str, Affine]
     free: tuple[str, ...]  # bodies whose angles are coordinates
     links: tuple[Link, ...]
-    rows: frozenset[str]  # those that the angles and the links make hold by themselves, or hubs say otherwise
-    closing: tuple[Joint, ...]  # pairs of bodies that meet in a hub and are not joined by the tree
+    rows: frozenset[str]  # equations that angles and links satisfy by themselves, or that hubs replace
+    closing: tuple[Joint, ...]  # pairs of bodies at a hub that the tree does not connect
     hubs: tuple[Hub, ...]
-    solved: Mapping[str, str]  # rows that the angles use up, each with the body whose angle it says
-    costs: tuple[int, ...]  # estimated operations of the trees that were looked at, the first breadth first
+    solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
+    costs: tuple[int, ...]  # estimated operations of the trees tried, the first one grown breadth first
 
     def multiplier(self, row: str) -> dict[str, int]:
         """Return the multiplier of a closure as a sum of those of the file's equations, with signs."""
@@ -204,7 +204,7 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
     used: dict[str, str] = {}
     for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
-        total = _linear(model, row, angles)
+        total = _linear_angles(model, row, angles)
         pivots = {b: c for b, c in (total or {}).items() if b in angles and c != 0}
         if total is None or not pivots:
             continue
@@ -216,7 +216,7 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
     return angles, used
 
 
-def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
+def _linear_angles(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
     """Return an equation in free angles and drives; None if it is not linear in angles with constant coefficients."""
     body_of = {body.theta: body.name for body in model.bodies}
     if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
@@ -247,8 +247,8 @@ def choose_tree(model: Model) -> Tree:
     gathered = {joint.name for hub in hubs for joint in hub.joints}
     edges = [j for j in edges if j.name not in gathered] + [j for hub in hubs for j in hub.pairs]
     estimate = Estimate(model, angles, used, hubs)
-    best = min((_grow(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
-    if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
+    best = min((_grow_tree(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
+    if len(free) <= SEARCHED and best == _grow_tree(model, edges, edges, None):
         best = _exchange(model, edges, best, estimate)
     rows = used.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
     closing = tuple(estimate.closing(best))
@@ -273,7 +273,7 @@ def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
     return list(filter(carries, model.scene.mechanism.joints.values()))
 
 
-def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
+def _grow_tree(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
     """Return a tree, grown breadth first from the ground along the joints in `wanted`.
 
     Bodies that no joint reaches move freely; with a `depth`, longer chains are cut.
@@ -312,8 +312,8 @@ def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], est
         improved = False
         inside = [link.joint for link in links if link.joint]
         for joint in [j for j in edges if j not in inside]:
-            for other in _loop(links, joint):
-                candidate = _grow(model, edges, [j for j in (*inside, joint) if j is not other], None)
+            for other in _loop_joints(links, joint):
+                candidate = _grow_tree(model, edges, [j for j in (*inside, joint) if j is not other], None)
                 if len(candidate) == len(links) and (cost := estimate(candidate)) < best:
                     links, best, improved = candidate, cost, True
                     break
@@ -322,7 +322,7 @@ def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], est
     return links
 
 
-def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
+def _loop_joints(links: Sequence[Link], joint: Joint) -> list[Joint]:
     """Return the tree's joints in the loop that `joint` closes."""
     one, two = path(links, joint.first.body), path(links, joint.second.body)
     return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]

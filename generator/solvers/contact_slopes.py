@@ -68,7 +68,7 @@ class _Slopes:
             [
                 f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
                 f"omega_j{also} (forward differentiation of the same steps).",
-                *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
+                *["Then the rates of inner states, and derivatives by these states."] * bool(model.law_states),
             ],
         )
         self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))
@@ -195,7 +195,7 @@ def share_slope(model: Model, clearance: Clearance) -> Kernel:
         model.symbols,
         f"share_slope_{clearance.label}_",
         [
-            "The share of the dry contact between film and contact, and its derivative by e.",
+            "Fraction of the dry contact in the blend of film and contact, and its derivative by e.",
         ],
     )
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)

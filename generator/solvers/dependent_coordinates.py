@@ -50,7 +50,7 @@ class DependentCoordinates:
             return set(entries)
         return {k for k, entry in entries.items() if k % 3 < 2 and is_unit(entry)}
 
-    def _open(self, r: int) -> set[int]:
+    def _open_coordinates(self, r: int) -> set[int]:
         """Return the coordinates with a constant entry in equation r that are not placed yet."""
         return self._constant[r] - self._known
 
@@ -59,8 +59,10 @@ class DependentCoordinates:
 
         If there are several candidates, only the best of them are used.
         """
-        ready = [(min(self._open(r)), r) for r in range(len(self.rows)) if len(self._open(r)) == 1]
-        for k, r in self._best(ready):
+        ready = [
+            (min(self._open_coordinates(r)), r) for r in range(len(self.rows)) if len(self._open_coordinates(r)) == 1
+        ]
+        for k, r in self._best_candidates(ready):
             if k not in self._known:
                 self._place((k,), r)
         return bool(ready)
@@ -88,7 +90,7 @@ class DependentCoordinates:
         self._known |= set(coordinates)
         self._used.add(r)
 
-    def _best(self, ready: Pairs) -> Pairs:
+    def _best_candidates(self, ready: Pairs) -> Pairs:
         """Return the candidates (coordinate, equation) whose joint places both x and y of a body, if any."""
         owners = {(k, self.rows[r].owner) for k, r in ready}
         whole = {(k, r): all((j, self.rows[r].owner) in owners for j in _with_sibling(k)) for k, r in ready}

@@ -32,7 +32,7 @@ from gudgeon.generator.solvers.pivots import (
 from gudgeon.generator.solvers.sparsity import Elimination, choose_elimination
 
 Entries = dict[tuple[int, int], sp.Expr]
-FACTORS = "L D L^T of the KKT matrix"  # title of a section
+FACTORS = "L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0]"  # title of a section
 
 
 class KKT:
@@ -203,10 +203,10 @@ class KKT:
             share = max(shares[0], EARLY) if early else shares[0]
             build.line(pivot_guard(failing, 1, own[0], share, size[0]))
             build.line(pivot_guard(failing, 2, determinant, share, size[1], own[0]))
-            self._look_for_vanishing(build, block, scale, (own[0], determinant), (*failing, shares[1]))
+            self._test_joint_pivots(build, block, scale, (own[0], determinant), (*failing, shares[1]))
         elif failing[0]:
-            self._look_for_light(build, first, own[0])
-            self._look_for_light(build, second, determinant, own[0])
+            self._test_light_pivot(build, first, own[0])
+            self._test_light_pivot(build, second, determinant, own[0])
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
@@ -227,7 +227,7 @@ class KKT:
             own = self.system.model.slots.derive(f"mobility_{self.names[k]}", own, "1/m of the bodies of a row")
         return build.local(f"size_{self.names[k]}", scale + own) if own != 0 else scale
 
-    def _look_for_vanishing(
+    def _test_joint_pivots(
         self,
         build: KernelBuilder,
         block: Sequence[int],
@@ -263,7 +263,7 @@ class KKT:
         if jumps and k in self.turning:
             value = mass - sum((L[k, j] * W[k, j] for j in earlier), ZERO)
             pivot = named(build, f"pivot_{self.names[k]}", value)
-            self._look_for_light(build, k, pivot)
+            self._test_light_pivot(build, k, pivot)
             constant = self.system.model.slots.is_constant(mass)
             if earlier or not constant or self.system.model.slots.default(mass) <= 0.0:
                 return build.local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
@@ -273,7 +273,7 @@ class KKT:
         value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))
         return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
-    def _look_for_light(self, build: KernelBuilder, k: int, pivot: sp.Expr, *before: sp.Expr) -> None:
+    def _test_light_pivot(self, build: KernelBuilder, k: int, pivot: sp.Expr, *before: sp.Expr) -> None:
         """Append a jump for an angle of which elimination leaves nearly no inertia.
 
         `pivot` is its own pivot times those in `before`.

@@ -31,7 +31,7 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-Pair = tuple[int, int]  # node (coordinates, then rows, frictions, inner states), column (coordinate or state)
+Pair = tuple[int, int]  # node (coordinates, equations, frictions, inner states), column (coordinate or state)
 
 
 @dataclass
@@ -182,7 +182,7 @@ class Linearization:
     def _frictions(self, residual: list[sp.Expr]) -> None:
         """Add the equations of stick, the forces of slip and their power; the mode is held constant."""
         if self.system.frictions:
-            self.build.section("friction: slip, or stick as a row")
+            self.build.section("friction: slip, or stick as a constraint equation")
         two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
         for r, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + r, friction.name, self.build

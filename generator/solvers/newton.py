@@ -94,7 +94,7 @@ class Newton:
             PARAMETERS,
             source("a"),
             source(RHS.name, RHS.type),
-            self._own_lin(),
+            self._written_lin(),
         )
         return with_branches(build.build(arguments, owner="", prune=True))
 
@@ -102,11 +102,13 @@ class Newton:
         """Return the parts with each value stored once in the pool, up to its sign."""
 
         def keep(value: sp.Expr, name: str) -> sp.Expr:
+            """Return the symbol of a value that is stored in the pool."""
             return self.values.keep(build, tangents.shared(value), name)
 
         def pooled(
             what: str, part: Mapping[Pair, sp.Expr], rows: Sequence[str], columns: Sequence[str] = self.names
         ) -> dict[Pair, sp.Expr]:
+            """Return the stored entries of one part."""
             return {(i, j): keep(value, f"{what}_{rows[i]}_{columns[j]}") for (i, j), value in part.items()}
 
         states = self.names[self.first_state :]
@@ -130,6 +132,7 @@ class Newton:
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
         def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
+            """Return (row, column, index, sign) of the entries of one part."""
             return [(i, first + k, *self.values.place(build, value)) for (i, k), value in part.items()]
 
         return {
@@ -213,9 +216,9 @@ class Newton:
             factors.eliminate(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
         build.line(Return())
-        return self._build(build, (Argument("eta"), self._own_lin()), status=True)
+        return self._build(build, (Argument("eta"), self._written_lin()), status=True)
 
-    def _own_lin(self) -> Argument:
+    def _written_lin(self) -> Argument:
         """Return the argument `lin` as one that the function writes."""
         return replace(self.lin, access=Access.WRITTEN)
 
@@ -274,7 +277,7 @@ class Newton:
         for i, value in parts.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
-            b[i].append(PlaceSymbol(Place("r")[self._behind(i)]))
+            b[i].append(PlaceSymbol(Place("r")[self._state_index(i)]))
         for i, terms in enumerate(b):
             build.out(Place("x")[i], self._scale(i) * sp.Add(*terms))
         build.line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
@@ -283,17 +286,17 @@ class Newton:
             build.out(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
             build.out(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
         for i in range(self.first_state, self.nodes):
-            build.out(Place("u")[self._behind(i)], PlaceSymbol(Place("x")[i]))
+            build.out(Place("u")[self._state_index(i)], PlaceSymbol(Place("x")[i]))
         for w in range(N_WORK):
-            build.out(Place("u")[2 * n + w], self._work(w))
+            build.out(Place("u")[2 * n + w], self._work_change(w))
         arguments = (self.lin, Argument("eta"), Argument("s"), source("r"), result("u"))
         return self._build(build, arguments)
 
-    def _behind(self, state: int) -> int:
+    def _state_index(self, state: int) -> int:
         """Return the index in y of a node that is an inner state."""
         return 2 * self.n + N_WORK + state - self.first_state
 
-    def _work(self, w: int) -> sp.Expr:
+    def _work_change(self, w: int) -> sp.Expr:
         """Return u_w of work w; x holds u_v, that is η (δa + r_v), followed by η μ."""
         parts, n = self.parts, self.n
         terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
@@ -334,8 +337,8 @@ class Factors:
             other = k if i == equation else i  # the unknown's own equation stays for the multiplier
             column = self.entries.get((other, k), ZERO) - self._products(other, k)
             row = self.entries.get((equation, i), ZERO) - self._products(equation, i)
-            self.lower[other, k] = self._kept(f"l_{names[other]}__{names[k]}", column * self.inverse[k])
-            self.upper[k, i] = self._kept(f"u_{names[k]}__{names[i]}", row)
+            self.lower[other, k] = self._store_factor(f"l_{names[other]}__{names[k]}", column * self.inverse[k])
+            self.upper[k, i] = self._store_factor(f"u_{names[k]}__{names[i]}", row)
         for i in later:
             self._before[k if i == equation else i].append(k)
 
@@ -371,7 +374,7 @@ class Factors:
         value = 1 / pivot if sticks is None else Chosen(sticks, 1 / pivot, ZERO)
         return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
 
-    def _kept(self, name: str, value: sp.Expr) -> sp.Expr:
+    def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return a factor as it is if it is simple, else as a local that other functions may read."""
         own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
         return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))

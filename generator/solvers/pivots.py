@@ -22,16 +22,16 @@ SINGULAR = Threshold("SINGULAR", 1e-13)
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
 # The rank-revealing way (engine/scene/singular.c) leaves it out for the moment if the others agree.
 NEARLY_SINGULAR = Threshold("NEARLY_SINGULAR", 1e-8)
-# Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
+# Fraction of a joint's two equations below which one of them counts as vanished: their size is the squared sine
 # of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
 VANISHING = Threshold("VANISHING", 1e-10)
-# The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
-# and the other way to solve is exact.
+# The same for a pair of equations eliminated before all of its coordinates: rounding grows by 1/fraction,
+# and the alternative solution is exact.
 EARLY = Threshold("EARLY", 1e-5)
 # Share of what turns with an angle that elimination must leave of its entry of M: rounding of accelerations grows by
 # the inverse of its square, 5e-16 for a share of 1.
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
-# The same two where a run may ask for more: the discrete of a state says how much (engine/motion/continuation.c).
+# The same two where a run may need more: the discrete state gives the value (engine/motion/continuation.c).
 LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["least"])
 LEAST_SIZE = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
 

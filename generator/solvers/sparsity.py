@@ -59,7 +59,9 @@ def choose_elimination(
     together with that equation.
     """
     if first:
-        orders = (_in_order(first, pattern, coordinates, last, pairs, partner, eager) for eager in (False, True))
+        orders = (
+            _eliminate_in_order(first, pattern, coordinates, last, pairs, partner, eager) for eager in (False, True)
+        )
         return min(orders if partner else [next(orders)], key=lambda e: e.cost)
     end = len(pattern) if last is None else last
 
@@ -82,10 +84,12 @@ def choose_elimination(
         return (node >= end, graph[node] != pattern[node], *fill(graph, node, wait))
 
     def shallow(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of least fill-in, then of the shortest chain of divisions."""
         _, missing, near, _ = fill(graph, node, wait)
         return (node >= end, missing, wait, near, node)
 
     def early(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        """Return the key of the shortest chain of divisions, then of least fill-in."""
         return (node >= end, wait, *fill(graph, node, wait))
 
     keys = (degree, fill, bodies_first, untouched, shallow, early)
@@ -95,7 +99,7 @@ def choose_elimination(
     return min(candidates, key=lambda e: e.cost)
 
 
-def _in_order(
+def _eliminate_in_order(
     first: Sequence[int],
     pattern: Pattern,
     coordinates: int,
@@ -114,12 +118,12 @@ def _in_order(
     columns = dict[int, set[int]]()
     rows, products = {*partner.values(), *(node for node in first if coordinates <= node < len(pattern))}, 0
     for node in first:
-        products += _take(node, partner.get(node), graph, columns)
+        products += _eliminate_node(node, partner.get(node), graph, columns)
         rows -= {node, partner.get(node)}
         ready = sorted(columns[node]) if eager and (node in partner or node >= coordinates) else ()
         for k in ready:
             if k < coordinates and k not in partner and k not in columns and not graph[k] & rows:
-                products += _take(k, None, graph, columns)
+                products += _eliminate_node(k, None, graph, columns)
     left = [node for node in range(len(pattern)) if node not in columns]
     number = {node: k for k, node in enumerate(left)}
     rest = choose_elimination(
@@ -136,7 +140,7 @@ def _in_order(
     return Elimination(order, structure, rest.products + products, rest.depth + alone)
 
 
-def _take(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
+def _eliminate_node(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
     """Eliminate a node with its partner from the graph and return the number of products.
 
     The partner's neighbours are coupled with those of both.
@@ -199,10 +203,10 @@ def _eliminate(
     place = {node: k for k, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in order}
     products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
-    return Elimination(tuple(order), structure, products, _depth(order, structure, coordinates))
+    return Elimination(tuple(order), structure, products, _division_depth(order, structure, coordinates))
 
 
-def _depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
+def _division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
     """Return the length of the longest chain of divisions that wait for each other.
 
     Pivots that elimination does not change are computed beforehand; two that form a block count as one.

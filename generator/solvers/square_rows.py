@@ -68,7 +68,7 @@ class SquareRows:
 
         The printed function returns the number, from 1, of an equation of the block that is singular.
         """
-        build.section("groups of rows that are solved one after the other")
+        build.section("blocks of constraint equations that are solved one after the other")
         solvers = []
         for block in self.blocks or ():
             size = min(len(block.rows), 3)

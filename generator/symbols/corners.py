@@ -1,9 +1,9 @@
-"""Switching functions: where min, max, abs, sign, where and mod of the equations have their corners.
+"""Switching functions: the zeros at which min, max, abs, sign, where and mod of the equations change branch.
 
-Each corner is the zero of a function g of the state. In emitted code its `side` (the sign of g) is either
-taken from g itself or held fixed over a step, so that a method of high order sees a smooth right-hand
-side, and its Jacobian the same branch; a zero of g then ends the step. The
-jumps of mod(a, b) = a − b⌊a/b⌋ at the ends of periods are corners too.
+Each switching point is the zero of a function g of the state. In emitted code its branch (the sign of g) is either
+taken from g itself or held over a step, so that a method of high order sees a smooth right-hand side, and its
+Jacobian the same branch; a zero of g then ends the step. The jumps of mod(a, b) = a − b⌊a/b⌋ at the ends of periods
+are switching points too.
 """
 
 from __future__ import annotations
@@ -20,23 +20,25 @@ from gudgeon.language.functions import mod
 
 
 class _Remainder(sp.Function):
+    """A remainder of a by b, with its derivative between jumps."""
+
     is_real = True
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """That of a, less what b grows in each of the periods that are behind."""
+        """Return the derivative of a, minus that of b for each period passed."""
         a, b = self.args[:2]
         rate = derivative(b, s)
         return derivative(a, s) - (0 if rate == 0 else rate * (a - self) / b)
 
 
 class ModOf(_Remainder):
-    """ModOf(a, b): from 0 to b, with the sign of b."""
+    """ModOf(a, b): the remainder a − b⌊a/b⌋, between 0 and b, with the sign of b."""
 
     nargs = 2
 
     @classmethod
     def eval(cls, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """Of numbers their remainder: exactly, or as binary64 has it."""
+        """Return the remainder of numbers: exactly, or as binary64 has it; None for other arguments."""
         if not (a.is_number and b.is_number):
             return None
         if a.is_Rational and b.is_Rational and b != 0:
@@ -45,51 +47,54 @@ class ModOf(_Remainder):
 
 
 class ModOn(_Remainder):
-    """ModOn(a, b, side): the same in periods of one side, each as it goes on beyond its ends."""
+    """ModOn(a, b, side): the remainder on the periods of one held branch, continued beyond their ends."""
 
     nargs = 3
 
 
 class PeriodsOf(sp.Function):
-    """PeriodsOf(a, b): above zero in the periods of even number, below it in the others; 0 where they meet."""
+    """PeriodsOf(a, b): the switching function of mod, positive in even periods, negative in odd ones, 0 between."""
 
     nargs = 2
     is_real = True
 
 
 class BranchOf(sp.Function):
-    """BranchOf(k, g): the side of switch k, −1 or 1 (0 only where g is 0 and nothing is held)."""
+    """BranchOf(k, g): the branch of switch k, −1 or 1 (0 only where g is 0 and no branch is held)."""
 
     nargs = 2
     is_real = True
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """A side is constant over a step."""
+        """Return 0: a branch is constant over a step."""
         return sp.Integer(0)
 
 
 class Pick(sp.Function):
-    """Pick(side, a, b): b on the side below zero, else a; of a side itself, not its negative: at zero all agree."""
+    """Pick(side, a, b): b if the branch `side` is below zero, else a.
+
+    `side` is not negated, so that all branches agree at zero.
+    """
 
     nargs = 3
     is_real = True
 
     @classmethod
     def eval(cls, side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """What is told by -side turns round: at zero both would pick their first, one branch each."""
+        """Return a or b for a known branch; Pick(side, b, a) for −side, since at zero both must pick the same."""
         if side.is_Number:
             return b if side < 0 else a
         return cls(-side, b, a) if (-side).is_Symbol else None
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """The derivative of the branch that is picked: that of the other may be infinite."""
+        """Return the derivative of the active branch only: that of the other may be infinite."""
         side, a, b = self.args
         da, db = derivative(a, s), derivative(b, s)
         return da if da == db else Pick(side, da, db)
 
 
 def picked(arguments: Sequence[sp.Expr], side: Callable[[sp.Expr], sp.Expr], up: bool) -> sp.Expr:
-    """max (`up`) or min of some arguments, two by two, each time by the side of their difference."""
+    """Return max (`up`) or min of some arguments, two by two, each time by the branch of their difference."""
     ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
     value = ordered[0]
     for other in ordered[1:]:
@@ -98,7 +103,7 @@ def picked(arguments: Sequence[sp.Expr], side: Callable[[sp.Expr], sp.Expr], up:
 
 
 class Apart(sp.Function):
-    """The sign of a difference by which a branch is picked: no part of a value, and without a rate."""
+    """The sign of a difference that selects a branch: it is not part of a value and has derivative 0."""
 
     nargs = 1
     is_real = True
@@ -111,6 +116,7 @@ class _Extreme(sp.Function):
     as_it_is: type[sp.Expr]
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """Return the derivative of the active argument."""
         slopes = {x: derivative(x, s) for x in self.args}
         ordered = sorted(self.args, key=lambda a: (a.is_Number, str(a)))
         value, slope = ordered[0], slopes[ordered[0]]
@@ -121,28 +127,30 @@ class _Extreme(sp.Function):
         return slope
 
     def _eval_is_nonnegative(self) -> bool | None:
+        """Return whether the extreme is known to be non-negative."""
         return self.as_it_is(*self.args).is_nonnegative
 
     def _eval_is_positive(self) -> bool | None:
+        """Return whether the extreme is known to be positive."""
         return self.as_it_is(*self.args).is_positive
 
 
 class Largest(_Extreme):
-    """max."""
+    """max while it is differentiated."""
 
     as_it_is = sp.Max
 
 
 class Smallest(_Extreme):
-    """min."""
+    """min while it is differentiated."""
 
     as_it_is = sp.Min
 
 
 class Magnitude(sp.Function):
-    """|x| of an x that its side keeps from being negative, but for stages beyond the corner; never 0.
+    """|x| of an x that its branch keeps non-negative, except in stages beyond the switching point; never 0.
 
-    The base of a broken power: x^1.5 of the held x would be no number there, |x|^1.5 goes on as smoothly.
+    It is the base of a broken power: x^1.5 of the held x would be NaN there, |x|^1.5 continues as smoothly.
     """
 
     nargs = 1
@@ -150,12 +158,12 @@ class Magnitude(sp.Function):
     is_nonnegative = True
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Of the side on which the step is."""
+        """Return 1, the derivative on the active branch."""
         return sp.Integer(1)
 
 
 class Size(sp.Function):
-    """|x| in a bound, which is compared with and no part of the motion: its corner is none."""
+    """|x| in a bound for comparisons, which is not part of the motion and has no switching point."""
 
     nargs = 1
     is_real = True
@@ -163,7 +171,7 @@ class Size(sp.Function):
 
 @dataclass(frozen=True)
 class Switch:
-    """One corner: `owner` is the joint with play that it belongs to, "" for the scene."""
+    """One switching function g; `owner` is the joint with play that it belongs to, "" for the scene."""
 
     index: int
     owner: str
@@ -172,30 +180,30 @@ class Switch:
 
 @dataclass
 class Switches(Freezable):
-    """The corners of a scene, each once."""
+    """The switching functions of a scene, each once."""
 
     found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
-    spare: list[int] = field(default_factory=list)  # numbers of the scene's own corners on the other side
+    spare: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
 
     def beside(self) -> Switches:
-        """For other functions of the same scene: the joints' corners are the same, the scene's are told anew."""
+        """Return the table for other functions of the same scene: the joints' switches are shared, others are new."""
         joints = {key: switch for key, switch in self.found.items() if switch.owner}
         return Switches(joints, sorted(switch.index for switch in self.of("")))
 
     @property
     def count(self) -> int:
-        """How many numbers are taken."""
+        """Return how many numbers are in use."""
         return 1 + max([*(switch.index for switch in self.found.values()), *self.spare], default=-1)
 
     def known(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
-        """The switch of g, and −1 where it is known by −g; None: there is none yet."""
+        """Return the switch of g, and −1 if it is stored for −g; None if there is none."""
         for sign in (1, -1):
             if (known := self.found.get((owner, sp.expand(sign * g)))) is not None:
                 return known, sign
         return None
 
     def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
-        """The same; what is not known becomes one."""
+        """Return the switch of g and its sign; a new switch is added if there is none."""
         if (known := self.known(owner, g)) is not None:
             return known
         assert not self.frozen, f"{g}: a corner after the tables were frozen"
@@ -204,21 +212,23 @@ class Switches(Freezable):
         return switch, 1
 
     def of(self, owner: str) -> list[Switch]:
-        """The switches of one joint with play, in their order."""
+        """Return the switches of one joint with play, or of the scene (""), in their order."""
         return [switch for switch in self.found.values() if switch.owner == owner]
 
     def hold(
         self, expression: sp.Expr, owner: str, sides: dict[sp.Symbol, sp.Expr], only_known: bool = False
     ) -> sp.Expr:
-        """`expression` with its corners as sides; the symbols that it then reads are added to `sides`.
+        """Return `expression` with held branches; the symbols that it then reads are added to `sides`.
 
-        only_known: other corners stay what they are, in a function beside the one that tells them all.
+        only_known: other switching functions stay as they are, for a second function next to the one that writes them
+        all.
         """
         if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
             return expression
         arguments = [self.hold(a, owner, sides, only_known) for a in expression.args]
 
         def side(g: sp.Expr) -> sp.Expr:
+            """Return the symbol of the branch of g, with its sign."""
             if only_known and self.known(owner, g) is None:
                 return sp.sign(g)
             switch, sign = self.side(owner, g)
@@ -244,7 +254,7 @@ class Switches(Freezable):
             case sp.Max() | sp.Min():
                 return picked(arguments, side, up=isinstance(expression, sp.Max))
             case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
-                # what is not known to stay above zero is no number below it, and must not become one
+                # a base that may be negative gives NaN there, and must not become a number
                 base = Magnitude(arguments[0]) if expression.base.is_nonnegative else arguments[0]
                 return base ** arguments[1]
         return expression.func(*arguments)

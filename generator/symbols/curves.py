@@ -1,4 +1,4 @@
-"""Curves of a file and contours of bearings as functions of SymPy; their numbers stay outside."""
+"""Curves of a file and contours of bearings as functions of SymPy; their values are stored elsewhere."""
 
 from __future__ import annotations
 
@@ -12,42 +12,47 @@ _LAST = 3  # derivatives of a cubic: the third has jumps at the knots, and no de
 
 
 class CurveOf(sp.Function):
-    """CurveOf(name, k, x): the k-th derivative of a curve at x, as it is within its range."""
+    """CurveOf(name, k, x): the k-th derivative of a curve at x within its range."""
 
     nargs = 3
     is_real = True
 
     @property
     def name(self) -> str:
-        """Of the curve."""
+        """Return the name of the curve."""
         return str(self.args[0].name)
 
     @property
     def order(self) -> int:
-        """Which derivative."""
+        """Return which derivative this is."""
         return int(self.args[1])
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """Return the next derivative; the third derivative is piecewise constant."""
         name, order, x = self.args
         rate = derivative(x, s)
         return sp.Integer(0) if rate == 0 or order == _LAST else CurveOf(name, order + 1, x) * rate
 
 
 class CurveOn(sp.Function):
-    """CurveOn(name, k, x, side): the same in pieces of one side, each as its polynomial goes on beyond its knots."""
+    """CurveOn(name, k, x, side): the curve on the pieces of one held branch, each continued beyond its knots."""
 
     nargs = 4
     is_real = True
     name, order = CurveOf.name, CurveOf.order
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """Return the next derivative on the same branch."""
         name, order, x, side = self.args
         rate = derivative(x, s)
         return sp.Integer(0) if rate == 0 or order == _LAST else CurveOn(name, order + 1, x, side) * rate
 
 
 class KnotsOf(sp.Function):
-    """KnotsOf(name, x): above zero in the first piece of a curve, below it in the second, and so on; 0 at knots."""
+    """KnotsOf(name, x): the switching function of a curve's knots.
+
+    It is positive in the first piece, negative in the second, and so on; 0 at knots.
+    """
 
     nargs = 2
     is_real = True
@@ -55,7 +60,7 @@ class KnotsOf(sp.Function):
 
 
 def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
-    """A curve at x; where it goes on beyond its range, by min and max, whose corners end steps."""
+    """Return a curve at x; its continuation beyond the range is by min and max, whose switching points end steps."""
     name, zero, one = Str(curve.name), sp.Integer(0), sp.Integer(1)
     if curve.repeats or curve.extrapolate == STOP:
         return CurveOf(name, zero, x)
@@ -68,7 +73,7 @@ def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
 
 
 def c_name(name: str) -> str:
-    """What the emitted functions call a curve."""
+    """Return the name of a curve in the emitted functions."""
     return f"CURVE_{name}_"
 
 
@@ -83,25 +88,26 @@ class ContourOf(sp.Function):
 
     @property
     def table(self) -> str:
-        """What the array of depths is called in Parameters."""
+        """Return the name of the array of depths in Parameters."""
         return str(self.args[0].name)
 
     @property
     def count(self) -> int:
-        """How many depths there are."""
+        """Return the number of depths."""
         return int(self.args[1])
 
     @property
     def order(self) -> int:
-        """Which derivative."""
+        """Return which derivative this is."""
         return int(self.args[2])
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """Return the next derivative; that of the second is taken as 0."""
         table, count, order, x = self.args
         rate = derivative(x, s)
         return sp.Integer(0) if rate == 0 or order == _LAST_OF_CONTOUR else ContourOf(table, count, order + 1, x) * rate
 
 
 def contour_of(table: str, count: int, order: int, angle: sp.Expr) -> sp.Expr:
-    """A derivative of the contour whose depths are called `table`."""
+    """Return the derivative of an `order` of the contour with the depths `table`, at an angle."""
     return ContourOf(Str(table), sp.Integer(count), sp.Integer(order), angle)

@@ -1,4 +1,4 @@
-"""What is asked of every expression again and again, asked once: its symbols, its derivative by one of them."""
+"""Symbols and derivatives of expressions, faster than SymPy's general functions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _BY_ITS_ARGUMENTS = sp.Function._eval_derivative
 
 @lru_cache(100_000)
 def symbols_of(expression: sp.Basic) -> frozenset[sp.Symbol]:
-    """The free symbols."""
+    """Return the free symbols of an expression."""
     if expression.is_Add or expression.is_Mul:
         return frozenset[sp.Symbol]().union(*map(symbols_of, expression.args))
     return frozenset(expression.free_symbols)
@@ -20,9 +20,9 @@ def symbols_of(expression: sp.Basic) -> frozenset[sp.Symbol]:
 
 @lru_cache(50_000)
 def derivative(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """As `sympy.diff` has it, sums term by term and products factor by factor.
+    """Return the derivative as `sympy.diff` does, sums term by term and products factor by factor.
 
-    That asks of every factor of every product whether it is differentiated by several variables, and how often.
+    SymPy asks of every factor of every product whether it is differentiated by several variables, and how often.
     """
     if expression == by:
         return _ONE

@@ -1,7 +1,7 @@
-"""The run-time numbers of a scene: slots that the user may override, and what `prepare` derives.
+"""The run-time parameters of a scene: those that the user may override, and those that `prepare` derives.
 
-Every physical number has an address and becomes a member of the C struct `Parameters`; a literal
-zero is structural and stays a zero. Derived numbers (inverse masses, K, S, …) follow the slots.
+Every physical number has an address and becomes a member of the C struct `Parameters`; a literal zero is structural
+and stays a zero. Derived parameters (inverse masses, K, S, …) are computed from the others.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 @dataclass(frozen=True)
 class SlotEntry:
-    """`value` is the default in symbols of earlier slots; a number unless it follows parameters."""
+    """One parameter with its address; `value` is the default in symbols of earlier parameters, or a number."""
 
     symbol: sp.Symbol
     address: str
@@ -34,12 +34,13 @@ class SlotEntry:
 
     @property
     def follows(self) -> bool:
+        """Return whether the default depends on other parameters."""
         return bool(self.value.free_symbols)
 
 
 @dataclass(frozen=True)
 class Owned:
-    """What a derived number is to a joint or force element: `axis` of the unit vector `what`, or `what` itself."""
+    """The role of a derived parameter in a joint or element: `axis` of the unit vector `what`, or `what` itself."""
 
     owner: str
     what: str
@@ -47,36 +48,38 @@ class Owned:
 
 
 class Slots(Freezable):
-    """Collects slots in order of use; parameters come first, in dependency order.
+    """The parameter table, in order of first use; entries of the section `parameters` come first, in dependency order.
 
-    The model's slots are complete; derived numbers are those of the model, then those of each program.
+    The model's parameters are complete; derived ones are those of the model, then those of each program.
     """
 
     def __init__(self, scene: Scene, symbols: Symbols) -> None:
+        """Begin with the section `parameters` of a scene."""
         self.symbols = symbols
         self.entries: dict[str, SlotEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
-        self.of_owner: dict[sp.Symbol, Owned] = {}  # of derived numbers those that one joint or element has
-        self.unwritten: set[sp.Expr] = set()  # derived numbers of the integration alone, which no document writes
+        self.of_owner: dict[sp.Symbol, Owned] = {}  # roles of derived parameters of one joint or element
+        self.unwritten: set[sp.Expr] = set()  # derived parameters of the integration only, which no document prints
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
-        self.tables: dict[str, list[sp.Symbol]] = {}  # numbers that are an array of Parameters, by its name
+        self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters, self._instead = scene.parameters, scene.instead
         for name in scene.parameters:
             self._parameter(name)
 
     def beside(self, symbols: Symbols) -> Slots:
-        """The same slots for functions with other symbols (`Symbols.beside`)."""
+        """Return the same table for functions with other symbols (`Symbols.beside`)."""
         other = copy.copy(self)
         other.symbols = symbols
         return other
 
     def is_constant(self, expression: sp.Expr) -> bool:
-        """Whether `prepare` could compute it: nothing but slots and numbers in it."""
+        """Return whether `prepare` could compute an expression: it contains only parameters and numbers."""
         info = self.symbols.info
         return all(s in info and info[s].is_parameter for s in expression.free_symbols)
 
     def _parameter(self, name: str) -> sp.Symbol:
+        """Return the symbol of an entry of `parameters`, added with those on which it depends."""
         waiting = [name]  # not by recursion: thousands may be defined through each other
         while waiting:
             quantity = self._parameters[waiting[-1]]
@@ -90,25 +93,28 @@ class Slots(Freezable):
         return self.entries[f"parameters.{name}"].symbol
 
     def _add(self, address: str, wanted: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
+        """Add a parameter with the expression of a quantity and return its symbol."""
         parts = {part.address: part for part in quantity.of}
 
         def symbol(path: str) -> sp.Expr:
+            """Return the symbol of a name in the expression."""
             return self.use(parts[path]) if path in parts else self._parameter(path)
 
         def number(path: str) -> float:
+            """Return the default value of a name in the expression."""
             return self.entries[path if path in parts else f"parameters.{path}"].default
 
         follows = to_sympy(quantity.value, symbol) if names_any(quantity) else None
         default = float(evaluate(quantity.value, number))
         value = sp.Float(default, 17) if follows is None else follows
-        short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
+        short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is not y
         shown = address if short else ""
         symbol = self.symbols.new(wanted, home, address, shown=shown)
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
     def use(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
-        """The slot of a quantity, or of what the scene has instead; 0 for a literal zero unless that may be a slot."""
+        """Return the parameter of a quantity, or of the scene's replacement; 0 for a literal zero unless `zero`."""
         quantity = self._instead.get(quantity.address, quantity)
         if quantity.is_zero and not zero:
             return sp.Integer(0)
@@ -119,7 +125,7 @@ class Slots(Freezable):
         return self.entries[quantity.address].symbol
 
     def table(self, wanted: str, quantities: Sequence[Quantity]) -> str:
-        """Slots of several quantities as an array of Parameters; what it is called there."""
+        """Return the name of an array of Parameters that holds several quantities."""
         known = next((k for k, s in self.tables.items() if s[0] == self._slot(quantities[0])), "")
         if not known:
             known = self.symbols.unique(wanted)
@@ -132,11 +138,12 @@ class Slots(Freezable):
         return known
 
     def _slot(self, quantity: Quantity) -> sp.Symbol | None:
+        """Return the symbol of a quantity's parameter; None if it has none."""
         entry = self.entries.get(quantity.address)
         return entry.symbol if entry else None
 
     def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
-        """A slot that no file names, such as the Baumgarte gains."""
+        """Return the parameter of an address that no file names, such as a Baumgarte gain."""
         if address not in self.entries:
             symbol = self.symbols.new(wanted, OWN_FIELD, address)
             self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
@@ -144,14 +151,17 @@ class Slots(Freezable):
         return self.entries[address].symbol
 
     def choice(self, address: str, words: tuple[str, ...], default: str) -> None:
-        """A slot for which of some words the run has chosen: the equations know their numbers only."""
+        """Add a parameter whose value is the index of the chosen word."""
         self.constant(address, address.partition(".")[2], float(words.index(default)))
         self.entries[address] = replace(self.entries[address], words=words)
 
     def derive(
         self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None
     ) -> sp.Expr:
-        """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
+        """Return a derived parameter, which `prepare` computes once a run; numbers and parameters stay as they are.
+
+        `wanted`: base of its name; `shown`: name of its field.
+        """
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
         if expression not in self._derived_by:
@@ -164,12 +174,15 @@ class Slots(Freezable):
         return self._derived_by[expression]
 
     def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
-        """Like `derive`, but −s is written with the symbol of s, so that opposite arms are shared."""
+        """Return a derived parameter as `derive`, but −s is written with the symbol of s.
+
+        Opposite arms are shared in this way.
+        """
         opposite = self._derived_by.get(-expression)
         return self.derive(wanted, expression, meaning, shown) if opposite is None else -opposite
 
     def default(self, expression: sp.Expr) -> float:
-        """The value of a constant expression with every slot at its default."""
+        """Return the value of a constant expression with every parameter at its default."""
         defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
         value = sp.sympify(expression)
         while value.free_symbols:
@@ -177,20 +190,20 @@ class Slots(Freezable):
         return float(value)
 
     def members(self) -> list[sp.Symbol]:
-        """Every number of a run: slots, then what is derived."""
+        """Return the symbols of all parameters: those of the file, then derived ones."""
         return [*(entry.symbol for entry in self.entries.values()), *self.derived]
 
     def field(self, symbol: sp.Symbol) -> str:
-        """What a number is called in Parameters."""
+        """Return the name of a parameter's field in Parameters."""
         return self.place(symbol).member
 
     def place(self, symbol: sp.Symbol) -> Place:
-        """Where a number is in Parameters."""
+        """Return the place of a parameter in Parameters."""
         home = self.symbols.info[symbol].home
         assert home is not None
         return home
 
 
 def names_any(quantity: Quantity) -> bool:
-    """Whether a quantity's expression has any name in it."""
+    """Return whether a quantity's expression contains a name."""
     return any(True for _ in names(quantity.value))

@@ -1,20 +1,21 @@
 """Squares under roots, by the decimals that were written: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
 
-There is no tolerance: what is not exactly a square of these decimals stays a root, however near to one it is.
+There is no tolerance: a sum that is not exactly a square of these decimals stays under its root, however near it is.
 """
 
 from __future__ import annotations
 
 import sympy as sp
 
-_LONG, DEGREE = 60, 8  # operations under a root, and a power there, beyond which nobody wrote a square
+_LONG, DEGREE = 60, 8  # operations under a root, and a power there, up to which squares are looked for
 _DIGITS = 10**15  # a whole number that binary64 has
 
 
 def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> sp.Expr:
-    """A power; of a sum under a root its squares are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, a corner and all.
+    """Return a power; squares under a root are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, with its switching point.
 
-    decimals: the base with its numbers as they were written; else they are the shortest that tell binary64's apart.
+    decimals: the base with its numbers as written; else the shortest decimals that identify the binary64 numbers are
+    used.
     """
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
         return base**exponent
@@ -38,20 +39,21 @@ def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> s
 
 
 def decimal(number: sp.Expr) -> sp.Expr:
-    """A number of binary64 as the shortest decimal that is read as it."""
+    """Return a binary64 number as the shortest decimal that is read as it."""
     return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
 
 
 def _size(part: sp.Expr) -> sp.Expr:
-    """What a polynomial with whole coefficients is divided by, so that they are numbers of C."""
+    """Return the number by which a polynomial with integer coefficients is divided, so that they are numbers of C."""
     sizes = [abs(c) for c in sp.Poly(part).coeffs()]
     return sp.Integer(1) if max(sizes) < _DIGITS else sizes[0]
 
 
 def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
-    """`e` with a name for all in it that is no sum, product or small power, so that its degree is the one written.
+    """Return `e` with a dummy for each part that is not a sum, product or small power.
 
-    Left to itself SymPy takes x^0.1 and x^0.0001 for powers of one generator, with as many terms as memory holds.
+    Its degree is then the one written. SymPy would take x^0.1 and x^0.0001 for powers of one generator, with as many
+    terms as memory holds.
     """
     if e.is_Number:
         return decimal(e)

@@ -1,6 +1,6 @@
-"""Where numbers are stored: fields of structs, elements of arrays, arguments. Each target writes them in its syntax.
+"""Places where values are stored: fields of structs, elements of arrays, arguments. Each target writes its own syntax.
 
-Tables of a model or a program grow while it is derived, and are read only afterwards (`Freezable`).
+Tables of a model or a program grow while it is derived, and are only read afterwards (`Freezable`).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ PARAMETERS = "p"  # the argument that holds the parameters of a run
 class Place:
     """An argument or local, or a part of it: `Place("rhs")["clearance"][0]["Fx"]`.
 
-    `path` has the name of a field, or the number of an element, a step. As a string, by which terms are put in order,
-    the place is `rhs.clearance[0].Fx`.
+    `path` has one step for each field name or element number. As a string, by which terms are ordered, the place is
+    `rhs.clearance[0].Fx`.
     """
 
     base: str
@@ -28,9 +28,11 @@ class Place:
     expressions: ClassVar[tuple[sp.Basic, ...]] = ()
 
     def __getitem__(self, step: str | int) -> Place:
+        """Return the place of a field or element within this one."""
         return Place(self.base, (*self.path, step))
 
     def __str__(self) -> str:
+        """Return the place as text, such as "rhs.clearance[0].Fx"."""
         return self.base + "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in self.path)
 
     @property
@@ -50,11 +52,11 @@ class Place:
 
 
 class Result(Place):
-    """The number that a function returns through the argument of this name."""
+    """The value that a function returns through the argument of this name."""
 
 
 class PlaceSymbol(sp.Symbol):
-    """A symbol that is read at a place; among others it is put in order as a plain symbol of its path."""
+    """A symbol that is read at a place; among others it is ordered as a plain symbol of its path."""
 
     place: Place
     __slots__ = ("place",)
@@ -66,6 +68,7 @@ class PlaceSymbol(sp.Symbol):
         return own
 
     def __getnewargs_ex__(self) -> tuple[Any, ...]:
+        """Return the arguments with which the symbol is unpickled."""
         return (self.place,), {}
 
     @classmethod
@@ -105,6 +108,7 @@ class Freezable:
 
 
 def _replace_tables(of: Freezable, types: dict[type, Any]) -> None:
+    """Convert every table of an object to the type that is given for its type."""
     for name, value in vars(of).items():
         if type(value) in types:
             setattr(of, name, types[type(value)](value))

@@ -1,12 +1,12 @@
-"""The symbols of a model: one C name each, where the name lives, and how it is differentiated.
+"""The symbols of a model: one C name each, the place where it is stored, and its derivatives.
 
-A derived symbol (`cos_theta_L7`, the arm `arm_L7_head_x`, a drive's `crank1_angle`) stands for an
-expression and knows its derivatives. Differentiation goes by the chain rule over these symbols, so
-that Φ_q and γ come out in the words of the geometry and need no search for common subexpressions.
-
-Names of two kinds meet in emitted code: those that are made here, of what a file calls its things, and fixed ones
-(arguments, the laws' letters, the engine, C). They are different by construction: a name that is made here ends in
-`_`, has no `__` in it, and no fixed name ends so."""
+A derived symbol (`cos_theta_L7`, the arm `arm_L7_head_x`, a drive's `crank1_angle`) stands for an expression and knows
+its derivatives. Differentiation uses the chain rule over these symbols, so that Φ_q and γ are expressed in the terms
+of the geometry and need no search for common subexpressions.
+Names of two kinds meet in emitted code: those that are made here, from names in a file, and fixed ones (arguments, the
+laws' letters, the engine, C). They differ by construction: a name that is made here ends in `_` and does not contain
+`__`, and no fixed name ends so.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def plain_name(symbol: sp.Symbol) -> str:
 
 @dataclass(frozen=True)
 class SymbolInfo:
-    """`home` is where the symbol is read; None for a local of its kernel."""
+    """Place, meaning and unit of a symbol; `home` is where the symbol is read, None for a local of its kernel."""
 
     home: Place | None
     meaning: str
@@ -54,6 +54,7 @@ class Symbols(Freezable):
     """All the symbols of one model, in the order in which they were made."""
 
     def __init__(self) -> None:
+        """Begin without symbols."""
         self.info: dict[sp.Symbol, SymbolInfo] = {}
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
@@ -63,7 +64,7 @@ class Symbols(Freezable):
         self._numbered: dict[str, str] = {}  # names that others had before: what was wanted
 
     def freeze(self) -> None:
-        """Make these tables and the switches read only: whatever asks for a new name later is a defect."""
+        """Make these tables and the switches read only: a later request for a new name is a defect."""
         super().freeze()
         self.switches.freeze()
 
@@ -74,7 +75,7 @@ class Symbols(Freezable):
         return other
 
     def beside(self) -> Symbols:
-        """Other symbols for other functions of the same library: they share the members of Parameters only."""
+        """Return a table for other functions of the same library, which shares only the members of Parameters."""
         other = Symbols()
         other._shared, other.switches = self, self.switches.beside()
         for symbol, info in self.info.items():
@@ -83,7 +84,7 @@ class Symbols(Freezable):
         return other
 
     def adopt(self, symbol: sp.Symbol) -> None:
-        """Takes over a member of Parameters that was made on the other side."""
+        """Add a member of Parameters that was made in the other table."""
         if self._shared is not None and symbol not in self.info:
             self.info[symbol] = self._shared.info[symbol]
             self._names.add(symbol.name)
@@ -104,7 +105,10 @@ class Symbols(Freezable):
         return candidate
 
     def shorter(self, used: Collection[str]) -> dict[Key, Key]:
-        """What names that bear a number are called in a function that uses these: without it, or with the least."""
+        """Return shorter names for those that carry a number: without the number, or with the smallest one.
+
+        `used`: the names in the function.
+        """
         own = [name for name in used if not ((home := self._home(name)) and home.is_parameter)]
         numbered = sorted((name for name in own if name in self._numbered), key=lambda name: (len(name), name))
         taken = {*own} - {*numbered}
@@ -121,19 +125,20 @@ class Symbols(Freezable):
         return {name: called for name, called in found.items() if name != called}
 
     def _is_member(self, name: str) -> bool:
-        """Whether a number of the run has this name: the same one for something else would mislead."""
+        """Return whether a parameter has this name, which must not stand for something else."""
         return self._home(name) == Place(PARAMETERS)[name]
 
     def _home(self, name: str) -> Place | None:
+        """Return the place of a name's symbol; None for a local."""
         info = self.info.get(sp.Symbol(name, real=True))
         return info.home if info else None
 
     def new(
         self, wanted: str, home: Place | None = None, meaning: str = "", unit: str = "", shown: str = ""
     ) -> sp.Symbol:
-        """A new real symbol; with OWN_FIELD for its home the field is called `shown`, or as the symbol.
+        """Return a new real symbol; with home OWN_FIELD its field is called `shown`, or as the symbol.
 
-        Its own name is what terms are put in order by.
+        Terms are ordered by the symbol's own name.
         """
         shared = self._shared if home and home.is_parameter else None
         name, called = (self._unshared(text, shared) if text else "" for text in (wanted, shown))
@@ -145,7 +150,7 @@ class Symbols(Freezable):
         return symbol
 
     def _unshared(self, wanted: str, shared: Symbols | None) -> str:
-        """A name that is new on the other side too."""
+        """Return a name that is new in the other table too."""
         name = self.unique(wanted)
         while shared is not None and name in shared._names:
             name = self.unique(wanted)
@@ -162,7 +167,7 @@ class Symbols(Freezable):
         unit: str = "",
         shown: str = "",
     ) -> sp.Symbol:
-        """A new symbol that stands for `expression`."""
+        """Return a new symbol that stands for `expression`."""
         symbol = self.new(wanted, home, meaning, unit, shown)
         self.definitions[symbol] = expression
         if self._shared is not None and home is not None and home.is_parameter:
@@ -170,7 +175,7 @@ class Symbols(Freezable):
         return symbol
 
     def diff(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-        """d expression / d by, through the derived symbols."""
+        """Return d expression / d by, through the derived symbols."""
         total = sp.Integer(0)
         for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
             inner = sp.Integer(1) if symbol == by else self.rules.get(symbol, {}).get(by)
@@ -179,7 +184,10 @@ class Symbols(Freezable):
         return total
 
     def written_out(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-        """The same through definitions, for a symbol that rules do not name: a rate that a drive prescribes."""
+        """Return d expression / d by through definitions, for a symbol that no rule names.
+
+        Such a symbol is a rate that a drive prescribes.
+        """
         total = sp.Integer(0)
         for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
             known = symbol != by and symbol in self.definitions
@@ -194,7 +202,7 @@ class Symbols(Freezable):
         return value.xreplace({s: PlaceSymbol(home) for s, home in homes if home})
 
     def explicit(self, expression: sp.Expr) -> sp.Expr:
-        """`expression` with every derived symbol written out."""
+        """Return `expression` with every derived symbol replaced by its definition."""
         while found := {s: self.definitions[s] for s in expression.free_symbols if s in self.definitions}:
             expression = expression.xreplace(found)
         return expression

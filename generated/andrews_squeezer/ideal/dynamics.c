@@ -1,7 +1,14 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     HE.y with lambda of H.y; HE.x with lambda of H.x; EG.y with lambda of G.y; EG.x with lambda of G.x;
+ *     FE.y with lambda of F.y; FE.x with lambda of F.x; AH.y with lambda of A7.y; AH.x with lambda of A7.x;
+ *     AG.y with lambda of A5.y; AG.x with lambda of A5.x; BDE.y with lambda of B.y; BDE.x with lambda of B.x;
+ *     OF.y with lambda of O.y; OF.x with lambda of O.x; BDE.theta; EG.theta with AG.theta;
+ *     HE.theta with AH.theta; OF.theta with FE.theta; lambda of E3.x with lambda of E3.y;
+ *     lambda of E4.x with lambda of E4.y; lambda of E6.x with lambda of E6.y.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -226,7 +233,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[19] = phi_H_y_;
     rhs->phi_dot[19] = phi_dot_H_y_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_HE_theta_H_y_ = -p->HE_mass_*arm_HE_H_x_;
     const double l_AH_theta_H_y_ = p->HE_mass_*arm_AH_H_x_;
     const double l_HE_theta_H_x_ = p->HE_mass_*arm_HE_H_y_;
@@ -648,7 +655,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[19] = lambda_H_y_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

@@ -1,4 +1,28 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     OF: on ground by O; its angle is an unknown
+ *     BDE: on ground by B; its angle is an unknown
+ *     AG: on ground by A5; its angle is an unknown
+ *     AH: on ground by A7; its angle is an unknown
+ *     FE: on OF by F; its angle is an unknown
+ *     HE: on BDE by BDE.E=HE.E; its angle is an unknown
+ *     EG: on FE by E4; its angle is an unknown
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = OF.theta (rad); q[1] = BDE.theta (rad); q[2] = AG.theta (rad); q[3] = AH.theta (rad);
+ *     q[4] = FE.theta (rad); q[5] = HE.theta (rad); q[6] = EG.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     rhs->lambda[0] of G.x; rhs->lambda[1] of G.y; rhs->lambda[2] of H.x; rhs->lambda[3] of H.y;
+ *     rhs->lambda[4] of E3.x; rhs->lambda[5] of E3.y
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -144,7 +168,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -183,7 +207,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 }
 
 /*
- * Their second rates a, from absolute all_a.
+ * Second rates a of the tree coordinates, from absolute accelerations all_a.
  */
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
@@ -260,7 +284,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -329,9 +353,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     AG.theta; AH.theta; HE.theta; lambda of H.x with lambda of H.y; BDE.theta; EG.theta;
+ *     lambda of G.x with lambda of G.y; OF.theta with FE.theta; lambda of E3.x with lambda of E3.y.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -430,7 +457,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double rhs_E3_y_ = -(BDE_omega_ * BDE_omega_)*span_BDE_E_y_ + (FE_omega_ * FE_omega_)*span_FE_E_y_
         + (OF_omega_ * OF_omega_)*span_OF_F_y_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     if (!(p->mass_AG_AG_ > LIGHT_PIVOT * p->AG_turning_)) {
         pivot = 7;
         goto dependent;
@@ -646,7 +673,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->lambda[5] = lambda_E3_y_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
@@ -657,8 +684,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -726,7 +753,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_E3_x_ = r[4];
     const double r_E3_y_ = r[5];
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_G_x_AG_theta_ = p->inverse_tree_metric_AG_theta_*span_AG_G_y_;
     const double l_G_y_AG_theta_ = -p->inverse_tree_metric_AG_theta_*span_AG_G_x_;
     const double l_H_x_AH_theta_ = p->inverse_tree_metric_AH_theta_*span_AH_H_y_;
@@ -898,7 +925,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     return 0;
 }
 
-/* Multipliers of the closures from those of the absolute rows. */
+/* Compute the multipliers of the loop closures from those of all constraint equations in absolute coordinates. */
 void tree_multipliers(const double *lambda, double *closing)
 {
     (void)lambda, (void)closing;

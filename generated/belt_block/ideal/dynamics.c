@@ -1,7 +1,9 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     block.y with lambda of guide.offset; block.theta with lambda of guide.angle; block.x; lambda of rub.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -21,7 +23,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
     const double spring_pull_ = spring_force_/spring_length_;
 
-    /* friction: slip, or stick as a row */
+    /* friction: slip, or stick as a constraint equation */
     const double slip_rub_ = block_vx_ - p->rub_speed_;
     const double mode_rub_ = discrete->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
@@ -45,7 +47,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[1] = phi_guide_angle_;
     rhs->phi_dot[1] = phi_dot_guide_angle_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double scale_rub_ = p->inverse_block_mass_;
     if (stick_rub_ != 0.0 && !(scale_rub_ > 0.0 && scale_rub_ < INFINITY))
         return 3;

@@ -1,4 +1,20 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     block: on ground by guide, displaced by guide.slide; its angle is constant
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = guide.slide (m)
+ * Loop closures, with the places of their multipliers:
+ *     none
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -24,7 +40,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -48,7 +64,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -57,15 +73,17 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     guide.slide; lambda of rub.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
     (void)t;
-    /* corners: the sides that are held, if any */
+    /* branches of switching functions that are held, if any */
     const double *const branch = discrete->held ? discrete->branch : NULL;
     double *const g = rhs->g;
 
@@ -80,7 +98,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
     const double spring_pull_ = spring_force_/spring_length_;
 
-    /* friction: slip, or stick as a row */
+    /* friction: slip, or stick as a constraint equation */
     const double slip_rub_ = guide_slide_rate_ - p->rub_speed_;
     const double mode_rub_ = discrete->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
@@ -92,7 +110,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->friction[0].speed = p->rub_speed_;
     rhs->friction[0].force = kinetic_rub_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double scale_rub_ = p->inverse_block_mass_;
     if (stick_rub_ != 0.0 && !(scale_rub_ > 0.0 && scale_rub_ < INFINITY))
         return 1;
@@ -119,7 +137,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * Switching functions of the scene's own corners, in rhs->g, and what the user watches, in rhs->event.
+ * Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.
  */
 void watched_functions(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, RhsOutputs *rhs)
@@ -134,8 +152,8 @@ void watched_functions(const double t, const double *q, const double *v, const D
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)

@@ -3,7 +3,7 @@
  * mechanism bouncing_ball, scene damped, from the YAML with sha256
  * d59abd4d40e94d675ef5ed7a7d8ab966ee77d724aa6a7ad36058811fdec5cf94
  *
- * What the engine must know of this scene, sizes and small tables, and every number of it.
+ * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -46,7 +46,7 @@
 #define N_SET 0             /* those that it sets */
 #define N_RATES 0           /* velocities that it sets */
 
-/* A row fails where less than such a share of it is left by the others: */
+/* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* where it depends on others */
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
@@ -54,7 +54,7 @@
 #define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-typedef struct Parameters Parameters; /* every number of a run */
+typedef struct Parameters Parameters; /* all parameters of a run */
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"
@@ -78,7 +78,7 @@ static const int friction_of_pivot[] = {0};
 
 /* The engine reads no further: scenes that have all this in common share its code. */
 
-/* In SI: first the slots that a user may set, then what prepare() derives. */
+/* Parameters in SI units: first those that a user may set, then those that prepare() derives. */
 struct Parameters {
     double height_;  /* parameters.height, m */
     double ball_mass_;  /* bodies.ball.mass, kg */
@@ -106,7 +106,7 @@ struct Parameters {
     double inverse_tree_metric_ball_x_;  /* 1/M, 1/kg */
 };
 
-/* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
+/* Baumgarte's gains in Newton's matrix: 2 alpha and beta^2 of the constraints, 2 alpha of a sticking friction. */
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }
 static inline double baumgarte_beta_squared(const Parameters *p) { (void)p; return 0.0; }
 static inline double stick_gain(const Parameters *p) { (void)p; return 0.0; }

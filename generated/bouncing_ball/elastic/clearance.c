@@ -1,5 +1,7 @@
 /*
  * Hertz contact with a choice of hysteresis damping.
+ * F_n = delta^exponent*stiffness
+ * delta: penetration; ratio: deltadot/deltadot_minus.
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known or that of spheres; small penetrations; driven apart fast
  * it would pull, and is 0 there unless it pulls.
@@ -13,8 +15,8 @@ static inline void hertz_none(double delta, double ratio, double stiffness, doub
 }
 
 /*
- * Dry contact in joint fall (physics.md, section 3); none for delta < 0, where a step may look that ends
- * at the separation.
+ * Force of the dry contact in joint fall (physics.md, section 3). It is zero for delta < 0, where a step
+ * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
@@ -23,7 +25,7 @@ static inline PinForce dry_fall_(double delta, double deltadot, double de_t, dou
 {
     (void)branch;
     (void)g;
-    /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->floor_radius_;
     const double a_j = -0.5*delta + p->R_j_floor_;
@@ -36,7 +38,7 @@ static inline PinForce dry_fall_(double delta, double deltadot, double de_t, dou
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint fall: free while delta < 0, dry contact beyond; a step holds what it began with. */
+/* Joint fall: force on the journal; free for delta < 0, dry contact for delta > 0, held over a step. */
 static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {

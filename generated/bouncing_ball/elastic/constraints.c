@@ -1,5 +1,5 @@
 /*
- * The diagonal of M (n).
+ * The diagonal of the mass matrix M (n) in absolute coordinates.
  */
 void mass_matrix(const Parameters *p, double *m)
 {
@@ -10,7 +10,7 @@ void mass_matrix(const Parameters *p, double *m)
 }
 
 /*
- * Phi(q, t) of the closed linkage; m and rad.
+ * Phi(q, t) of the closed linkage; m and rad. Rows marked 'open' or 'redundant' do not constrain the motion.
  */
 void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
@@ -20,12 +20,12 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double ball_y_ = q[1];
 
     /* rows */
-    phi[0] = -ball_x_;  /* fall.x, m */
-    phi[1] = -ball_y_;  /* fall.y, m */
+    phi[0] = -ball_x_;  /* fall.x, m; open: fall has play in this scene */
+    phi[1] = -ball_y_;  /* fall.y, m; open: fall has play in this scene */
 }
 
 /*
- * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ * The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written.
  */
 void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
@@ -36,29 +36,29 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 }
 
 /*
- * nu = -Phi_t: Phi_q v = nu.
+ * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* fall.x, m/s */
-    nu[1] = 0.0;  /* fall.y, m/s */
+    nu[0] = 0.0;  /* fall.x, m/s; open: fall has play in this scene */
+    nu[1] = 0.0;  /* fall.y, m/s; open: fall has play in this scene */
 }
 
 /*
- * gamma: Phi_q a = gamma.
+ * Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t, (void)q, (void)v, (void)p;
     /* rows */
-    gamma_rows[0] = 0.0;  /* fall.x, m/s^2 */
-    gamma_rows[1] = 0.0;  /* fall.y, m/s^2 */
+    gamma_rows[0] = 0.0;  /* fall.x, m/s^2; open: fall has play in this scene */
+    gamma_rows[1] = 0.0;  /* fall.y, m/s^2; open: fall has play in this scene */
 }
 
 /*
- * Values of the start's guess, set and rates.
+ * Values of the file's start: guesses, set values, then rates; those of journals follow.
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
@@ -67,7 +67,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 }
 
 /*
- * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * Reactions (Fx, Fy, M on the second body at the joint's point, its part of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,

@@ -1,13 +1,15 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     ball.x; ball.y; ball.theta.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
 {
     (void)t;
-    /* corners: the sides that are held, if any */
+    /* branches of switching functions that are held, if any */
     const double *const branch = discrete->held ? discrete->branch : NULL;
     double *const g = rhs->g;
 

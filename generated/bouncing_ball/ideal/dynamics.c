@@ -1,7 +1,9 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     ball.y with lambda of fall.y; ball.x with lambda of fall.x; ball.theta.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)

@@ -1,5 +1,5 @@
 /*
- * The diagonal of M (n).
+ * The diagonal of the mass matrix M (n) in absolute coordinates.
  */
 void mass_matrix(const Parameters *p, double *m)
 {
@@ -47,7 +47,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
 }
 
 /*
- * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ * The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written.
  */
 void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
@@ -88,7 +88,7 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 }
 
 /*
- * nu = -Phi_t: Phi_q v = nu.
+ * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
@@ -105,7 +105,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 }
 
 /*
- * gamma: Phi_q a = gamma.
+ * Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
@@ -154,7 +154,7 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 }
 
 /*
- * Values of the start's guess, set and rates.
+ * Values of the file's start: guesses, set values, then rates; those of journals follow.
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
@@ -167,7 +167,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 }
 
 /*
- * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * Reactions (Fx, Fy, M on the second body at the joint's point, its part of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,

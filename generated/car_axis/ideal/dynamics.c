@@ -1,7 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     axle.x; axle.y; lambda of slot.offset; road.theta with lambda of bump; road.y with lambda of foot.y;
+ *     road.x with lambda of foot.x; axle.theta.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -88,7 +91,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[3] = phi_bump_;
     rhs->phi_dot[3] = phi_dot_bump_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_axle_mass_;
     const double l_slot_offset_axle_y_ = -p->inverse_axle_mass_*sin_theta_road_;
     const double scale_slot_offset_ = -cos_theta_road_*l_slot_offset_axle_x_ - l_slot_offset_axle_y_*sin_theta_road_;
@@ -168,7 +171,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[3] = lambda_bump_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = -left_pull_*left_span_x_ - right_pull_*right_span_x_;

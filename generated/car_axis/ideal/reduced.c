@@ -1,4 +1,21 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     road: on ground by foot; its angle is prescribed by bump
+ *     axle: moves freely, x and y are unknowns; its angle is an unknown
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = axle.x (m); q[1] = axle.y (m); q[2] = axle.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     rhs->lambda[0] of slot.offset
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -41,7 +58,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -64,7 +81,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 }
 
 /*
- * Their second rates a, from absolute all_a.
+ * Second rates a of the tree coordinates, from absolute accelerations all_a.
  */
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
@@ -105,7 +122,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -140,9 +157,11 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     axle.x; axle.y; axle.theta; lambda of slot.offset.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -200,7 +219,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
         - 2.0*bump_rate_*cos_theta_road_*(-axle_omega_*span_axle_tail_x_ - axle_y_rate_)
         + 2.0*bump_rate_*sin_theta_road_*(axle_omega_*span_axle_tail_y_ - axle_x_rate_);
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_axle_mass_;
     const double l_slot_offset_axle_y_ = -p->inverse_axle_mass_*sin_theta_road_;
     if (!(p->axle_inertia_ > LIGHT_PIVOT * p->axle_turning_)) {
@@ -239,7 +258,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->lambda[0] = lambda_slot_offset_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
@@ -253,8 +272,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -277,7 +296,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* right-hand side */
     const double r_slot_offset_ = r[0];
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_tree_metric_axle_x_;
     const double l_slot_offset_axle_y_ = -p->inverse_tree_metric_axle_x_*sin_theta_road_;
     const double w_slot_offset_axle_theta_ = cos_theta_road_*span_axle_tail_y_ - sin_theta_road_*span_axle_tail_x_;
@@ -301,7 +320,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     return 0;
 }
 
-/* Multipliers of the closures from those of the absolute rows. */
+/* Compute the multipliers of the loop closures from those of all constraint equations in absolute coordinates. */
 void tree_multipliers(const double *lambda, double *closing)
 {
     (void)lambda, (void)closing;

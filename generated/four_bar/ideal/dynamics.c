@@ -1,7 +1,11 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     coupler.y with lambda of A.y; coupler.x with lambda of A.x; crank.theta with lambda of motor;
+ *     rocker.y with lambda of B0.y; rocker.x with lambda of B0.x; crank.y with lambda of A0.y;
+ *     crank.x with lambda of A0.x; coupler.theta; rocker.theta; lambda of B.x with lambda of B.y.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -105,7 +109,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[8] = phi_motor_;
     rhs->phi_dot[8] = phi_dot_motor_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_crank_theta_A_y_ = -arm_crank_head_x_*p->coupler_mass_;
     const double l_coupler_theta_A_y_ = -arm_coupler_head_x_*p->coupler_mass_;
     const double l_crank_theta_A_x_ = arm_crank_head_y_*p->coupler_mass_;
@@ -235,7 +239,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[8] = lambda_motor_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

@@ -31,7 +31,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double phi_B_x_ = -p->B0_x_ + span_coupler_head_x_ + span_crank_head_x_ - span_rocker_head_x_;
     const double phi_B_y_ = span_coupler_head_y_ + span_crank_head_y_ - span_rocker_head_y_;
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double determinant_B_x_B_y_ = -span_coupler_head_x_*span_rocker_head_y_
         + span_coupler_head_y_*span_rocker_head_x_;
     const double size_B_x_coupler_theta_ = fabs(span_coupler_head_x_) + fabs(span_coupler_head_y_);
@@ -69,7 +69,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
 /*
  * Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:
  * all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.
- * Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.
+ * Returns 0, or the number of a row that depends on others here; all_q and all_v are written also then.
  */
 int arrive(const double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
     double *all_v, double *all_a, double *worst)
@@ -145,7 +145,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     *worst = max_of(0.0, fabs(phi_dot_B_x_));
     *worst = max_of(*worst, fabs(phi_dot_B_y_));
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double determinant_B_x_B_y_ = -span_coupler_head_x_*span_rocker_head_y_
         + span_coupler_head_y_*span_rocker_head_x_;
     const double size_B_x_coupler_theta_ = fabs(span_coupler_head_x_) + fabs(span_coupler_head_y_);

@@ -1,7 +1,13 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     coupler2.y with lambda of A1.y; coupler2.x with lambda of A1.x; coupler1.y with lambda of A0.y;
+ *     coupler1.x with lambda of A0.x; crank2.y with lambda of O2.y; crank2.x with lambda of O2.x;
+ *     crank1.y with lambda of O1.y; crank1.x with lambda of O1.x; crank0.y with lambda of O0.y;
+ *     crank0.x with lambda of O0.x; crank2.theta; crank0.theta with coupler1.theta; coupler2.theta;
+ *     crank1.theta; lambda of B1.x with lambda of B1.y; lambda of B2.x with lambda of B2.y.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -157,7 +163,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[13] = phi_B2_y_;
     rhs->phi_dot[13] = phi_dot_B2_y_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_coupler2_theta_A1_y_ = -arm_coupler2_head_x_*p->coupler2_mass_;
     const double l_crank1_theta_A1_y_ = -arm_crank1_head_x_*p->coupler2_mass_;
     const double l_coupler2_theta_A1_x_ = arm_coupler2_head_y_*p->coupler2_mass_;
@@ -430,7 +436,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[13] = lambda_B2_y_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

@@ -1,4 +1,25 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     crank0: on ground by O0; its angle is an unknown
+ *     crank1: on ground by O1; its angle is an unknown
+ *     crank2: on ground by O2; its angle is an unknown
+ *     coupler1: on crank0 by A0; its angle is an unknown
+ *     coupler2: on crank1 by A1; its angle is an unknown
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = crank0.theta (rad); q[1] = crank1.theta (rad); q[2] = crank2.theta (rad);
+ *     q[3] = coupler1.theta (rad); q[4] = coupler2.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     rhs->lambda[0] of B2.x; rhs->lambda[1] of B2.y; rhs->lambda[2] of B1.x; rhs->lambda[3] of B1.y
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -103,7 +124,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -134,7 +155,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 }
 
 /*
- * Their second rates a, from absolute all_a.
+ * Second rates a of the tree coordinates, from absolute accelerations all_a.
  */
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
@@ -197,7 +218,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -258,9 +279,12 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     crank2.theta; coupler2.theta; lambda of B2.x with lambda of B2.y; crank1.theta; crank0.theta;
+ *     coupler1.theta; lambda of B1.x with lambda of B1.y.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -330,7 +354,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double rhs_B1_y_ = (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_y_
         + (crank0_omega_ * crank0_omega_)*span_crank0_head_y_ - (crank1_omega_ * crank1_omega_)*span_crank1_head_y_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     if (!(p->mass_crank2_crank2_ > LIGHT_PIVOT * p->crank2_turning_)) {
         pivot = 5;
         goto dependent;
@@ -483,7 +507,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->lambda[3] = lambda_B1_y_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
@@ -494,8 +518,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -548,7 +572,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_B1_x_ = r[2];
     const double r_B1_y_ = r[3];
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_B2_x_crank2_theta_ = p->inverse_tree_metric_crank2_theta_*span_crank2_head_y_;
     const double l_B2_y_crank2_theta_ = -p->inverse_tree_metric_crank2_theta_*span_crank2_head_x_;
     const double l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_tree_metric_crank0_theta_;
@@ -655,7 +679,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     return 0;
 }
 
-/* Multipliers of the closures from those of the absolute rows. */
+/* Compute the multipliers of the loop closures from those of all constraint equations in absolute coordinates. */
 void tree_multipliers(const double *lambda, double *closing)
 {
     (void)lambda, (void)closing;

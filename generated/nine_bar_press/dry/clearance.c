@@ -1,5 +1,7 @@
 /*
  * Lankarani and Nikravesh: Hertz stiffness with hysteresis damping.
+ * F_n = K*delta^exponent*max(0, hysteresis*ratio + 1)
+ * delta: penetration; ratio: deltadot/deltadot_minus.
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
@@ -19,6 +21,8 @@ static inline void lankarani_nikravesh(double delta, double ratio, double expone
 
 /*
  * modified Coulomb friction.
+ * F_t = -F_n*mu*(-max(0, min(1, friction_slope*(-v0 - v_t))) + max(0, min(1, friction_slope*(-v0 + v_t))))
+ * F_n: normal force; v_t: slip velocity.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
  * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
@@ -54,15 +58,15 @@ static inline void modified_coulomb(double F_n, double v_t, double mu, double v0
 }
 
 /*
- * Dry contact in joint A (physics.md, section 3); none for delta < 0, where a step may look that ends
- * at the separation.
+ * Force of the dry contact in joint A (physics.md, section 3). It is zero for delta < 0, where a step
+ * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -78,7 +82,7 @@ static inline PinForce dry_A_(double delta, double deltadot, double de_t, double
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint A: free while delta < 0, dry contact beyond; a step holds what it began with. */
+/* Joint A: force on the journal; free for delta < 0, dry contact for delta > 0, held over a step. */
 static void clearance_A_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {
@@ -91,7 +95,7 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
     for (int k = 0; k < 5; k++)
-        g[k] = NAN; /* without contact nothing switches */
+        g[k] = NAN; /* without contact no switching function is active */
     if (branch ? contact->closed : delta > 0.0)
         F = dry_A_(delta, deltadot, de_t, omega_i, omega_j, contact, p, branch, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
@@ -100,15 +104,15 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
 }
 
 /*
- * Dry contact in joint B (physics.md, section 3); none for delta < 0, where a step may look that ends
- * at the separation.
+ * Force of the dry contact in joint B (physics.md, section 3). It is zero for delta < 0, where a step
+ * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -124,7 +128,7 @@ static inline PinForce dry_B_(double delta, double deltadot, double de_t, double
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint B: free while delta < 0, dry contact beyond; a step holds what it began with. */
+/* Joint B: force on the journal; free for delta < 0, dry contact for delta > 0, held over a step. */
 static void clearance_B_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {
@@ -137,7 +141,7 @@ static void clearance_B_(double e_x, double e_y, double de_x, double de_y, doubl
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
     for (int k = 5; k < 10; k++)
-        g[k] = NAN; /* without contact nothing switches */
+        g[k] = NAN; /* without contact no switching function is active */
     if (branch ? contact->closed : delta > 0.0)
         F = dry_B_(delta, deltadot, de_t, omega_i, omega_j, contact, p, branch, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,

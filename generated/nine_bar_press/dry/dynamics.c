@@ -1,12 +1,20 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     S9.y with lambda of slider.y; S9.x with lambda of slider.x; L8.y with lambda of Q8.y;
+ *     L8.x with lambda of Q8.x; L3.y with lambda of P3.y; L3.x with lambda of P3.x; L2.y with lambda of P2.y;
+ *     L2.x with lambda of P2.x; L7.y with lambda of Q6.y; L7.x with lambda of Q6.x;
+ *     L4.theta with lambda of crank4; L1.theta with lambda of crank1; S9.theta with lambda of guide.angle;
+ *     L6.y with lambda of O6.y; L6.x with lambda of O6.x; L4.y with lambda of O4.y; L4.x with lambda of O4.x;
+ *     L1.y with lambda of O1.y; L1.x with lambda of O1.x; L2.theta; L3.theta; L6.theta with L7.theta;
+ *     L8.theta; lambda of guide.offset.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
 {
-    /* corners: the sides that are held, if any */
+    /* branches of switching functions that are held, if any */
     const double *const branch = discrete->held ? discrete->branch : NULL;
     double *const g = rhs->g;
 
@@ -243,7 +251,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[19] = phi_crank4_;
     rhs->phi_dot[19] = phi_dot_crank4_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_L8_theta_slider_y_ = -p->S9_mass_*arm_L8_head_x_;
     const double l_L8_theta_slider_x_ = p->S9_mass_*arm_L8_head_y_;
     const double inertia_L8_y_ = p->L8_mass_ + p->S9_mass_;
@@ -516,7 +524,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[19] = lambda_crank4_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = -F_A_x_;

@@ -1,5 +1,5 @@
 /*
- * Every number of a run: slots given or by default, then what follows from them.
+ * Fill all parameters of a run: given values or defaults, then derived parameters.
  */
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {

@@ -1,4 +1,30 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     L1: on ground by O1; its angle is prescribed by crank1
+ *     L4: on ground by O4; its angle is prescribed by crank4
+ *     L6: on ground by O6; its angle is an unknown
+ *     L7: on L6 by Q6; its angle is an unknown
+ *     L8: on L6 by L6.head=L8.tail; its angle is an unknown
+ *     L2: on L7 by P2; its angle is an unknown
+ *     L3: on L7 by P3; its angle is an unknown
+ *     S9: on L8 by slider; its angle is constant
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = L6.theta (rad); q[1] = L7.theta (rad); q[2] = L8.theta (rad); q[3] = L2.theta (rad);
+ *     q[4] = L3.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     rhs->lambda[0] of guide.offset
+ * Joints with play, whose forces are applied loads:
+ *     rhs->clearance[0] of A; rhs->clearance[1] of B
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -150,7 +176,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -181,7 +207,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 }
 
 /*
- * Their second rates a, from absolute all_a.
+ * Second rates a of the tree coordinates, from absolute accelerations all_a.
  */
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
@@ -219,7 +245,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -244,14 +270,16 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     L8.theta; L2.theta; L7.theta with L3.theta; L6.theta; lambda of guide.offset.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
-    /* corners: the sides that are held, if any */
+    /* branches of switching functions that are held, if any */
     const double *const branch = discrete->held ? discrete->branch : NULL;
     double *const g = rhs->g;
 
@@ -382,14 +410,14 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double M_B_second_ = rhs->clearance[1].moment_second;
     rhs->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + M_B_first_*crank4_rate_;
 
-    /* without a (NULL) joints with play alone are asked for */
+    /* if a is NULL, only the joints with play are evaluated */
     if (!a)
         return 0;
 
     /* constraints: gamma */
     const double rhs_guide_offset_ = -(L6_omega_ * L6_omega_)*span_L6_head_x_ - (L8_omega_ * L8_omega_)*span_L8_head_x_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     if (!(p->mass_L8_L8_ > LIGHT_PIVOT * p->L8_turning_)) {
         pivot = 2;
         goto dependent;
@@ -477,7 +505,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->lambda[0] = lambda_guide_offset_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
@@ -491,8 +519,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -540,7 +568,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* right-hand side */
     const double r_guide_offset_ = r[0];
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_tree_metric_L8_theta_;
     const double l_guide_offset_L8_theta_ = p->inverse_tree_metric_L8_theta_*span_L8_head_y_;
     const double l_L7_theta_L2_theta_ = dot_L7_L2_*p->inverse_tree_metric_L2_theta_;
@@ -585,7 +613,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     return 0;
 }
 
-/* Multipliers of the closures from those of the absolute rows. */
+/* Compute the multipliers of the loop closures from those of all constraint equations in absolute coordinates. */
 void tree_multipliers(const double *lambda, double *closing)
 {
     (void)lambda, (void)closing;

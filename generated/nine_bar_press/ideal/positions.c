@@ -59,7 +59,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double phi_P2_x_ = -p->O6_x_ + span_L1_head_x_ + span_L2_head_x_ - span_L6_head_x_ - span_L7_tail_x_;
     const double phi_P2_y_ = span_L1_head_y_ + span_L2_head_y_ - span_L6_head_y_ - span_L7_tail_y_;
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double determinant_L2_head_L3_head_x_L2_head_L3_head_y_ = span_L2_head_x_*span_L3_head_y_
         - span_L2_head_y_*span_L3_head_x_;
     const double size_L2_head_L3_head_x_L3_theta_ = fabs(span_L3_head_x_) + fabs(span_L3_head_y_);
@@ -138,7 +138,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
 /*
  * Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:
  * all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.
- * Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.
+ * Returns 0, or the number of a row that depends on others here; all_q and all_v are written also then.
  */
 int arrive(const double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
     double *all_v, double *all_a, double *worst)
@@ -315,7 +315,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     *worst = max_of(*worst, fabs(phi_dot_P2_x_));
     *worst = max_of(*worst, fabs(phi_dot_P2_y_));
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double determinant_L2_head_L3_head_x_L2_head_L3_head_y_ = span_L2_head_x_*span_L3_head_y_
         - span_L2_head_y_*span_L3_head_x_;
     const double size_L2_head_L3_head_x_L3_theta_ = fabs(span_L3_head_x_) + fabs(span_L3_head_y_);

@@ -1,5 +1,7 @@
 /*
  * Lankarani and Nikravesh: Hertz stiffness with hysteresis damping.
+ * F_n = K*delta^exponent*max(0, hysteresis*ratio + 1)
+ * delta: penetration; ratio: deltadot/deltadot_minus.
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
@@ -19,6 +21,8 @@ static inline void lankarani_nikravesh(double delta, double ratio, double expone
 
 /*
  * modified Coulomb friction.
+ * F_t = -F_n*mu*(-max(0, min(1, friction_slope*(-v0 - v_t))) + max(0, min(1, friction_slope*(-v0 + v_t))))
+ * F_n: normal force; v_t: slip velocity.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
  * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
@@ -55,6 +59,13 @@ static inline void modified_coulomb(double F_n, double v_t, double mu, double v0
 
 /*
  * Pinkus and Sternlicht: long journal bearing, half film.
+ * root = sqrt(1 - epsilon^2)
+ * W = sqrt(w_n^2 + w_t^2)
+ * factor = 3*epsilon*w_n/(2*(W*root + 3*epsilon*abs(w_n)/2 + 1.0e-150)) + 1
+ * F_r = -S*(4*W*epsilon*root/(epsilon^2 + 2) + pi*factor*w_n)/root^3
+ * F_t = -2*pi*S*factor*w_t/(root*(epsilon^2 + 2))
+ * T0 = 0
+ * epsilon: eccentricity ratio e/c; w_n: radial squeeze velocity over c; w_t: tangential squeeze velocity over c.
  * Source: O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected.
  * Valid: long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999.
  * Options: as_printed: False, shear: False, angular_velocity: absolute.
@@ -75,15 +86,15 @@ static inline void pinkus_sternlicht(double epsilon, double w_n, double w_t, dou
 }
 
 /*
- * Dry contact in joint A (physics.md, section 3); none for delta < 0, where a step may look that ends
- * at the separation.
+ * Force of the dry contact in joint A (physics.md, section 3). It is zero for delta < 0, where a step
+ * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -100,7 +111,7 @@ static inline PinForce dry_A_(double delta, double deltadot, double de_t, double
 }
 
 /*
- * Film in joint A (physics.md, section 4), finite at e = 0 and, with epsilon capped, at every e.
+ * Force of the film in joint A (physics.md, section 4), finite at every e, since epsilon is capped.
  * Effective squeeze velocity w = de - (omega_i + omega_j)/2 z x e, over the film's clearance.
  */
 static inline PinForce film_A_(double e, double deltadot, double de_t, double omega_i, double omega_j,
@@ -137,7 +148,7 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     for (int k = 0; k < 8; k++)
-        g[k] = NAN; /* what does not act does not switch */
+        g[k] = NAN; /* a part that does not act has no active switching function */
     if (!(branch ? contact->closed : delta > 0.0)) {
         const PinForce F = film_A_(e, deltadot, de_t, omega_i, omega_j, p, branch, g);
         *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
@@ -165,15 +176,15 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
 }
 
 /*
- * Dry contact in joint B (physics.md, section 3); none for delta < 0, where a step may look that ends
- * at the separation.
+ * Force of the dry contact in joint B (physics.md, section 3). It is zero for delta < 0, where a step
+ * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -190,7 +201,7 @@ static inline PinForce dry_B_(double delta, double deltadot, double de_t, double
 }
 
 /*
- * Film in joint B (physics.md, section 4), finite at e = 0 and, with epsilon capped, at every e.
+ * Force of the film in joint B (physics.md, section 4), finite at every e, since epsilon is capped.
  * Effective squeeze velocity w = de - (omega_i + omega_j)/2 z x e, over the film's clearance.
  */
 static inline PinForce film_B_(double e, double deltadot, double de_t, double omega_i, double omega_j,
@@ -227,7 +238,7 @@ static void clearance_B_(double e_x, double e_y, double de_x, double de_y, doubl
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     for (int k = 8; k < 16; k++)
-        g[k] = NAN; /* what does not act does not switch */
+        g[k] = NAN; /* a part that does not act has no active switching function */
     if (!(branch ? contact->closed : delta > 0.0)) {
         const PinForce F = film_B_(e, deltadot, de_t, omega_i, omega_j, p, branch, g);
         *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,

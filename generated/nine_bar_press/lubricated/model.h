@@ -3,7 +3,7 @@
  * mechanism nine_bar_press, scene lubricated, from the YAML with sha256
  * febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
  *
- * What the engine must know of this scene, sizes and small tables, and every number of it.
+ * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -46,7 +46,7 @@
 #define N_SET 0             /* those that it sets */
 #define N_RATES 0           /* velocities that it sets */
 
-/* A row fails where less than such a share of it is left by the others: */
+/* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* where it depends on others */
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
@@ -54,7 +54,7 @@
 #define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-typedef struct Parameters Parameters; /* every number of a run */
+typedef struct Parameters Parameters; /* all parameters of a run */
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"
@@ -81,7 +81,7 @@ static const int friction_of_pivot[] = {0};
 
 /* The engine reads no further: scenes that have all this in common share its code. */
 
-/* In SI: first the slots that a user may set, then what prepare() derives. */
+/* Parameters in SI units: first those that a user may set, then those that prepare() derives. */
 struct Parameters {
     double omega_;  /* parameters.omega, 1/s */
     double omega4_;  /* parameters.omega4, 1/s */
@@ -221,7 +221,7 @@ struct Parameters {
     double film_mass_;  /* of projections, kg */
 };
 
-/* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
+/* Baumgarte's gains in Newton's matrix: 2 alpha and beta^2 of the constraints, 2 alpha of a sticking friction. */
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }
 static inline double baumgarte_beta_squared(const Parameters *p) { (void)p; return 0.0; }
 static inline double stick_gain(const Parameters *p) { (void)p; return 0.0; }

@@ -1,7 +1,9 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     bob.x; bob.y; lambda of rod.length; bob.theta.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -26,7 +28,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[0] = phi_rod_length_;
     rhs->phi_dot[0] = phi_dot_rod_length_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
     const double l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
     const double w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
@@ -54,7 +56,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[0] = lambda_rod_length_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

@@ -1,7 +1,13 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     arm.y with lambda of pivot.y; arm.x with lambda of pivot.x; table.y with lambda of pin.y;
+ *     table.x with lambda of pin.x; rod.y with lambda of crankpin.y; rod.x with lambda of crankpin.x;
+ *     crank.theta with lambda of motor; table.theta with lambda of guide.angle;
+ *     crank.y with lambda of shaft.y; crank.x with lambda of shaft.x; arm.theta; rod.theta;
+ *     lambda of guide.offset.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -127,7 +133,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[10] = phi_motor_;
     rhs->phi_dot[10] = phi_dot_motor_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_table_theta_pivot_y_ = -p->arm_mass_*arm_table_top_x_;
     const double l_arm_theta_pivot_y_ = -arm_arm_head_x_*p->arm_mass_;
     const double l_table_theta_pivot_x_ = p->arm_mass_*arm_table_top_y_;
@@ -300,7 +306,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[10] = lambda_motor_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

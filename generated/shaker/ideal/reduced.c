@@ -1,4 +1,23 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     crank: on ground by shaft; its angle is prescribed by motor
+ *     rod: on crank by crankpin; its angle is dependent
+ *     table: on rod by pin; its angle is constant
+ *     arm: on table by pivot; its angle is an unknown
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = arm.theta (rad); q[1] = rod.theta, dependent
+ * Loop closures, with the places of their multipliers:
+ *     none
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -79,7 +98,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -107,7 +126,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -116,9 +135,11 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     arm.theta.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -177,8 +198,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -193,7 +214,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 }
 
 /*
- * Cosines and sines of all angles in the chains' closures, behind the coordinates in q.
+ * Cosines and sines of all angles in the closures of dependent loops, stored in q after coordinates.
  */
 void chain_directions(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *out)
 {
@@ -215,7 +236,7 @@ void chain_directions(const double t, const double *q, const DiscreteState *disc
 }
 
 /*
- * Newton's step of the driven chains' coordinates, Phi_c newton = Phi, and with it Chebyshev's of order 3,
+ * Newton's step of the dependent coordinates, Phi_c newton = Phi, and Chebyshev's step of order 3,
  * step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with
  * the largest |Phi|. Returns 0, or the number of a row that depends on others here.
  */
@@ -239,7 +260,7 @@ int chain_step(const double t, const double *q, const DiscreteState *discrete, c
     /* the largest */
     *row = 1;
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double pivot_guide_offset_ = span_rod_head_y_;
     const double size_guide_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
     if (!(fabs(pivot_guide_offset_) > SINGULAR_SQUARE * size_guide_offset_rod_theta_))
@@ -249,7 +270,7 @@ int chain_step(const double t, const double *q, const DiscreteState *discrete, c
     /* Newton's step */
     const double newton_rod_theta_ = inverse_guide_offset_*phi_guide_offset_;
 
-    /* what the rows' curvature adds */
+    /* correction by the curvature of the constraints */
     const double bend_rod_theta_ = 0.5*inverse_guide_offset_*(newton_rod_theta_ * newton_rod_theta_)*span_rod_head_x_;
     step[0] = bend_rod_theta_ + newton_rod_theta_;
     bend[0] = bend_rod_theta_;
@@ -257,8 +278,8 @@ int chain_step(const double t, const double *q, const DiscreteState *discrete, c
 }
 
 /*
- * First and second rates of the driven chains' coordinates, where these close their loops: Phi_c c' = nu,
- * Phi_c c'' = gamma. They go behind those of the other coordinates in v.
+ * First and second rates of the dependent coordinates at positions that close their loops: Phi_c c' = nu,
+ * Phi_c c'' = gamma. They are stored after those of the other coordinates in v.
  * Returns 0, or the number of a row that depends on others here.
  */
 int chain_rates(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v)
@@ -278,7 +299,7 @@ int chain_rates(const double t, const double *q, const DiscreteState *discrete, 
     const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
     const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double pivot_guide_offset_ = span_rod_head_y_;
     const double size_guide_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
     if (!(fabs(pivot_guide_offset_) > SINGULAR_SQUARE * size_guide_offset_rod_theta_))
@@ -300,7 +321,7 @@ int chain_rates(const double t, const double *q, const DiscreteState *discrete, 
 }
 
 /*
- * Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.
+ * Third rates of the dependent coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.
  * Returns 0, or the number of a row that depends on others here.
  */
 int chain_third(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
@@ -323,7 +344,7 @@ int chain_third(const double t, const double *q, const double *v, const Discrete
     const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
     const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double pivot_guide_offset_ = span_rod_head_y_;
     const double size_guide_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
     if (!(fabs(pivot_guide_offset_) > SINGULAR_SQUARE * size_guide_offset_rod_theta_))
@@ -343,7 +364,7 @@ int chain_third(const double t, const double *q, const double *v, const Discrete
     return 0;
 }
 
-/* What a step of coordinate k is multiplied by to be a number. */
+/* Return the factor that makes a step of dependent coordinate k dimensionless: 1 for angles, 1/extent for slides. */
 double chain_share(const Parameters *p, int k)
 {
     (void)p;
@@ -355,7 +376,7 @@ double chain_share(const Parameters *p, int k)
     }
 }
 
-/* Directions in q turned by a step of the coordinates. */
+/* Turn the cosines and sines stored in q by a step of the dependent coordinates. */
 void turn_directions(double *q, const double *step, const Parameters *p)
 {
     (void)p;

@@ -1,12 +1,17 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     slider.y with lambda of cylinder.offset; rod.y with lambda of crankpin.y;
+ *     rod.x with lambda of crankpin.x; crank.theta with lambda of motor;
+ *     slider.theta with lambda of cylinder.angle; crank.y with lambda of O.y; crank.x with lambda of O.x;
+ *     rod.theta; slider.x.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
 {
-    /* corners: the sides that are held, if any */
+    /* branches of switching functions that are held, if any */
     const double *const branch = discrete->held ? discrete->branch : NULL;
     double *const g = rhs->g;
 
@@ -105,7 +110,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[6] = phi_motor_;
     rhs->phi_dot[6] = phi_dot_motor_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_crank_theta_crankpin_y_ = -arm_crank_head_x_*p->rod_mass_;
     const double l_rod_theta_crankpin_y_ = -arm_rod_head_x_*p->rod_mass_;
     const double l_crank_theta_crankpin_x_ = arm_crank_head_y_*p->rod_mass_;
@@ -184,7 +189,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[6] = lambda_motor_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

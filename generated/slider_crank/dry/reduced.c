@@ -1,4 +1,24 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     crank: on ground by O; its angle is prescribed by motor
+ *     slider: on ground by cylinder, displaced by cylinder.slide; its angle is constant
+ *     rod: on crank by crankpin; its angle is an unknown
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = cylinder.slide (m); q[1] = rod.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     none
+ * Joints with play, whose forces are applied loads:
+ *     rhs->clearance[0] of wristpin
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -60,7 +80,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -88,7 +108,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -97,14 +117,16 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     cylinder.slide; rod.theta.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
-    /* corners: the sides that are held, if any */
+    /* branches of switching functions that are held, if any */
     const double *const branch = discrete->held ? discrete->branch : NULL;
     double *const g = rhs->g;
 
@@ -155,7 +177,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->clearance[0].power = F_wristpin_x_*edot_wristpin_x_ + F_wristpin_y_*edot_wristpin_y_
         + M_wristpin_first_*rod_omega_ + M_wristpin_second_*slider_omega_;
 
-    /* without a (NULL) joints with play alone are asked for */
+    /* if a is NULL, only the joints with play are evaluated */
     if (!a)
         return 0;
 
@@ -178,8 +200,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)

@@ -1,7 +1,12 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     slider.y with lambda of wristpin.y; slider.x with lambda of wristpin.x; rod.y with lambda of crankpin.y;
+ *     rod.x with lambda of crankpin.x; crank.theta with lambda of motor;
+ *     slider.theta with lambda of cylinder.angle; crank.y with lambda of O.y; crank.x with lambda of O.x;
+ *     rod.theta; lambda of cylinder.offset.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -99,7 +104,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[8] = phi_motor_;
     rhs->phi_dot[8] = phi_dot_motor_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_rod_theta_wristpin_y_ = -arm_rod_head_x_*p->slider_mass_;
     const double l_rod_theta_wristpin_x_ = arm_rod_head_y_*p->slider_mass_;
     const double inertia_rod_y_ = p->rod_mass_ + p->slider_mass_;
@@ -208,7 +213,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[8] = lambda_motor_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = 0.0;

@@ -3,7 +3,7 @@
  * mechanism slider_crank, scene ideal, from the YAML with sha256
  * 7d0ee75732fc8db361d73dbcc9252363a5631ed216b7197196ca1cd59efe75c0
  *
- * What the engine must know of this scene, sizes and small tables, and every number of it.
+ * Sizes and small tables of this scene that the engine needs, and all parameters of a run.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -46,7 +46,7 @@
 #define N_SET 0             /* those that it sets */
 #define N_RATES 0           /* velocities that it sets */
 
-/* A row fails where less than such a share of it is left by the others: */
+/* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* where it depends on others */
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
@@ -54,7 +54,7 @@
 #define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-typedef struct Parameters Parameters; /* every number of a run */
+typedef struct Parameters Parameters; /* all parameters of a run */
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"
@@ -74,7 +74,7 @@ static const unsigned char film_joint[] = {0};
 
 /* The engine reads no further: scenes that have all this in common share its code. */
 
-/* In SI: first the slots that a user may set, then what prepare() derives. */
+/* Parameters in SI units: first those that a user may set, then those that prepare() derives. */
 struct Parameters {
     double omega_;  /* parameters.omega, 1/s */
     double c_;  /* parameters.c, m */

@@ -25,7 +25,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     /* closures */
     const double phi_cylinder_offset_ = span_crank_head_y_ + span_rod_head_y_;
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double pivot_cylinder_offset_ = span_rod_head_x_;
     const double size_cylinder_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
     if (!(fabs(pivot_cylinder_offset_) > SINGULAR_SQUARE * size_cylinder_offset_rod_theta_))
@@ -48,7 +48,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
 /*
  * Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:
  * all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.
- * Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.
+ * Returns 0, or the number of a row that depends on others here; all_q and all_v are written also then.
  */
 int arrive(const double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
     double *all_v, double *all_a, double *worst)
@@ -115,7 +115,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double phi_dot_cylinder_offset_ = motor_rate_*span_crank_head_x_ + rod_omega_*span_rod_head_x_;
     *worst = max_of(0.0, fabs(phi_dot_cylinder_offset_));
 
-    /* groups of rows that are solved one after the other */
+    /* blocks of constraint equations that are solved one after the other */
     const double pivot_cylinder_offset_ = span_rod_head_x_;
     const double size_cylinder_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
     if (!(fabs(pivot_cylinder_offset_) > SINGULAR_SQUARE * size_cylinder_offset_rod_theta_))

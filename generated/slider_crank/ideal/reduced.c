@@ -1,4 +1,22 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     crank: on ground by O; its angle is prescribed by motor
+ *     rod: on crank by crankpin; its angle is an unknown
+ *     slider: on rod by wristpin; its angle is constant
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = rod.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     rhs->lambda[0] of cylinder.offset
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -62,7 +80,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -77,7 +95,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 }
 
 /*
- * Their second rates a, from absolute all_a.
+ * Second rates a of the tree coordinates, from absolute accelerations all_a.
  */
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
@@ -110,7 +128,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -134,9 +152,11 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     rod.theta; lambda of cylinder.offset.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -172,7 +192,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double rhs_cylinder_offset_ = -motor_acceleration_*span_crank_head_x_
         + (motor_rate_ * motor_rate_)*span_crank_head_y_ + (rod_omega_ * rod_omega_)*span_rod_head_y_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     if (!(p->mass_rod_rod_ > LIGHT_PIVOT * p->rod_turning_)) {
         pivot = 2;
         goto dependent;
@@ -199,7 +219,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->lambda[0] = lambda_cylinder_offset_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
@@ -212,8 +232,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -232,7 +252,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* right-hand side */
     const double r_cylinder_offset_ = r[0];
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_cylinder_offset_rod_theta_ = p->inverse_tree_metric_rod_theta_*span_rod_head_x_;
     const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*span_rod_head_x_;
     if (!(scale_cylinder_offset_ > 0.0 && scale_cylinder_offset_ < INFINITY))
@@ -248,7 +268,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     return 0;
 }
 
-/* Multipliers of the closures from those of the absolute rows. */
+/* Compute the multipliers of the loop closures from those of all constraint equations in absolute coordinates. */
 void tree_multipliers(const double *lambda, double *closing)
 {
     (void)lambda, (void)closing;

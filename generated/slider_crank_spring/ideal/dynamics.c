@@ -1,7 +1,10 @@
 /*
- * Accelerations a (n) and multipliers in `rhs` at a state:
+ * Right-hand side: accelerations a (n) and multipliers in `rhs` at a state, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     rod.y with lambda of pin.y; rod.x with lambda of pin.x; crank.y with lambda of O.y;
+ *     crank.x with lambda of O.x; crank.theta with rod.theta; lambda of slider.offset.
  */
 int dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *a, RhsOutputs *rhs)
@@ -79,7 +82,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->phi[4] = phi_slider_offset_;
     rhs->phi_dot[4] = phi_dot_slider_offset_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_crank_theta_pin_y_ = -arm_crank_head_x_*p->rod_mass_;
     const double l_rod_theta_pin_y_ = arm_rod_crankpin_x_*p->rod_mass_;
     const double l_crank_theta_pin_x_ = arm_crank_head_y_*p->rod_mass_;
@@ -171,7 +174,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     rhs->lambda[4] = lambda_slider_offset_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent: {
         double force[N_Q], gamma_stab[N_ROWS];
         force[0] = coil_pull_*coil_span_x_;

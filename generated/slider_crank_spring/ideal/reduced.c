@@ -1,4 +1,21 @@
 /*
+ * The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,
+ * M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.
+ *
+ * Tree, parents first (body: how it is positioned; its angle):
+ *     crank: on ground by O; its angle is an unknown
+ *     rod: on crank by pin; its angle is an unknown
+ * Unknowns, with rates in v and accelerations in a at the same index:
+ *     q[0] = crank.theta (rad); q[1] = rod.theta (rad)
+ * Loop closures, with the places of their multipliers:
+ *     rhs->lambda[0] of slider.offset
+ *
+ * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).
+ * reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.
+ * reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.
+ */
+
+/*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
@@ -49,7 +66,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 }
 
 /*
- * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ * Tree coordinates s and their rates of an absolute state; its other coordinates are ignored.
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
@@ -68,7 +85,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 }
 
 /*
- * Their second rates a, from absolute all_a.
+ * Second rates a of the tree coordinates, from absolute accelerations all_a.
  */
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
@@ -103,7 +120,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 }
 
 /*
- * Its rate Phi_q v - nu.
+ * Rate Phi_q v - nu of the loop closures in tree coordinates.
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
@@ -128,9 +145,11 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 }
 
 /*
- * Accelerations a of the tree's coordinates q, and the closures' multipliers in `rhs`:
+ * Right-hand side: accelerations a of the tree coordinates q, and multipliers of the closures in `rhs`, from
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
- * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ * Returns 0, or the number of the pivot that vanished where dependent constraint equations contradict each other.
+ * Unknowns in the order of elimination; 'with': two unknowns, one 2 x 2 pivot:
+ *     crank.theta; rod.theta; lambda of slider.offset.
  */
 int reduced_dynamics(const double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
@@ -188,7 +207,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double rhs_slider_offset_ = (crank_omega_ * crank_omega_)*span_crank_head_y_
         + (rod_omega_ * rod_omega_)*span_rod_com_y_;
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     if (!(p->mass_crank_crank_ > LIGHT_PIVOT * p->crank_turning_)) {
         pivot = 2;
         goto dependent;
@@ -234,7 +253,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     rhs->lambda[0] = lambda_slider_offset_;
     goto powers;
 
-    /* a pivot vanished: rows depend on each other here */
+    /* a pivot vanished: constraint equations depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
     powers:
@@ -245,8 +264,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 }
 
 /*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
+ * The smallest x (n) in the metric of M with Phi_q x = r, for Newton's step and velocities. r has all rows
+ * of the closed linkage; those of open joints and redundant ones are ignored.
  * Returns 0, or the number of the pivot that vanished.
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
@@ -272,7 +291,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* right-hand side */
     const double r_slider_offset_ = r[0];
 
-    /* L D L^T of the KKT matrix */
+    /* L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0] */
     const double l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_tree_metric_crank_theta_;
     const double l_slider_offset_crank_theta_ = p->inverse_tree_metric_crank_theta_*span_crank_head_x_;
     const double inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->tree_metric_rod_theta_);
@@ -296,7 +315,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     return 0;
 }
 
-/* Multipliers of the closures from those of the absolute rows. */
+/* Compute the multipliers of the loop closures from those of all constraint equations in absolute coordinates. */
 void tree_multipliers(const double *lambda, double *closing)
 {
     (void)lambda, (void)closing;

@@ -29,6 +29,7 @@ from gudgeon.generator.targets.c.model_header import header_values, joint_parame
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.printer import within
+from gudgeon.generator.targets.c.reduced_summary import reduced_summary
 
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # functions of the closed linkage that a start does not call
@@ -251,7 +252,8 @@ Render = Callable[..., str]
 
 def reduced_code(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
     """Return reduced.c: kernels in tree coordinates, the conversion from and to all coordinates, driven loops."""
-    parts = [print_kernels(*tree.around), print_kernels(*tree.kernels)]
+    parts = [functions.comment(reduced_summary(tree.system))]
+    parts += [print_kernels(*tree.around), print_kernels(*tree.kernels)]
     if tree.rescued:
         parts.append(render("multipliers.c.jinja", multipliers=_multipliers_of_closures(model, tree.system)))
     if chains := tree.chains:

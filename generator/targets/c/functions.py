@@ -307,7 +307,7 @@ def _names_used(item: Kernel) -> frozenset[str]:
 
 def comment(doc: Sequence[str]) -> str:
     """Return paragraphs as a comment of C."""
-    text = "\n".join(f" * {comment_text(one)}" for one in doc)
+    text = "\n".join(f" * {comment_text(one)}".rstrip() for one in doc)
     return f"/*\n{text}\n */\n"
 
 

@@ -1,0 +1,67 @@
+"""Formulas of force laws as plain text, for the comments above their functions: `F_n = K*delta^exponent*max(…)`."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping
+
+import sympy as sp
+from sympy.printing.str import StrPrinter
+
+from gudgeon.generator.equations.play import LawEquations
+from gudgeon.generator.symbols.symbols import plain_name
+
+_WIDTH = 110
+_MEANINGS = {
+    "delta": "penetration",
+    "ratio": "deltadot/deltadot_minus",
+    "F_n": "normal force",
+    "v_t": "slip velocity",
+    "epsilon": "eccentricity ratio e/c",
+    "w_n": "radial squeeze velocity over c",
+    "w_t": "tangential squeeze velocity over c",
+}
+
+
+class _Plain(StrPrinter):
+    """Printer of expressions in the notation of comments: min, max, abs, branches as `where(g < 0, a, b)`."""
+
+    def _print_Max(self, e: sp.Expr) -> str:
+        return f"max({', '.join(sorted(map(self._print, e.args)))})"
+
+    def _print_Min(self, e: sp.Expr) -> str:
+        return f"min({', '.join(sorted(map(self._print, e.args)))})"
+
+    def _print_Abs(self, e: sp.Expr) -> str:
+        return f"abs({self._print(e.args[0])})"
+
+    def _print_Pick(self, e: sp.Expr) -> str:
+        side, then, otherwise = e.args
+        g = side.args[0] if isinstance(side, sp.sign) else side
+        return f"where({self._print(g)} < 0, {self._print(otherwise)}, {self._print(then)})"
+
+    def _print_Whole(self, e: sp.Expr) -> str:
+        return f"({self._print(e.args[0])})"
+
+
+def formula_lines(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[str]:
+    """Return the equations of a law as lines of text, then the meanings of its variables.
+
+    names: what parameters are called in the law's function; others keep the names of the file.
+    """
+    known = {**{s: plain_name(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols}, **names}
+    variables = {symbol.name for symbol in law.variables}
+    renamed = {s: sp.Symbol(name, real=True) for s, name in known.items() if s.name not in {*variables, *law.steps}}
+    printer = _Plain({"full_prec": False, "sympy_integers": False})
+    lines: list[str] = []
+    for name, step in law.steps.items():
+        text = printer.doprint(sp.sympify(step).xreplace(renamed)).replace("**", "^")
+        lines += textwrap.wrap(f"{name} = {text}", _WIDTH, subsequent_indent="    ", break_long_words=False)
+    return [*lines, *_legend(law)]
+
+
+def _legend(law: LawEquations) -> Iterator[str]:
+    """Yield one line with the meanings of the law's variables, if it has known ones."""
+    meant = [f"{s.name}: {_MEANINGS[s.name]}" for s in law.variables if s.name in _MEANINGS]
+    if meant:
+        yield f"{'; '.join(meant)}."

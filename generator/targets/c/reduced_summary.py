@@ -1,0 +1,75 @@
+"""The comment at the beginning of reduced.c: tree, unknowns, loop closures, and what is stored where."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+from gudgeon.generator.kernels.dynamics import coordinate_name
+from gudgeon.generator.reduction.frames import CONSTANT
+from gudgeon.generator.reduction.reduction import TreeSystem
+from gudgeon.generator.reduction.tree import Link
+
+_MAX_LISTED = 40  # bodies, unknowns or closures
+
+
+def reduced_summary(system: TreeSystem) -> list[str]:
+    """Return the comment at the beginning of reduced.c: the tree, the unknowns, the closures, what is stored where."""
+    tree, unknowns = system.tree, list(map(coordinate_name, system.unknowns))
+    links = [f"{link.body}: {_carried_by(link)}; {_angle_of(system, link.body)}" for link in tree.links]
+    stored = [f"q[{k}] = {name} ({_unit(name)})" for k, name in enumerate(unknowns)]
+    if system.chain:
+        names = map(coordinate_name, system.chain.names)
+        stored += [f"q[{k}] = {name}, dependent" for k, name in enumerate(names, len(unknowns))]
+    closures = [f"rhs->lambda[{r}] of {row.name}" for r, row in enumerate(system.rows)]
+    joints = [f"rhs->clearance[{i}] of {c.name}" for i, c in enumerate(system.model.clearances)]
+    return [
+        "The reduced formulation: equations of motion in the coordinates s of a spanning tree of the bodies,",
+        "M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.",
+        "",
+        "Tree, parents first (body: how it is positioned; its angle):",
+        *_listed(links, "\n"),
+        "Unknowns, with rates in v and accelerations in a at the same index:",
+        *_listed(stored or ["none"]),
+        "Loop closures, with the places of their multipliers:",
+        *_listed(closures or ["none"]),
+        *(["Joints with play, whose forces are applied loads:", *_listed(joints)] if joints else []),
+        "",
+        "expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).",
+        "reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.",
+        "reduced_dynamics: the right-hand side. reduced_project: the smallest change that satisfies the closures.",
+    ]
+
+
+def _carried_by(link: Link) -> str:
+    """Return in words how a link of the tree positions its body."""
+    if link.joint is None:
+        return "moves freely, x and y are unknowns"
+    along = f", displaced by {link.coordinates[0]}" if link.slides else ""
+    return f"on {link.parent} by {link.joint.name}{along}"
+
+
+def _angle_of(system: TreeSystem, body: str) -> str:
+    """Return in words what the angle of a body is: unknown, prescribed, constant or dependent."""
+    terms = [name for name in system.tree.angles[body] if name != CONSTANT]
+    if terms == [body]:
+        chain = system.chain.names if system.chain else ()
+        return "its angle is dependent" if body in chain else "its angle is an unknown"
+    if not terms:
+        return "its angle is constant"
+    drives = system.model.scene.mechanism.drives
+    kind = "prescribed by" if all(name in drives for name in terms) else "a function of"
+    return f"its angle is {kind} {', '.join(terms)}"
+
+
+def _unit(name: str) -> str:
+    """Return the unit of a tree coordinate."""
+    return "rad" if name.endswith(".theta") else "m"
+
+
+def _listed(items: Sequence[str], between: str = "; ") -> list[str]:
+    """Return items as indented comment lines, the first _MAX_LISTED of them."""
+    shown = [*items[:_MAX_LISTED], *([f"and {len(items) - _MAX_LISTED} more"] if len(items) > _MAX_LISTED else [])]
+    joined = between.join(item.replace(" ", "\0") for item in shown)
+    lines = shown if between == "\n" else textwrap.wrap(joined, 104)
+    return ["    " + line.replace("\0", " ") for line in lines]
