@@ -1,7 +1,7 @@
 """Compute the rank of Jacobians, dependent constraint equations, and branches at singular positions.
 
 - `rank`, `tied`: the rank of a matrix, and the share of each row in a vanishing combination.
-- `left_out`: equations that generator/reduction/redundancy.py found redundant with the file's values. Other lengths or
+- `left_out`: equations that generator/redundancy.py found redundant with the file's values. Other lengths or
   drives may make them independent again; that is checked here.
 - `branch_rates`: velocities with which a linkage may pass a singular position. Dependent equations leave the velocities
   open by α n, with n in the null space of Φ_q. Accelerations exist only where λᵀ γ(v) = 0 for the left null vector λ

@@ -77,7 +77,8 @@ def _prescribed(step: Step) -> str:
 
 def _constant(step: Step) -> str:
     """Describe the step in which joints keep angles constant."""
-    return f"{listed(step.owners)} keep{_verb_s(step.owners)} the angle{_plural(step.gone)} of {_bodies(step.gone)} as it is"
+    angles = f"the angle{_plural(step.gone)} of {_bodies(step.gone)}"
+    return f"{listed(step.owners)} keep{_verb_s(step.owners)} {angles} as it is"
 
 
 def _following(step: Step) -> str:
