@@ -26,6 +26,7 @@ def main() -> None:
     ended: list[int] = []
 
     def terminate(number: int, _: object) -> None:
+        """Record a signal and treat it as Ctrl-C."""
         ended.append(number)
         signal.raise_signal(signal.SIGINT)
 
@@ -48,7 +49,7 @@ def _run_command() -> None:
             main()
         finally:
             sys.stdout.flush()
-            gc.freeze()  # the process ends: what is left need not be looked through for garbage before that
+            gc.freeze()  # the process ends: no need to search for garbage
     except KeyboardInterrupt:
         last_word()
         sys.exit(INTERRUPTED)

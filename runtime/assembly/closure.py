@@ -22,7 +22,7 @@ FAR = 0.5  # rad: if a guessed angle turns further, or a point moves by APART, m
 MIRRORED = 0.1  # of that: if a guess is further off, starts on its other side are tried
 # starts from other angles; coordinates from which on fewer are tried; factor of a longer search
 TRIES, MANY, MORE = 24, 60, 5
-AWAY = 1e3  # of the size asked for by drives and start: a body further from the origin is lost
+AWAY = 1e3  # of the size that drives and start require: a body further from the origin is lost
 CLOSED = 1e-10  # a residual above this fraction of the mechanism's size is not an assembly
 ROUNDING = 1e-14  # the same, relative to the largest distance from the origin
 HELD = 1e-6  # norm below which a Jacobian serves the next steps too, as long as the norm falls to a tenth (closing.c)
@@ -135,7 +135,7 @@ class Closure:
             closed = [self.unwound(q) for q in near if self.is_closed(q)]
             if closed and self._relative_miss(best := min(closed, key=self.distance)) < 1.0:
                 return best, True
-        if closed:  # none so near as one may be: looked for longer
+        if closed:  # none is near enough: more starts
             found = [self.newton(other) for seed in range(1, MORE) for other in self._other_starts(guess, 1.0, seed)]
             more = (self.unwound(q) for q in found if self._is_assembly(q))
             return min([best, *more], key=self.distance), True
@@ -176,10 +176,12 @@ class Closure:
         held = np.diag(self.weight)[self.guessed]
 
         def left(x: Array) -> Array:
+            """Return the residuals of equations, guesses and points."""
             off = [self.off_point(x, point, target) / self.size for point, target in self.points]
             return np.concatenate([self.residual(x) / self.row_scale, held @ (x - q), *off])
 
         def slopes(x: Array) -> Array:
+            """Return the Jacobian of these residuals."""
             rows = self.jacobian(x) / self.row_scale[:, None]
             return np.concatenate([rows, held, self._points_jacobian(x) / self.size])
 

@@ -177,6 +177,7 @@ def _closing_change(closure: Closure, q: Array, places: list[int]) -> float | No
     p, opens, shut, share = closure.p, 0.0, None, 0.0
 
     def scaled(by: float) -> Array:
+        """Return the parameter values with those at `places` scaled by 1 + by."""
         changed = np.array(p)
         changed[places] *= 1.0 + by
         return changed

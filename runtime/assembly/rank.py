@@ -108,7 +108,7 @@ def configurations(
     linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
 ) -> list[Array]:
     """Return the start and `count` configurations near it: random steps along the motion, closed by Newton."""
-    if not count:  # NumPy imports its random numbers when they are asked for
+    if not count:  # NumPy's random numbers are imported on request
         return [q]
     rng, found, kept, size = np.random.default_rng(0), [q], list(rows), mechanism_size(linkage, p)
     scale = np.where(angles(linkage.source), 1.0, size)

@@ -49,7 +49,7 @@ def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     from gudgeon.assembly.closure import Closure
 
     closure = Closure(linkage, p, t)
-    with np.errstate(all="ignore"):  # Newton may come where a direction is not defined; it looks for that itself
+    with np.errstate(all="ignore"):  # Newton handles undefined directions itself
         q, closed = closure.nearest()
     if not closed:
         from gudgeon.assembly.failures import not_closed

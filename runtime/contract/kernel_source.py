@@ -167,44 +167,46 @@ class KernelSource:
     drives: tuple[DriveInfo, ...]
     clearances: tuple[ClearanceInfo, ...]
     series: tuple[SeriesInfo, ...]
-    start_rows: tuple[RowInfo, ...]  # of the start's Φ: joints with play are closed there
+    start_rows: tuple[RowInfo, ...]  # of the start's Φ, in which joints with play are closed
     start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
     start_set: tuple[str, ...]
     start_rates: tuple[str, ...]  # "L1.omega"
     frictions: tuple[str, ...]  # force elements that may stick
-    pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
+    pivots: tuple[str, ...]  # constraint equations in their order of elimination: a status k > 0 names pivots[k − 1]
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
-    rate_jumps: tuple[str, ...]  # drives whose rate may jump: the linkage follows by an impulse
-    indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open
+    rate_jumps: tuple[str, ...]  # drives whose rate may jump, which causes impulses
+    indeterminate: tuple[str, ...]  # joints and drives whose multipliers are undetermined because of redundancy
     slots: tuple[Slot, ...]
-    derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p
+    derived: tuple[str, ...]  # names of the derived values that follow the parameters in p
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
     simulate: Mapping[str, float]  # the scene's own t_end, step, output, if given
-    operations: Mapping[str, int]  # kernel -> operation count
+    operations: Mapping[str, int]  # function → operation count
     notes: tuple[str, ...]  # what was skipped and why (check -v)
     gravity: bool
     formulation: str = "full"  # what is integrated: "reduced" or "full"
     motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
-    closures: tuple[str, ...] = ()  # its rows
-    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: they are evaluated, not integrated
-    chain_rows: tuple[str, ...] = ()  # the rows of these loops
+    closures: tuple[str, ...] = ()  # constraint equations of the reduced formulation
+    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: evaluated, not integrated
+    chain_rows: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
-    story: Story = Story()  # how the equations became what is integrated (check -v)
+    story: Story = Story()  # record of the reduction (check -v)
     written: tuple[WrittenInfo, ...] = ()
-    expressions: tuple[WrittenInfo, ...] = ()  # that the file has by name, and uses by it here too
-    lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
-    states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
-    units: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
-    taylor: str = ""  # the file with the series of the motion, of a library with Taylor's method; "": it has none
-    stages: bool = False  # whether it has the matrices of methods whose stages are found together
-    lanes: str = ""  # the file to compile for runs side by side; "": there is none
+    expressions: tuple[WrittenInfo, ...] = ()  # named expressions of the file that are used by name here
+    lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
+    states: tuple[str, ...] = ()  # inner states of laws, "A.z", equally many per joint with play; "": none
+    # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
+    units: tuple[int, ...] = ()
+    taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
+    stages: bool = False  # whether the library has the matrices of methods with coupled stages
+    lanes: str = ""  # file to compile for lanes; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
-    simulate_written: tuple[WrittenInfo, ...] = ()  # of `simulate`, what follows parameters: its value is the default
-    tables: tuple[tuple[str, str], ...] = ()  # files beside the YAML that curves were read from, and their sha256
-    laws: tuple[tuple[str, str], ...] = ()  # of the user's own, and what they said (kinds/laws/registered.py)
+    # expressions of `simulate` that depend on parameters; their values are the defaults
+    simulate_written: tuple[WrittenInfo, ...] = ()
+    tables: tuple[tuple[str, str], ...] = ()  # table files of curves in the mechanism's folder, and their SHA-256
+    laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
 
     @property
     def beside(self) -> tuple[tuple[str, str], ...]:
@@ -218,12 +220,12 @@ class KernelSource:
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     reference: Mapping[str, Any] = field(default_factory=dict)  # values by the NumPy target (model/reference.py)
-    peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
-    rigid: tuple[str, ...] = ()  # joints with play whose surfaces do not give: Newton's restitution
-    start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
-    parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
-    contours: tuple[ContourInfo, ...] = ()  # of joints with play whose bearings are no circles
-    massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
+    peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene requests
+    rigid: tuple[str, ...] = ()  # joints with play and rigid surfaces: Newton's restitution
+    start_apart: tuple[str, ...] = ()  # equations of joints with play that the start holds open, by e and its rate
+    parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements, for drawing
+    contours: tuple[ContourInfo, ...] = ()  # joints with play whose bearings have contours
+    massless: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
 
     @cached_property
     def place(self) -> dict[str, int]:

@@ -139,6 +139,7 @@ def _tree_text(story: Story) -> str:
         return f"{len(story.tree)} bodies, at most {_depth(carried, 'ground')} behind each other{own}"
 
     def told_of(body: str) -> str:
+        """Return a body with those that it carries, in brackets."""
         name = f"[{body}]" if body in loose else body
         return f"{name} ({', '.join(map(told_of, carried[body]))})" if body in carried else name
 
@@ -198,7 +199,7 @@ def _operations_text(source: KernelSource) -> str:
             f"accelerations {full:,} → {arrive:,} with all positions and velocities, {_ratio_text(full, arrive)}"
             + f"; each of Newton's steps {step:,}" * bool(step)
         )
-    if KINEMATIC in source.methods:  # a coordinate of the tree that no row says: all rows are asked
+    if KINEMATIC in source.methods:  # a coordinate that no equation gives: all equations are used
         return f"accelerations {full:,}; each of Newton's steps, in absolute coordinates, {counts['project']:,}"
     if source.formulation == "full" or "reduced_dynamics" not in counts:
         return f"accelerations {full:,}{_law_operations_text(source)}"

@@ -106,7 +106,7 @@ class Ahead:
     def _folder_of(self, name: str) -> Path:
         """Return the folder of an object file: the parts of a scene share one, the engine has its own."""
         if self._folder is None:
-            with CtrlC() as ctrl_c:  # none is made that nobody knows of
+            with CtrlC() as ctrl_c:  # so that every folder made is known
                 temporary = TemporaryFolder()
                 self._folder = temporary.path
                 self._clear = finalize(self, temporary.remove)  # at the latest
@@ -169,6 +169,7 @@ class Shared:
         """Return the object file, compiled if the cache lacks it or `renew` is set. Raise BuildError."""
 
         def make(folder: Path) -> None:
+            """Compile the object file in a folder, or take it from the background compilation."""
             if ahead.take(folder / self.name, self.line, self.texts):
                 return
             for name, text in self.texts.items():

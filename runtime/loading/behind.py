@@ -77,7 +77,7 @@ class Behind:
         """Use the optimized library if it exists by now; return whether it is still to come."""
         lock = self._own_lock()
         if not lock.acquire(blocking=False):
-            return True  # another thread looks
+            return True  # another thread is checking
         try:
             over = self._process is not None and self._process.poll() is not None
             if not self._cache.holds("libraries", self._key):

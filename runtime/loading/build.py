@@ -60,6 +60,7 @@ def compile_kernels(
         return known
 
     def build(folder: Path, quick: bool = False, ahead: Ahead | None = ahead) -> None:
+        """Build the library in a folder, and report that this takes a while."""
         with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
             _build(source, folder, portable, ahead or none, cache, rebuild, quick)
 
@@ -90,6 +91,7 @@ def _compile_quickly(
         return None
 
     def quickly(folder: Path) -> None:
+        """Build the quick library in a folder, and store its source for the other process."""
         build(folder, True)
         for name in source.files:
             (folder / name).unlink()
@@ -101,7 +103,7 @@ def _compile_quickly(
     behind = Behind(cache, key, lambda folder: build(folder, ahead=None), lambda entry: _open(entry, source.cdef))
     try:
         library = _open(entry, source.cdef)
-    except ImportError:  # told of the optimized one
+    except ImportError:  # reported for the optimized one
         return None
     if not behind.begin(entry, portable):
         return None

@@ -119,7 +119,7 @@ class Cache:
         aside = self.root / "aside"
         for folder in (self.root, aside, self.root / "locks", entry.parent):
             _make_own_folder(folder)
-        self._check("aside", "locks", entry.parent.name)  # somebody may have been quicker to make them
+        self._check("aside", "locks", entry.parent.name)  # another process may have made them first
         with FileLock(self._lock_path(entry.name), timeout=LOCK_SECONDS):
             if not renew and _is_usable(entry):  # another process made it while this one waited
                 return entry
@@ -160,7 +160,7 @@ class Cache:
                 with FileLock(self._lock_path(key), timeout=0):
                     _remove(folder)
             except Timeout:
-                continue  # somebody is at work there
+                continue  # another process works there
 
 
 def _make_own_folder(path: Path) -> None:
@@ -275,6 +275,7 @@ def private_cache() -> Cache:
     owner = os.getpid()
 
     def remove() -> None:
+        """Remove the folder at the end of the process that made it."""
         if os.getpid() == owner:  # not in a forked worker that ends before its parent
             folder.remove()
 

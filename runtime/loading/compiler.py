@@ -50,7 +50,7 @@ MORE = {
 
 GCCS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # flags that only gcc has
 # Of zig's clang: no checks, which it makes where no level of optimization is named, as for a link, and the CPU that all
-# have, where it takes this machine's; -march=native behind it still holds.
+# have, where it takes this machine's; -march=native after it still holds.
 ZIG = ("-fno-sanitize=undefined", "-mcpu=baseline")
 
 # flags that change results, which $CC may not contain

@@ -100,6 +100,7 @@ def kernel_source(
     origin = "cache"
 
     def make(folder: Path) -> None:  # what tables and laws the file has is found out here
+        """Write the kernel source into a folder: the committed one, or a new derivation."""
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
@@ -115,6 +116,7 @@ def kernel_source(
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     def fetch(key: str, renew: bool) -> KernelSource:
+        """Return the kernel source from the cache, made if it is absent."""
         entry = cache.fetch("models", key, make, renew=renew)
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 

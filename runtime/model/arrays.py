@@ -139,7 +139,7 @@ def _floats_of_objects(given: NDArray[Any], name: str) -> NDArray[Any]:
 
 def _refuse_masked(values: Any, name: str) -> None:
     """Raise ArrayError if an entry is masked; a mask that hides nothing is accepted."""
-    ma = sys.modules.get("numpy.ma")  # NumPy imports it when somebody asks for it: nobody has a mask before
+    ma = sys.modules.get("numpy.ma")  # NumPy imports it on request: before, no masks exist
     if getattr(ma, "extras", None) is None:  # or another thread is still at it
         return
     assert ma is not None

@@ -36,7 +36,7 @@ class CompiledModel:
     """Evaluate the equations of one scene in C. `p` is what `prepare` returns: parameters, then derived values."""
 
     def __init__(self, source: KernelSource, library: Library, portable: bool = False, text: str = "") -> None:
-        self.source, self.portable = source, portable  # how its library was compiled, and others beside it will be
+        self.source, self.portable = source, portable  # as its library was compiled, and further ones will be
         self.text = text  # of the mechanism's file
         self.__dict__.update(lib=library.lib, ffi=library.ffi)
         self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)

@@ -67,7 +67,7 @@ def evaluate(
 ) -> Evaluation:
     """Return the quantities at N samples of one run; arguments as in CompiledModel.evaluate."""
     time = taken(t, "t", (None,))
-    if compiled.beyond:  # velocities are those behind a corner, and rounding hides on which side of it t is
+    if compiled.beyond:  # velocities are those after a switching point; rounding hides the side of t
         time = np.asarray(time + around(time))
     N = len(time)
     latched = _check_table(memory, "memory", N, None)

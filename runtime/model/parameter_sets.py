@@ -129,7 +129,7 @@ def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple
     at = [place.get(name, place.get(f"parameters.{name}", -1)) for name in rows.columns if isinstance(name, str)]
     if len(at) < len(rows.columns) or len({*at, -1}) <= len(at) or any(source.slots[k].words for k in at):
         return None
-    shape = (len(place), len(rows))  # memory of slots that nobody is given is never touched
+    shape = (len(place), len(rows))  # memory of parameters that no run gives is never touched
     given, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
     for k, one in zip(at, rows.columns.values(), strict=True):
         numbers = _read_floats(one, source.slots[k])

@@ -22,7 +22,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance, zero_inertia
 from gudgeon.model.written import undefined_number
 
-# a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
+# a number as files have it, in ASCII digits without '_'; float() accepts more
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 # such a number where a file is sure to take it: whole parts begin with one zero at most, exponents are below 400
 _MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]?[0-3]?[0-9]{1,2}"

@@ -35,7 +35,7 @@ def check_reference(compiled: CompiledModel) -> None:
     for state in reference["states"]:
         values = state["values"]
         for name, found in _library_values(compiled, state, p).items():
-            own = np.ravel(found)[: len(values[name])]  # behind them guides with play, whose corners are added up
+            own = np.ravel(found)[: len(values[name])]  # guides with play follow, with the sums of their corners
             _compare(compiled, name, values[name], own, float(state["t"]))
 
 

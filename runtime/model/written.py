@@ -57,6 +57,7 @@ def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> V
     position = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
 
     def value(path: str) -> float:
+        """Return the value of a name at the state."""
         if path == "t":
             return t
         if (address := f"parameters.{path}") in slots:
@@ -121,6 +122,7 @@ def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array,
             gap = Binary("-", left, right)
 
             def ahead_of_zero(h: float, gap: Expr = gap) -> bool:
+                """Return whether the compared difference is negative h s after the state."""
                 return bool(evaluate(gap, values_at(source, p, t + h, q + h * v, v)) < 0.0)
 
             for low, high in pairwise(np.linspace(-reach, reach, 33).tolist()):
@@ -143,6 +145,7 @@ def undefined_at_a_corner(
         gap = Binary("-", left, right)
 
         def ahead_of_zero(time: float, gap: Expr = gap) -> bool:
+            """Return whether the compared difference is negative at a time."""
             return bool(of_time(source, p, gap, np.array([time]))[0] < 0.0)
 
         before = of_time(source, p, gap, t) < 0.0
@@ -180,7 +183,7 @@ def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tupl
     """Return why a drive ceases to be a number between t0 and t1 (s), and when; ("", t1) if none does."""
     none, first, told = np.zeros(0), t1, ""
     for info, tree in trees(source, ("drives",)):
-        times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just behind the end
+        times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just after the end
         wrong = np.flatnonzero(~np.isfinite(of_time(source, p, tree, times)))
         if not len(wrong):
             continue
@@ -218,7 +221,7 @@ def with_undefined(run: Result, evaluation: Evaluation) -> Result:
     compared = _comparing_expressions(run.source)
     if not run.source.outputs and not compared:
         return run
-    probe = replace(run, stored={})  # of many samples nothing is kept that nobody asked for
+    probe = replace(run, stored={})  # without cached series of many samples
     probe.__dict__["evaluation"] = evaluation
     outputs = {f"output {name}": from_json(tree) for name, tree in run.source.outputs.items() if name in probe}
     for address, tree in compared.items():
@@ -285,6 +288,7 @@ def _expanded_expressions(source: KernelSource) -> list[tuple[WrittenInfo, Expr]
     known: dict[str, Expr] = {}
 
     def whole(name: str) -> Expr:
+        """Return the tree of a named expression with all others put in."""
         if name not in known:
             used = {used.path for used in names(written[name])} & written.keys()
             known[name] = replaced(written[name], {other: whole(other) for other in used})

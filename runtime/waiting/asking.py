@@ -67,7 +67,7 @@ def _callback(compiled: CompiledModel) -> Any:
     if id(ffi) not in _functions:
 
         def store_error(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-            """What a signal's handler raised just before or behind `answer` is of the one who was asked."""
+            """Store an exception that a signal handler raised just before or after `answer` in its Asker."""
             whom = trace.tb_frame.f_locals.get("whom") if trace else None
             if whom is not None and error is not None:
                 ffi.from_handle(whom).raised = error
@@ -89,6 +89,7 @@ def apart(work: Callable[[], Result]) -> Result:
     gate.acquire()
 
     def call() -> None:
+        """Call `work`, and store its result or exception."""
         try:
             results.append(work())
         except BaseException as error:

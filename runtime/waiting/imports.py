@@ -67,7 +67,7 @@ def at_rest() -> Iterator[None]:
     finally:
         if collects:
             _frozen = _frozen or gc.get_freeze_count() > 0
-            if not _frozen:  # somebody's frozen objects stay so
+            if not _frozen:  # objects frozen by others stay frozen
                 gc.freeze()
                 gc.unfreeze()
             gc.enable()
