@@ -95,6 +95,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
+    """Import a public name at its first use (PEP 562)."""
     if name not in _HOME:
         raise AttributeError(f"module 'gudgeon' has no attribute {name!r}")
     from gudgeon.waiting.ctrl_c import CtrlC
@@ -107,4 +108,5 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
+    """Return the names of the module, including those not yet imported."""
     return sorted({*globals(), *__all__})

@@ -1,4 +1,4 @@
-"""`python -m gudgeon`: the command, where its script is not on the path."""
+"""Run the command by `python -m gudgeon`, where its script is not on the path."""
 
 from gudgeon.entry import main
 

@@ -21,14 +21,14 @@ from gudgeon.commands.told import tell_warnings, told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.language.deprecations import STRESS
 
-WHOLE = 1000  # letters: more than any sentence has
+WHOLE = 1000  # characters: more than any sentence has
 
 
 class Commands(TyperGroup):
-    """Of each its first sentence, whole, which may be lines long; typer cuts it where a line ends."""
+    """List each command with its whole first sentence, which typer would cut at the end of a line."""
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Writes the section."""
+        """Write the section of commands."""
         every = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
         told = [(name, one.get_short_help_str(WHOLE)) for name, one in every if one and not one.hidden]
         with formatter.section("Commands"):
@@ -48,6 +48,7 @@ app = typer.Typer(
 
 @app.callback()
 def _root(version: opt.Version = False) -> None:
+    """Define the options of the command without a subcommand."""
     pass
 
 
@@ -391,12 +392,12 @@ def study(
 
 
 def name_of(one: CommandInfo) -> str:
-    """What is typed to call it."""
+    """Return the name by which a command is called."""
     return str(one.name or getattr(one.callback, "__name__", ""))
 
 
 def asked_for(app: typer.Typer) -> typer.Typer:
-    """Of a command line that begins with one of the commands that one alone: to read all options takes 30 ms."""
+    """Return the app with the called command only, since reading all options takes 30 ms."""
     named = [one for one in app.registered_commands if sys.argv[1:2] == [name_of(one)]]
     alone = copy(app)
     alone.registered_commands = named or app.registered_commands
@@ -404,6 +405,6 @@ def asked_for(app: typer.Typer) -> typer.Typer:
 
 
 def main() -> None:
-    """The command line."""
+    """Run the command line."""
     tell_warnings()
     asked_for(app)()

@@ -1,7 +1,7 @@
-"""Where the command `gudgeon` begins: Ctrl-C, SIGTERM and a standard output that takes nothing are told in a word.
+"""Start the command `gudgeon`: handle Ctrl-C, SIGTERM, SIGHUP and a broken standard output with short messages.
 
-SIGTERM, with which batch systems and `timeout` end a program, and SIGHUP, with which a terminal that is closed does,
-are answered as Ctrl-C is: what was computed is saved, and no compiler is left behind.
+SIGTERM (from batch systems and `timeout`) and SIGHUP (from a closed terminal) are treated as Ctrl-C: computed results
+are saved, and no compiler is left running.
 """
 
 from __future__ import annotations
@@ -15,17 +15,18 @@ import sys
 
 from gudgeon.waiting.ctrl_c import ENDING, INTERRUPTED, is_the_program, last_word, nothing_more
 
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # errors of writing that are reported in one line
 
 
 def main() -> None:
-    """The entry point of the command `gudgeon`."""
-    _streams()
+    """Run the command `gudgeon`; this is its entry point."""
+    _prepare_streams()
     is_the_program()
     os.environ["MPLBACKEND"] = "agg"  # nothing is shown in a window, whatever is set
     ended: list[int] = []
 
     def terminate(number: int, _: object) -> None:
+        """Record a signal and treat it as Ctrl-C."""
         ended.append(number)
         signal.raise_signal(signal.SIGINT)
 
@@ -33,13 +34,14 @@ def main() -> None:
         if signal.getsignal(number) is signal.SIG_DFL and callable(signal.getsignal(signal.SIGINT)):
             signal.signal(number, terminate)
     try:
-        _run()
+        _run_command()
     except SystemExit as end:
         nothing_more()  # a command that says itself what an interrupt left ends here too
         sys.exit(128 + ended[0] if ended and end.code == INTERRUPTED else end.code)
 
 
-def _run() -> None:
+def _run_command() -> None:
+    """Run the command line; report an interrupt and errors of standard output."""
     try:
         from gudgeon.cli import main
 
@@ -47,7 +49,7 @@ def _run() -> None:
             main()
         finally:
             sys.stdout.flush()
-            gc.freeze()  # the process ends: what is left need not be looked through for garbage before that
+            gc.freeze()  # the process ends: no need to search for garbage
     except KeyboardInterrupt:
         last_word()
         sys.exit(INTERRUPTED)
@@ -60,9 +62,9 @@ def _run() -> None:
         sys.exit(1)
 
 
-def _streams() -> None:
-    """One that is closed leads nowhere, lest a file take its number; what its encoding lacks is escaped."""
-    codecs.register_error("gudgeon", _escaped)
+def _prepare_streams() -> None:
+    """Replace closed standard streams by the null device, and escape characters that their encoding lacks."""
+    codecs.register_error("gudgeon", _escape_as_json)
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         stream = getattr(sys, name)
         if stream is None:
@@ -71,8 +73,8 @@ def _streams() -> None:
             stream.reconfigure(errors="gudgeon")
 
 
-def _escaped(error: UnicodeError) -> tuple[str, int]:
-    """Characters as JSON has them, so that a document stays one."""
+def _escape_as_json(error: UnicodeError) -> tuple[str, int]:
+    """Return the replacement of characters as JSON escapes, so that a document stays valid."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     units = error.object[error.start : error.end].encode("utf-16-be", "surrogatepass")

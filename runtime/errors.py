@@ -1,7 +1,7 @@
-"""Every error that gudgeon raises on purpose, under one root.
+"""Define all errors that gudgeon raises on purpose, under one root class.
 
-An error says where it is, what is wrong and what to do next; `exit_code` is what the
-command line returns for it (1 a run failed, 2 bad input, 130 interrupted).
+An error says where it is, what is wrong and what to do next. `exit_code` is what the command line returns for it (1 a
+run failed, 2 bad input, 130 interrupted).
 """
 
 from __future__ import annotations
@@ -15,32 +15,34 @@ from typing import Any
 
 @dataclass(frozen=True, order=True)
 class Location:
-    """A place in a file; lines and columns count from 1."""
+    """Hold a location in a file; lines and columns count from 1."""
 
     file: str
     line: int
     column: int
 
     def __str__(self) -> str:
+        """Return "file:line:column"."""
         return f"{in_a_line(self.file)}:{self.line}:{self.column}"
 
 
 class GudgeonError(Exception):
-    """Root of all of gudgeon's errors."""
+    """Root class of gudgeon's errors."""
 
     exit_code = 1
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickled as it is, whatever its constructor takes: an error comes back from another process."""
+        """Return the pickled form, independent of the constructor, so that errors can cross processes."""
         return _again, (type(self), self.args), dict(self.__dict__)
 
 
 def _again(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
+    """Return an unpickled error."""
     return kind.__new__(kind, *arguments)
 
 
 class InputError(GudgeonError):
-    """Something in a file or a call that the user can mend.
+    """Signal a mistake in a file or a call that the user can correct.
 
     `where` is None only when no file is involved (an argument of a Python call).
     """
@@ -54,59 +56,59 @@ class InputError(GudgeonError):
 
 
 class NotYamlError(InputError):
-    """The file is no YAML, is empty, is no mapping or is not UTF-8."""
+    """Signal a file that is not YAML, is empty, is not a mapping or is not UTF-8."""
 
 
 class LimitError(InputError):
-    """The file is larger, deeper or more aliased than a mechanism ever needs."""
+    """Signal a file larger, deeper or more aliased than a mechanism ever needs."""
 
 
 class UnknownKeyError(InputError):
-    """A key that the format does not know, or a key given twice."""
+    """Signal a key that the format does not know, or a key given twice."""
 
 
 class MissingKeyError(InputError):
-    """A key that the format needs."""
+    """Signal that a required key is missing."""
 
 
 class BadValueError(InputError):
-    """A value of the wrong kind, or outside its range (negative mass, clearance ≥ radius, …)."""
+    """Signal a value of the wrong kind, or outside its range (negative mass, clearance ≥ radius, …)."""
 
 
 class ArrayError(BadValueError, ValueError):
-    """An array that C cannot read as it is meant: another shape, masked entries, no real numbers, NaN for a time."""
+    """Signal an array that C cannot read: wrong shape, masked entries, no real numbers, NaN for a time."""
 
 
 class UnitError(InputError):
-    """An unknown unit, or a value with the wrong dimension."""
+    """Signal an unknown unit, or a value with the wrong dimension."""
 
 
 class ExpressionError(InputError):
-    """Text that is no expression: syntax, attribute access, unknown function."""
+    """Signal text that is not an expression: syntax, attribute access, unknown function."""
 
 
 class UnknownNameError(InputError):
-    """A name that nothing defines: a body, point, joint, parameter, law, scene, address."""
+    """Signal a name that nothing defines: a body, point, joint, parameter, law, scene, address."""
 
 
 class BadNameError(InputError):
-    """A name that is no identifier, is reserved (C, Python, gudgeon) or is used twice."""
+    """Signal a name that is not an identifier, is reserved (C, Python, gudgeon) or is used twice."""
 
 
 class CycleError(InputError):
-    """Parameters, scenes or contacts that are defined through each other."""
+    """Signal parameters, scenes or contacts that are defined through each other."""
 
 
 class JoinError(InputError):
-    """A joint or drive that cannot be: a body joined to itself, ground to ground."""
+    """Signal an impossible joint or drive: a body joined to itself, ground to ground."""
 
 
 class LawError(InputError):
-    """A force law of the user's own that cannot be used: its file and name, what is wrong, what it may have."""
+    """Signal a user-defined force law that cannot be used: its file and name, what is wrong, what is allowed."""
 
 
 class InputErrors(InputError):
-    """All the errors of one file at once, in the order of their places."""
+    """Hold all errors of one file, in the order of their locations."""
 
     def __init__(self, errors: Sequence[InputError]) -> None:
         self.errors = tuple(sorted(errors, key=lambda e: (e.where is None, e.where or Location("", 0, 0))))
@@ -122,11 +124,11 @@ def together(errors: Iterable[InputError]) -> InputError:
 
 
 class AssemblyError(GudgeonError):
-    """The start cannot be assembled: the worst rows, their joints and the residual are named."""
+    """Signal a start that cannot be assembled: the worst equations, their joints and the residual are named."""
 
 
 class SolverError(GudgeonError):
-    """The equations could not be solved during a run; carries the time and, if known, the pivot.
+    """Signal that the equations could not be solved during a run, with the time and, if known, the pivot.
 
     `partial` is the result up to there (a gudgeon.Result), None outside `simulate`.
     """
@@ -134,28 +136,28 @@ class SolverError(GudgeonError):
     def __init__(self, message: str, time: float, pivot: str = "") -> None:
         self.time, self.pivot = time, pivot
         self.partial: Any = None
-        self.outside_model = False  # the physics broke the model, not the method: a film that is squeezed out
+        self.outside_model = False  # whether the motion left the validity of the model, as where a film is squeezed out
         super().__init__(message)
 
 
 class SingularError(SolverError):
-    """A pivot of the KKT system vanished: a singular position, or redundant constraints."""
+    """Signal a vanishing pivot of the KKT system: a singular position, or redundant constraints."""
 
 
 class NonFiniteError(SolverError):
-    """The state or the right-hand side is no longer finite."""
+    """Signal that the state or the right-hand side is no longer finite."""
 
 
 class AuditError(SolverError):
-    """A check of the run's audit failed: the result contradicts an equation that the integration does not use."""
+    """Signal a failed audit: the result contradicts an equation that the integration does not use."""
 
 
 class BuildError(GudgeonError):
-    """The C code could not be compiled or loaded (compiler missing, …)."""
+    """Signal that the C code could not be compiled or loaded (compiler missing, …)."""
 
 
 class MemoryShortage(GudgeonError):
-    """There is no memory for what the command line was asked; in Python it is a MemoryError."""
+    """Signal that memory does not suffice for a command; in Python it is a MemoryError."""
 
     def __init__(self, error: MemoryError) -> None:
         what = f": {error}" if str(error) else ""
@@ -169,13 +171,13 @@ LIMITED = "a limit is set on the size of files (ulimit -f)"
 
 
 class CacheError(GudgeonError):
-    """The cache folder cannot be used."""
+    """Signal that the cache folder cannot be used."""
 
 
 class OutputError(GudgeonError):
-    """A file that cannot be written: `path`, `reason`. What stood there is as it was.
+    """Signal a file that cannot be written: `path`, `reason`. The old file is unchanged.
 
-    The exit code is 2 where another name or folder mends it, 1 where it is the disk.
+    The exit code is 2 if another name or folder helps, 1 if the disk is the cause.
     """
 
     def __init__(self, path: str | os.PathLike[str], reason: str | OSError) -> None:
@@ -188,16 +190,17 @@ class OutputError(GudgeonError):
 
 
 def in_a_line(text: str) -> str:
-    """A name as Python writes what would end its line."""
+    """Return a name with line breaks escaped if it is not printable."""
     return text if text.isprintable() else text.replace("\n", "\\n").replace("\r", "\\r")
 
 
 def shortened(path: str | os.PathLike[str]) -> str:
-    """A path as it is told: in a line, of a long one both ends."""
+    """Return a path for messages on one line; of a long one, both ends."""
     text = in_a_line(os.fspath(path)) or "''"
     return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 
+# errors for which another name or folder helps
 _NAMED = {
     errno.ENOTDIR,
     errno.EISDIR,
@@ -209,6 +212,7 @@ _NAMED = {
     errno.EPERM,
     errno.EROFS,
 }
+# hints by error number
 _HINTS = {
     errno.ENOSPC: "what stood there is as it was; make room or name another folder, and do it again",
     errno.EDQUOT: "what stood there is as it was; make room or name another folder, and do it again",

@@ -1,6 +1,7 @@
-"""Closing the linkage: Newton's steps from a guess, the nearest closed configuration, others where that is none.
+"""Close a linkage: find the closed configuration nearest to the guess by Newton's method, from other starts if
+needed.
 
-Angles weigh most: a step moves guessed angles and points least, then the other angles, and positions follow.
+Angles have the largest weights: a step changes guessed angles and points least, then other angles, then positions.
 """
 
 from __future__ import annotations
@@ -17,14 +18,15 @@ from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
-FAR = 0.5  # rad: where a guessed angle turns further, or a place lies APART, many more are sought
-MIRRORED = 0.1  # of that: where a guess is further off, what lies on its other side is looked at
-TRIES, MANY, MORE = 24, 60, 5  # from as many other angles; fewer with more coordinates than these; so many times again
-AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
-CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
-ROUNDING = 1e-14  # with this share of how far from the origin it is
-HELD = 1e-6  # below this norm a Jacobian serves the next steps too, as long as they close a tenth (closing.c)
-NEARER = 1e-5  # by so much of its distance, at least, is another configuration nearer
+FAR = 0.5  # rad: if a guessed angle turns further, or a point moves by APART, many more starts are tried
+MIRRORED = 0.1  # of that: if a guess is further off, starts on its other side are tried
+# starts from other angles; coordinates from which on fewer are tried; factor of a longer search
+TRIES, MANY, MORE = 24, 60, 5
+AWAY = 1e3  # of the size that drives and start require: a body further from the origin is lost
+CLOSED = 1e-10  # a residual above this fraction of the mechanism's size is not an assembly
+ROUNDING = 1e-14  # the same, relative to the largest distance from the origin
+HELD = 1e-6  # norm below which a Jacobian serves the next steps too, as long as the norm falls to a tenth (closing.c)
+NEARER = 1e-5  # smallest relative difference of distance at which another configuration counts as nearer
 
 # Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
 GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
@@ -32,7 +34,7 @@ NOTHING: Mapping[str, float] = {}
 
 
 class Closure:
-    """Rows of the closed linkage, then those of `set` and what else is held; each coordinate with its weight."""
+    """Hold the closure problem: constraint equations of the closed linkage, `start.set`, and weights of coordinates."""
 
     def __init__(self, linkage: Linkage, p: Array, t: float, hold: Mapping[str, float] = NOTHING) -> None:
         source = linkage.source
@@ -61,36 +63,40 @@ class Closure:
             for point in source.points
             if f"{point.name}.x" in told
         ]
-        self.wanted = np.zeros(len(self.place))  # what is guessed, as the rows let it be
+        self.wanted = np.zeros(len(self.place))  # guessed coordinates, as far as the constraint equations allow them
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 
     def residual(self, q: Array, p: Array | None = None) -> Array:
-        """Of each row, m or rad; with other numbers p where they are given."""
+        """Return the residuals of the equations in m or rad, optionally with other parameter values p."""
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
         phi[self.apart_index] += self.apart  # Φ of these joints is −e
         return np.concatenate([phi, q[self.set_index] - self.set])
 
     def jacobian(self, q: Array, p: Array | None = None) -> Array:
-        """Of the residual, by q."""
+        """Return the Jacobian of the residuals with respect to q."""
         extra = np.zeros((len(self.set_index), len(q)))
         extra[np.arange(len(self.set_index)), self.set_index] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
 
     def least(self, q: Array, p: Array) -> Array:
-        """Where the rows are nearest to closing, with the numbers p."""
+        """Return the configuration with the least residuals for parameter values p."""
         return self._nearest_fit(
             q, lambda x: self.residual(x, p) / self.row_scale, lambda x: self.jacobian(x, p) / self.row_scale[:, None]
         )
 
     def norm(self, q: Array) -> float:
-        """How far the rows are from closing, lengths as shares of the mechanism's size."""
-        return float(np.linalg.norm(self._scaled(q)))
+        """Return the norm of the residuals, with lengths relative to the mechanism's size."""
+        return float(np.linalg.norm(self._scaled_residual(q)))
 
-    def _scaled(self, q: Array) -> Array:
+    def _scaled_residual(self, q: Array) -> Array:
+        """Return the residuals, with lengths relative to the mechanism's size."""
         return self.residual(q) / self.row_scale
 
-    def _step(self, q: Array, open_by: Array, columns: NDArray[np.bool_] | slice = slice(None)) -> Array:
-        """Smallest weighted step that closes the linearised rows, which are `open_by`, in some columns only."""
+    def _newton_step(self, q: Array, open_by: Array, columns: NDArray[np.bool_] | slice = slice(None)) -> Array:
+        """Return the smallest weighted step that closes the linearized equations with residuals `open_by`.
+
+        `columns`: coordinates that may change.
+        """
         weight = self.weight[columns]
         matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
         target, step = -open_by, np.zeros_like(q)
@@ -100,53 +106,55 @@ class Closure:
         return step
 
     def first_guess(self) -> Array:
-        """What is guessed and held, with angles that rows in angles alone give (`wanted`); moved as points ask for."""
+        """Return the guessed configuration: guessed and held coordinates, angles from angle equations, guessed
+        points.
+        """
         q = np.zeros(len(self.place))
         q[self.guessed] = list(self.guess.values())
         q[self.set_index] = self.set
         self.wanted = q = self.place_angles(q)
         self.reach = self._farthest_place(q)
-        return self._towards_points(q) if self.points else q
+        return self._fit_points(q) if self.points else q
 
     def nearest(self) -> tuple[Array, bool]:
-        """The closed configuration nearest the guess, True; or the nearest to one there is, False.
+        """Return the closed configuration nearest to the guess and True; or the best open one and False.
 
-        Where Newton ends beside the guess, the other one may be nearer: it is sought beyond the guess, with what is
-        not guessed as it is, and beyond it too. Where all lead far away or nowhere, others are sought.
+        Newton's result may not be the nearest. If it is far from the guess, the configuration beyond the guess is
+        tried. If all results are far away or open, other starts are tried.
         """
         guess = self.first_guess()
         first = self.newton(guess)
-        if self._counts(first) and self._strayed(first) < 1.0:
-            best = self._nearer(first, guess)
-            if self._strayed(best) < 1.0:
+        if self._is_assembly(first) and self._relative_miss(first) < 1.0:
+            best = self._search_beyond_guess(first, guess)
+            if self._relative_miss(best) < 1.0:
                 return best, True
         found = [first]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
-            found += [self.newton(other) for other in self._others(guess, spread)]
+            found += [self.newton(other) for other in self._other_starts(guess, spread)]
             near = [q for q in found if self.is_near(q)]
             closed = [self.unwound(q) for q in near if self.is_closed(q)]
-            if closed and self._strayed(best := min(closed, key=self.distance)) < 1.0:
+            if closed and self._relative_miss(best := min(closed, key=self.distance)) < 1.0:
                 return best, True
-        if closed:  # none so near as one may be: looked for longer
-            found = [self.newton(other) for seed in range(1, MORE) for other in self._others(guess, 1.0, seed)]
-            more = (self.unwound(q) for q in found if self._counts(q))
+        if closed:  # none is near enough: more starts
+            found = [self.newton(other) for seed in range(1, MORE) for other in self._other_starts(guess, 1.0, seed)]
+            more = (self.unwound(q) for q in found if self._is_assembly(q))
             return min([best, *more], key=self.distance), True
         return min(near, key=self.norm, default=guess), False
 
-    def _counts(self, q: Array) -> bool:
-        """Whether it is a closed configuration."""
+    def _is_assembly(self, q: Array) -> bool:
+        """Return whether a configuration is closed and not far away."""
         return self.is_closed(q) and self.is_near(q)
 
-    def _nearer(self, first: Array, guess: Array) -> Array:
-        """A closed configuration, or the nearer one of those beyond the guess."""
-        if self._strayed(first) < MIRRORED:
+    def _search_beyond_guess(self, first: Array, guess: Array) -> Array:
+        """Return the given closed configuration, or a nearer one found from starts beyond the guess."""
+        if self._relative_miss(first) < MIRRORED:
             return first
         beyond, found = 2.0 * guess - first, first.copy()
         found[self.guessed] = beyond[self.guessed]
         for mirrored in (found, beyond):
             mirrored[self.set_index] = self.set
             other = self.newton(self.place_angles(mirrored))
-            if not self._counts(other):
+            if not self._is_assembly(other):
                 continue
             other = self.unwound(other)
             if self.distance(other) < (1.0 - NEARER) * self.distance(first):
@@ -154,31 +162,33 @@ class Closure:
         return first
 
     def distance(self, q: Array) -> float:
-        """From what is guessed: coordinates by their weights, points as shares of the size."""
+        """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size."""
         off = [self.off_point(q, point, target) * (GUESSED / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
         return float(np.linalg.norm(np.concatenate([(q - self.wanted) * self.weight * free, *off])))
 
     def off_point(self, q: Array, point: PointInfo, target: Array) -> Array:
-        """From where a point is guessed to where it is, (2,), m."""
+        """Return the vector (2,) in m from where a point is guessed to where it is."""
         return place_of(self.linkage.source, self.p, q, point) - target
 
-    def _towards_points(self, q: Array) -> Array:
-        """Guessed points put where they are wanted, as well as the rows and the other guesses let them."""
+    def _fit_points(self, q: Array) -> Array:
+        """Return a configuration whose guessed points are as near to their guess as the equations allow."""
         held = np.diag(self.weight)[self.guessed]
 
         def left(x: Array) -> Array:
+            """Return the residuals of equations, guesses and points."""
             off = [self.off_point(x, point, target) / self.size for point, target in self.points]
             return np.concatenate([self.residual(x) / self.row_scale, held @ (x - q), *off])
 
         def slopes(x: Array) -> Array:
+            """Return the Jacobian of these residuals."""
             rows = self.jacobian(x) / self.row_scale[:, None]
             return np.concatenate([rows, held, self._points_jacobian(x) / self.size])
 
         return self._nearest_fit(q, left, slopes)
 
     def _nearest_fit(self, q: Array, left: Callable[[Array], Array], slopes: Callable[[Array], Array]) -> Array:
-        """Where the sum of squares of `left` is least, by Levenberg's steps from q."""
+        """Return the minimum of the sum of squares of `left`, by Levenberg–Marquardt steps from q."""
         damping, best = 1e-3, left(q)
         scale = np.where(self.is_angle, 1.0, self.size)
         for _ in range(2 * MAX_STEPS):
@@ -199,7 +209,7 @@ class Closure:
         return q
 
     def _points_jacobian(self, q: Array) -> Array:
-        """Of the guessed points' places, (2 · points, n)."""
+        """Return the Jacobian of the positions of guessed points, (2 · points, n)."""
         J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
         for k, (point, _) in enumerate(self.points):
             i = source.bodies[point.body].index
@@ -208,33 +218,32 @@ class Closure:
         return J
 
     def _farthest_place(self, guess: Array) -> float:
-        """How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least."""
+        """Return the largest distance (m) from the origin that drives and start ask for; at least the size."""
         asked = np.abs(self.residual(guess))[: len(self.linkage.source.start_rows)]
         lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
         return float(max(self.size, asked[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0)))
 
     def is_closed(self, q: Array) -> bool:
-        """All rows, to rounding."""
+        """Return whether all equations are satisfied to rounding."""
         return self.norm(q) < CLOSED + ROUNDING * self.reach / self.size
 
     def is_near(self, q: Array) -> bool:
-        """Not run off to where parallel lines meet, and every row seems to close."""
+        """Return whether no body is so far away that every equation seems to close."""
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
-    def _strayed(self, q: Array) -> float:
-        """How far the worst guessed angle or place is off, as a share of how far it may be without a longer search."""
+    def _relative_miss(self, q: Array) -> float:
+        """Return how far the worst guessed angle or point is off, relative to the limit for a longer search."""
         off = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.wanted, 0.0)
         places = np.hypot(off[0::3], off[1::3]) / np.maximum(self.size, np.hypot(self.wanted[0::3], self.wanted[1::3]))
         points = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
         return float(max([*places / APART, *np.abs(off[2::3]) / FAR, *points], default=0.0))
 
-    def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
-        """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
+    def _other_starts(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
+        """Yield starts around the guess, the same in every run; driven and set coordinates keep their values.
 
-        Each draw is followed by its mirror image in the axes of the bodies, so that a linkage that is turned or
-        mirrored with its guess is sought among the same places, and its start is turned or mirrored.
-        of_guessed: rad, how far guessed angles are turned, for a guess may lie where every way ends in a fold (the
-        residual is least there and not zero).
+        Each draw is followed by its mirror image in the axes of the bodies. A linkage that is turned or mirrored with
+        its guess thus finds a start that is turned or mirrored. of_guessed: rad, how far guessed angles are turned,
+        because a guess may lie where every search ends in a minimum of the residual above zero.
         """
         rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
@@ -252,7 +261,7 @@ class Closure:
                 yield self.place_angles(q)
 
     def unwound(self, q: Array) -> Array:
-        """Angles within half a turn of the guess, where no row counts turns."""
+        """Return the configuration with angles within half a turn of the guess, where no equation counts turns."""
         for k in np.flatnonzero(self.is_angle & (np.abs(q - self.wanted) > np.pi)):
             other = q.copy()
             other[k] -= 2.0 * np.pi * np.round((q[k] - self.wanted[k]) / (2.0 * np.pi))
@@ -260,16 +269,19 @@ class Closure:
         return q
 
     def newton(self, q: Array) -> Array:
-        """Newton with line search, positions put in first, as far as it gets; q itself where its rows are closed."""
-        open_by, rounding = self._scaled(q), ROUNDING * self.reach / self.size
+        """Return the result of Newton's method with line search from q; q itself if it is closed already.
+
+        Positions are adapted first.
+        """
+        open_by, rounding = self._scaled_residual(q), ROUNDING * self.reach / self.size
         if float(np.linalg.norm(open_by)) < rounding:
             return q
-        q = q + self._step(q, open_by, ~self.is_angle)
-        at, held, open_by = q, False, self._scaled(q)  # at: where the rows are linearized
+        q = q + self._newton_step(q, open_by, ~self.is_angle)
+        at, held, open_by = q, False, self._scaled_residual(q)  # at: where the rows are linearized
         for _ in range(MAX_STEPS):
-            step, share, norm = self._step(at, open_by), 1.0, float(np.linalg.norm(open_by))
+            step, share, norm = self._newton_step(at, open_by), 1.0, float(np.linalg.norm(open_by))
             while share > (0.5 if held else 1e-4):
-                after = self._scaled(q + share * step)
+                after = self._scaled_residual(q + share * step)
                 if float(np.linalg.norm(after)) < (1.0 - 1e-4 * share) * norm:
                     break
                 share *= 0.5
@@ -285,7 +297,7 @@ class Closure:
         return q
 
     def place_angles(self, q: Array) -> Array:
-        """Rows in angles alone (drives, sliders) give their angles at once."""
+        """Return q with the angles that equations in angles alone (drives, sliders) determine."""
         rows = np.abs(self.jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
         matrix = self.jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()

@@ -1,9 +1,8 @@
-"""Messages of a linkage that does not close, or whose velocities do not fit: which links are too short or too long.
+"""Explain why a linkage does not close or its velocities do not fit, and which links are too short or too long.
 
-One body at a time is made longer or shorter, its points moving away from its centre of mass, until the rows close
-with the least change there is. Where they cannot close, what is left of them is least at some configuration, and there
-Φ_qᵀ Φ = 0: no motion makes it smaller, but a change of length s does, by Φᵀ Φ_s. So s follows by Newton's steps on the
-norm of what is left.
+One body at a time is scaled, its points moving away from its centre of mass, until the equations close with the least
+change. Where they cannot close, a configuration has a least residual with Φ_qᵀ Φ = 0. No motion reduces it, but a
+change of length s does, by Φᵀ Φ_s. So s follows from Newton's steps on the norm of the residual.
 """
 
 from __future__ import annotations
@@ -21,17 +20,17 @@ from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, far_masses
 from gudgeon.model.written import reason
 
-FAR = 100.0  # times the next longest: so far apart are lengths in mm and those left in m
-FEW = 60  # coordinates up to which it is looked for which length is wrong
-STEPS = 30
-NUDGE = 1e-6  # relative, of a body's length: for the derivative by it
-SHUT = 1e-7  # share of the size that is left where a length counts as found
+FAR = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
+FEW = 60  # coordinates up to which wrong lengths are searched
+STEPS = 30  # largest number of Newton's steps
+NUDGE = 1e-6  # relative change of a body's length for the derivative
+SHUT = 1e-7  # residual relative to the size at which a length counts as found
 ENDS = {"tail", "head"}
-MOST, LEAST = 4.0, -0.95  # times its length: what would have to grow or shrink further is not what is wrong
+MOST, LEAST = 4.0, -0.95  # limits of the relative change: a length beyond them is not the cause
 
 
 def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
-    """Velocities that do not fit: the rows whose combination vanishes, drives and rates among them."""
+    """Return the error for velocities that do not fit, with the dependent equations, drives and rates among them."""
     source = closure.linkage.source
     if told := far_masses(source, closure.linkage.mass(closure.p)):
         return AssemblyError(told)
@@ -70,7 +69,7 @@ def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
 
 
 def not_closed(closure: Closure, q: Array) -> AssemblyError:
-    """Which rows stay open, by how much, and what to try."""
+    """Return the error for a linkage that does not close: open equations, residuals and remedies."""
     scaled = np.abs(closure.residual(q) / closure.row_scale)
     if not np.isfinite(scaled).all():
         why = reason(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
@@ -78,12 +77,12 @@ def not_closed(closure: Closure, q: Array) -> AssemblyError:
         return AssemblyError(f"the start cannot be assembled: {told}")
     worst = np.argsort(-scaled)[:6]
     worst = worst[scaled[worst] > 1e-3 * scaled.max()]
-    rows = ", ".join(_open_row(closure, q, k) for k in worst)
+    rows = ", ".join(_open_equation_text(closure, q, k) for k in worst)
     if more := int((scaled >= max(CLOSED, 1e-6 * scaled.max())).sum()) - len(worst):
         rows += f" and {more} more, less far,"
     owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
     sets = "what start.set holds, " if len(closure.set_index) else ""
-    lengths = _in_metres(closure) or _lengths(closure, q)
+    lengths = _unit_mistake_text(closure) or _wrong_lengths_text(closure, q)
     return AssemblyError(
         f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'}){lengths}\n"
         "  either the constraints contradict each other or the guess is far from every branch: check"
@@ -91,15 +90,15 @@ def not_closed(closure: Closure, q: Array) -> AssemblyError:
     )
 
 
-def _open_row(closure: Closure, q: Array, k: int) -> str:
-    """ "C.x (8.2 mm, line 14)": by how much it stays open."""
+def _open_equation_text(closure: Closure, q: Array, k: int) -> str:
+    """Return the text of an open equation: "C.x (8.2 mm, line 14)"."""
     left, line = float(closure.residual(q)[k]), dict(closure.linkage.source.lines).get(closure.owners[k])
     amount = lengths_text(left) if closure.units[k] == "m" else f"{np.degrees(left):.3g} deg"
     return f"{closure.names[k]} ({amount}{f', line {line}' if line else ''})"
 
 
-def _lengths(closure: Closure, q: Array) -> str:
-    """Which links are too short or too long, and by how much; "" where no single one would do, or they are many."""
+def _wrong_lengths_text(closure: Closure, q: Array) -> str:
+    """Return a text on links that are too short or too long; "" if no single change would close the linkage."""
     if closure.linkage.n > FEW:
         return ""
     found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
@@ -111,8 +110,8 @@ def _lengths(closure: Closure, q: Array) -> str:
     return f"\n  one change would close it: {', or '.join(told)}" if told else ""
 
 
-def _in_metres(closure: Closure) -> str:
-    """Which few lengths of the file are metres where all the others are far less; "" where none are."""
+def _unit_mistake_text(closure: Closure) -> str:
+    """Return a text on few lengths in metres that are far larger than all others; "" if there are none."""
     source = closure.linkage.source
     sizes = {
         slot.address: abs(float(closure.p[k]))
@@ -129,32 +128,36 @@ def _in_metres(closure: Closure) -> str:
 
 
 def lengths_text(length: float) -> str:
-    """A length with four digits, in mm or m."""
+    """Return a length with four digits, in mm or m."""
     return f"{1e3 * length:.4g} mm" if abs(length) < 1.0 else f"{length:.4g} m"
 
 
 @dataclass(frozen=True)
 class WrongLength:
-    """A body that would close the linkage if it alone were longer by `missing` (m); negative: shorter."""
+    """Describe a body that would close the linkage if it alone were longer by `missing` (m); negative: shorter."""
 
     body: str
-    points: tuple[str, str]  # those that joints or drives hold and that lie furthest apart
+    points: tuple[str, str]  # those held by joints or drives that are furthest apart
     length: float  # m, between them
     missing: float
 
     @property
     def told(self) -> str:
-        """The body; with its points where these are not the ends of its length."""
+        """Return the body's name, with its points unless these are its ends."""
         return self.body if {*self.points} == ENDS else f"{self.body}, {'–'.join(self.points)}"
 
 
 def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
-    """What would close the rows, the least change first. q: where they are nearest to closing."""
+    """Return the bodies whose change of length would close the equations, the least change first.
+
+    q: the configuration with the least residuals.
+    """
     with np.errstate(all="ignore"):
-        return sorted(_found(closure, q), key=lambda wrong: abs(wrong.missing))
+        return sorted(_find_wrong_lengths(closure, q), key=lambda wrong: abs(wrong.missing))
 
 
-def _found(closure: Closure, q: Array) -> Iterator[WrongLength]:
+def _find_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
+    """Yield the bodies whose change of length would close the equations."""
     source = closure.linkage.source
     held = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
@@ -164,16 +167,17 @@ def _found(closure: Closure, q: Array) -> Iterator[WrongLength]:
         if furthest is not None and apart[furthest] > 0.0:
             one, other = (point.name.partition(".")[2] for point in furthest)
             places = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
-            share = _share(closure, q, places)
+            share = _closing_change(closure, q, places)
             if share is not None:
                 yield WrongLength(body.name, (one, other), apart[furthest], share * apart[furthest])
 
 
-def _share(closure: Closure, q: Array, places: list[int]) -> float | None:
-    """By which share the numbers at `places` of p must grow so that the rows just close; None: that does not help."""
+def _closing_change(closure: Closure, q: Array, places: list[int]) -> float | None:
+    """Return the relative change of the values at `places` of p that just closes the equations; None if none does."""
     p, opens, shut, share = closure.p, 0.0, None, 0.0
 
     def scaled(by: float) -> Array:
+        """Return the parameter values with those at `places` scaled by 1 + by."""
         changed = np.array(p)
         changed[places] *= 1.0 + by
         return changed

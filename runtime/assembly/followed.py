@@ -1,4 +1,4 @@
-"""Guesses that an assembly does not follow, which are told."""
+"""Warn about guesses of the start that the assembly does not follow."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from gudgeon.assembly.linkage import Linkage, mechanism_size, place_of
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
 
-APART = 0.2  # rad, or share of the size: what tells two assemblies apart in a guess
+APART = 0.2  # rad, or relative to the size: difference from which on assemblies are distinguished by a guess
 LISTED = "gudgeon check --branches lists those that there are"
+# guesses that runs of batches do not follow; None: warn at once
 NOTED: ContextVar[list[Mapping[str, float]] | None] = ContextVar("guesses that runs do not follow", default=None)
-FOLLOWED = np.pi / 6  # rad; so far a guess may be off without a word
+FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
 def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
-    """Guessed coordinates that are far from their guess at q, points by their distance: rad, or m."""
+    """Return the guessed coordinates that are far from their guess at q, and points by their distance: rad, or m."""
     source, off = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
     size = mechanism_size(linkage, p)
@@ -40,7 +41,7 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
 
 
 def tell_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
-    """A warning for each of them; of a run of a batch it is noted in NOTED, where `tell_of_runs` finds it."""
+    """Warn about each guess that the start q does not follow; within a batch, note them in NOTED."""
     off, noted = unfollowed(linkage, p, q), NOTED.get()
     if noted is not None:
         noted.append(off)
@@ -51,7 +52,7 @@ def tell_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
 
 
 def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
-    """One warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
+    """Issue one warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
     if (kept := NOTED.get()) is not None:  # by who makes many batches
         kept.extend(noted)
         return
@@ -65,7 +66,7 @@ def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> 
 
 
 def outside() -> int:
-    """How many calls above its caller the user's own line is, as `warnings.warn` counts."""
+    """Return the stack level of the user's own line, as `warnings.warn` counts it."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":
         level, frame = level + 1, frame.f_back
@@ -73,11 +74,11 @@ def outside() -> int:
 
 
 def off_text(name: str, off: float) -> str:
-    """How far a guess is off, for people."""
+    """Return the difference from a guess as text, in degrees or mm."""
     return f"{np.degrees(abs(off)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(off):.3g} mm"
 
 
 def nearer_text(source: KernelSource) -> str:
-    """That nothing nearer was found; several guesses may contradict each other."""
+    """Return a text that no nearer assembly was found; several guesses may contradict each other."""
     guessed = {name if name in source.coordinates else name.rpartition(".")[0] for name in source.start_guess}
     return f"no assembly nearer{' to all guesses together' if len(guessed) > 1 else ''} was found"

@@ -1,4 +1,6 @@
-"""What is said of journals where a run begins: in contact whose onset is not known, deeper than laws of contact go."""
+"""Check and report the positions of journals at the start: too deep for contact laws, or in contact without an
+onset.
+"""
 
 from __future__ import annotations
 
@@ -15,17 +17,17 @@ from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import contour_of, corner_at, corner_gap, depth_at, slider_of, widest
 
-FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
-ROUNDED = 1e-9  # of the clearance, that a start in contact may be off
-DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest` of model.h)
+FAR = 10.0  # times the largest allowed value: a longer e probably has the wrong unit
+ROUNDED = 1e-9  # of the clearance: allowed error of a start in contact
+DEEPEST = 0.1  # of the radius: largest penetration of a journal (`deepest` of model.h)
 
 
 def check_places(linkage: Linkage, p: Array) -> None:
-    """AssemblyError for a journal that the file's start lays deeper into its bearing than any law of contact holds."""
+    """Raise AssemblyError for a journal that the file's start places deeper than any contact law holds."""
     for joint in linkage.source.clearances:
         if joint.name.endswith(".front_upper"):
             _check_turning(linkage, p, joint)
-    for joint, e, c in _places(linkage, p):
+    for joint, e, c in _placed_joints(linkage, p):
         if joint.at_wall:
             _check_corner(linkage, p, joint, e - c)
             continue
@@ -49,7 +51,7 @@ def check_places(linkage: Linkage, p: Array) -> None:
 
 
 def _check_turning(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
-    """AssemblyError for a slider that turns over in its guide, or begins so: a corner meets its own wall alone."""
+    """Raise AssemblyError for a slider that turns over in its guide: each corner meets its own wall only."""
     source, c = linkage.source, float(p[joint.clearance])
     guide, a, b, radius = slider_of(source, p, joint)
     reach = math.hypot(a - radius, b - radius) + radius
@@ -71,7 +73,7 @@ def _check_turning(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
 
 
 def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
-    """The same of a slider's corner, `depth` (m) in its wall."""
+    """Raise AssemblyError for a slider's corner that is too deep, `depth` (m), in its wall."""
     rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
     most = ROUNDED * c if rigid else DEEPEST * float(p[joint.constants["R_i"]])
     if depth > most:
@@ -88,8 +90,8 @@ def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float
 
 
 def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
-    """A remark on each journal that the file's start lays into its bearing's wall."""
-    for joint, e, c in _places(linkage, p):
+    """Yield a note on each journal that the file's start places inside its bearing's wall."""
+    for joint, e, c in _placed_joints(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
             wall = "its wall" if joint.at_wall else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
@@ -98,8 +100,8 @@ def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
             )
 
 
-def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
-    """Joints with play that the file's start says a place of, with |e| and c (m), the widest of a contour."""
+def _placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
+    """Yield the joints with play whose positions the file gives, with |e| and c (m), the largest of a contour."""
     source = linkage.source
     if not source.start_apart:
         return
@@ -114,9 +116,9 @@ def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, 
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:
-    """A remark on each dry contact that a run begins with while δ̇ ≤ 0: its δ̇⁻ is a matter of convention.
+    """Return a note on each dry contact that a run begins with while δ̇ ≤ 0: its δ̇⁻ is a convention.
 
-    q, v (n,) at time t (s); memory (n_memory,): contacts that go on from another run know their onset.
+    q, v (n,) at time t (s); memory (n_memory,): contacts resumed from another run know their onset.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
     told: list[str] = []
@@ -126,21 +128,21 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
             told += _parting_corner(compiled, p, t, q, v, memory, number)
             continue
         rows, e = eccentricity(compiled, p, t, q, joint)
-        depth = math.hypot(*e) - float(p[joint.clearance]) - _worn(compiled, p, q, joint, e)
+        depth = math.hypot(*e) - float(p[joint.clearance]) - _contour_depth(compiled, p, q, joint, e)
         if depth > 0.0:
             with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
                 by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
                 deltadot = float(by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
                 approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
                 if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
-                    told.append(_told(joint.name, depth, deltadot))
+                    told.append(_onset_note(joint.name, depth, deltadot))
     return tuple(told)
 
 
 def _parting_corner(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int
 ) -> Iterator[str]:
-    """The same of a slider's corner; δ̇ is linear in velocities."""
+    """Yield the same note for a slider's corner, whose δ̇ is linear in the velocities."""
     joint = compiled.source.clearances[number]
     depth, deltadot = corner_gap(compiled, p, t, q, v, number)
     if not (depth > 0.0 and deltadot <= 0.0):
@@ -149,11 +151,11 @@ def _parting_corner(
     by_v = np.array([corner_gap(compiled, p, t, q, v + step, number)[1] - deltadot for step in steps])
     approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
     if _reads_onset(compiled, p, t, q, approach, memory, number):
-        yield _told(joint.name, depth, deltadot)
+        yield _onset_note(joint.name, depth, deltadot)
 
 
-def _worn(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
-    """How much deeper than its circle the bearing is where the journal lies, m."""
+def _contour_depth(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
+    """Return the depth (m) of the bearing's contour beyond its circle, where the journal lies."""
     if (depths := contour_of(compiled.source, p, joint.name)) is None:
         return 0.0
     theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
@@ -163,13 +165,13 @@ def _worn(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: 
 def eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """The rows of a joint with play in the closed linkage, and e (2,) in ground axes, m."""
+    """Return the equations of a joint with play in the closed linkage, and e (2,) in ground axes, m."""
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 
 def _reads_onset(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int) -> bool:
-    """Whether the force in a joint depends on δ̇⁻ at all: it does not without loss, nor where a law reads δ̇ alone."""
+    """Return whether a joint's force depends on δ̇⁻, which it does not without loss, or if the law reads δ̇."""
     latched = np.array([memory, memory])
     latched[:, number] = 1e-3, np.inf
     try:
@@ -180,7 +182,8 @@ def _reads_onset(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array
     return bool((force[0] != force[1]).any())
 
 
-def _told(joint: str, depth: float, deltadot: float) -> str:
+def _onset_note(joint: str, depth: float, deltadot: float) -> str:
+    """Return the note on a contact at the start whose onset is not known."""
     moves = f"part at {-deltadot:.4g} m/s" if deltadot < 0.0 else "are at rest"
     return (
         f"{joint} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not known, and"

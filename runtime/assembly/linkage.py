@@ -1,4 +1,4 @@
-"""The linkage of a scene in numbers: what assembling asks of compiled functions, and the nearest state that fits."""
+"""Define the numerical interface of a linkage for its assembly, and project states onto the constraints."""
 
 from __future__ import annotations
 
@@ -12,39 +12,39 @@ from gudgeon.contract.kernel_source import KernelSource, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes, metric
 
-PASSES = 3  # Newton: the second one is at rounding already, from anywhere that an integrator leads to
-CLOSED = 1e-15  # m or rad: Φ that no further pass makes smaller
+PASSES = 3  # Newton's passes of a projection: the second one reaches rounding already
+CLOSED = 1e-15  # m or rad: Φ that no further pass reduces
 
 
 class Linkage(Protocol):
-    """Φ of the closed linkage: joints with play closed, all m rows; n coordinates, p as `prepare` gives it."""
+    """Provide Φ of the closed linkage (joints with play closed): m equations, n coordinates, p as from `prepare`."""
 
     source: KernelSource
     n: int
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
-        """Φ(q, t), (m,), m and rad."""
+        """Return the residuals Φ(q, t), (m,), in m and rad."""
 
     def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
-        """∂Φ/∂q, (m, n)."""
+        """Return the Jacobian ∂Φ/∂q, (m, n)."""
 
     def closed_nu(self, t: float, q: Array, p: Array) -> Array:
-        """ν = −Φ_t, (m,): Φ_q v = ν."""
+        """Return ν = −Φ_t, (m,), with Φ_q v = ν."""
 
     def mass(self, p: Array) -> Array:
-        """The diagonal of M, (n,)."""
+        """Return the diagonal of M, (n,)."""
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        """What the file's start guesses, sets, and gives as rates; behind the last two e and ė of `start_apart`."""
+        """Return the file's start: guess, set, rates; the last two end with e and ė of `start_apart`."""
 
 
 def mechanism_size(linkage: Linkage, p: Array) -> float:
-    """Return the size of the mechanism as `mechanism_sizes` has it, m."""
+    """Return the size (m) of the mechanism; see `mechanism_sizes`."""
     return float(mechanism_sizes(linkage.source, p))
 
 
 def angles(source: KernelSource) -> NDArray[np.bool_]:
-    """Which coordinates are angles, (n,)."""
+    """Return a mask (n,) of the coordinates that are angles."""
     return np.array([name.endswith(".theta") for name in source.coordinates], dtype=bool)
 
 
@@ -55,13 +55,13 @@ def scaled_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
 
 
 def arm_of(p: Array, point: PointInfo) -> Array:
-    """A point in its body's frame of the centre of mass, or in ground axes, (2,), m."""
+    """Return the coordinates (2,) in m of a point in its body's centre-of-mass frame, or in ground axes."""
     pairs = ((point.x, point.sign_x), (point.y, point.sign_y))
     return np.array([sign * float(p[k]) if k >= 0 else 0.0 for k, sign in pairs])
 
 
 def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Array:
-    """Where a point is, in ground axes, (2,), m."""
+    """Return the position (2,) in m of a point in ground axes."""
     arm = arm_of(p, point)
     if point.body < 0:
         return arm
@@ -71,10 +71,10 @@ def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Arra
 
 
 def project(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[Array, Array]:
-    """q and v (n,) moved onto the constraints by the smallest changes in the metric of M.
+    """Return q and v (n,) projected onto the constraints by the smallest changes in the norm of M.
 
-    Where links are in line the rows depend on each other; the smallest solution of what is left is taken. What
-    is not finite is handed back as it is.
+    Where links are in line, equations depend on each other; the smallest least-squares solution is used. Values that
+    are not finite are returned unchanged.
     """
     root = np.sqrt(metric(compiled.source, p, compiled.mass(p)))
     for _ in range(PASSES):
@@ -90,6 +90,6 @@ def project(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> 
 
 
 def residuals(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> tuple[float, float]:
-    """max |Φ| and max |Φ̇|, 0 without constraints."""
+    """Return max |Φ| and max |Φ̇|; 0 without constraints."""
     phi_dot = compiled.phi_q(t, q, p) @ v - compiled.nu(t, q, p)
     return float(np.abs(compiled.phi(t, q, p)).max(initial=0.0)), float(np.abs(phi_dot).max(initial=0.0))

@@ -1,7 +1,8 @@
-"""What of a closed linkage can move: degrees of freedom by counting and by rank, and along which coordinates.
+"""Compute the mobility of a closed linkage: degrees of freedom by count and by rank, and coordinates that describe
+them.
 
-Grübler's count is 3 bodies − rows; the rank of Φ_q tells the truth where rows say the same twice. It is taken at the
-assembled start and near it, where the largest counts: links that stand in one line for a moment are no freedom.
+Grübler's count is 3 bodies − equations; the rank of Φ_q is right also with redundant equations. It is evaluated at the
+assembled start and near it, and the largest counts: links that are in line for a moment are not a degree of freedom.
 """
 
 from __future__ import annotations
@@ -16,16 +17,16 @@ from gudgeon.assembly.rank import RANK, SAMPLES, configurations
 from gudgeon.errors import BadValueError, Location
 from gudgeon.model.compiled import Array
 
-INDEPENDENT = 1e-6  # of a coordinate's largest motion: what is left of it when others are held
+INDEPENDENT = 1e-6  # of a coordinate's largest motion: smallest motion that remains if others are held
 
 
 @dataclass(frozen=True)
 class Mobility:
-    """Of the closed linkage, its drives among the rows.
+    """Hold the mobility of the closed linkage, whose constraint equations include its drives.
 
-    `freedoms` by rank, `gruebler` by counting (n − rows); `along` are coordinates that describe the freedoms, as many,
-    `loose` bodies that no row ties to the ground, `redundant` the number of rows that say nothing new, `aligned` how
-    many more do so at the start alone: links lie in one line there.
+    `freedoms` by rank, `gruebler` by count (n − equations); `along`: coordinates that describe the degrees of freedom;
+    `loose`: bodies not connected to the ground; `redundant`: number of redundant equations; `aligned`: how many more
+    equations are dependent at the start only, where links are in line.
     """
 
     coordinates: int
@@ -37,40 +38,42 @@ class Mobility:
 
     @property
     def gruebler(self) -> int:
-        """Coordinates less rows."""
+        """Return the number of coordinates less that of constraint equations."""
         return self.coordinates - self.rows
 
     @property
     def redundant(self) -> int:
-        """Rows that say nothing new."""
+        """Return the number of redundant constraint equations."""
         return self.freedoms - self.gruebler
 
 
 def find_mobility(linkage: Linkage, p: Array, q: Array, rows: Sequence[int] | None = None, t: float = 0.0) -> Mobility:
-    """Of a linkage that is assembled at q (n,); of some of its rows where those of joints with play are left out."""
+    """Return the mobility of a linkage assembled at q (n,), optionally of some of its equations only."""
     kept = list(range(len(linkage.source.start_rows))) if rows is None else list(rows)
     with np.errstate(all="ignore"):
         near = configurations(linkage, p, q, kept, SAMPLES, t)
         matrices = [scaled_rows(linkage, p, linkage.closed_phi_q(t, x, p)[kept]) for x in near]
-    spaces = [_free_motions(matrix) for matrix in matrices if np.isfinite(matrix).all()]
+    spaces = [_null_space(matrix) for matrix in matrices if np.isfinite(matrix).all()]
     least = min(reversed(range(len(spaces))), key=lambda k: spaces[k].shape[1])  # not the start, where links may align
     names, free = linkage.source.coordinates, spaces[least]
-    along = tuple(names[k] for k in _describing(free, _order(names)))
+    along = tuple(names[k] for k in _describing_coordinates(free, _preferred_order(names)))
     aligned = spaces[0].shape[1] - free.shape[1]
-    return Mobility(len(names), len(kept), free.shape[1], along, _loose(linkage, matrices[least]), aligned)
+    return Mobility(len(names), len(kept), free.shape[1], along, _loose_bodies(linkage, matrices[least]), aligned)
 
 
 def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
-    """An orthonormal basis of the velocities that all rows of the closed linkage let pass at q, (n, freedoms); angles
-    count as arcs at the mechanism's size."""
+    """Return an orthonormal basis (n, freedoms) of the velocities that all equations allow at q.
+
+    Angles count as arcs at the mechanism's size.
+    """
     scale = np.where(angles(linkage.source), 1.0 / mechanism_size(linkage, p), 1.0)
     with np.errstate(all="ignore"):
         matrix = scaled_rows(linkage, p, linkage.closed_phi_q(t, q, p))
-    return _free_motions(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
+    return _null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
 def check_freedoms(wanted: float, where: Location, found: Mobility) -> None:
-    """BadValueError where a file says that its closed linkage has another number of degrees of freedom."""
+    """Raise BadValueError if the file states another number of degrees of freedom of its closed linkage."""
     if found.freedoms != wanted:
         along = f": {', '.join(found.along)}" if found.along else ""
         told = f"freedoms is {wanted:g}, but with all joints closed there are {found.freedoms}{along}"
@@ -78,8 +81,8 @@ def check_freedoms(wanted: float, where: Location, found: Mobility) -> None:
         raise BadValueError(told, where, f"expected {found.freedoms}, if that is meant; {hint}")
 
 
-def _free_motions(matrix: Array) -> Array:
-    """An orthonormal basis of what the rows let move, (n, freedoms)."""
+def _null_space(matrix: Array) -> Array:
+    """Return an orthonormal basis (n, freedoms) of the null space of a matrix."""
     if not len(matrix):
         return np.eye(matrix.shape[1])
     _, values, right = np.linalg.svd(matrix)
@@ -87,13 +90,13 @@ def _free_motions(matrix: Array) -> Array:
     return np.asarray(right[rank:].T, dtype=np.float64)
 
 
-def _order(names: tuple[str, ...]) -> list[int]:
-    """Body by body as in the file, its angle before its place: a crank that turns is told by its angle."""
+def _preferred_order(names: tuple[str, ...]) -> list[int]:
+    """Return the order in which coordinates are tried: by body as in the file, the angle before x and y."""
     return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
 
 
-def _describing(free: Array, order: list[int]) -> list[int]:
-    """Coordinates, the first that do in this order, that tell all free motions apart."""
+def _describing_coordinates(free: Array, order: list[int]) -> list[int]:
+    """Return the first coordinates in this order that distinguish all free motions."""
     basis, chosen = np.zeros((0, free.shape[1])), list[int]()
     for share in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
         for k in order:
@@ -104,8 +107,8 @@ def _describing(free: Array, order: list[int]) -> list[int]:
     return chosen
 
 
-def _loose(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
-    """Bodies that no joint and no drive ties to the ground, not even over other bodies."""
+def _loose_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
+    """Return the bodies that no joint or drive connects to the ground, not even through other bodies."""
     bodies = linkage.source.bodies
     touched = [{k for k, body in enumerate(bodies) if np.any(row[body.index : body.index + 3])} for row in matrix]
     # a row of one body ties it to the ground, and with it those that rows join to it

@@ -1,11 +1,11 @@
-"""Rank of a Jacobian, which of its rows depend on the others, and singular positions.
+"""Compute the rank of Jacobians, dependent constraint equations, and branches at singular positions.
 
-- `rank`, `tied`: the rank of a matrix, and the share of each row in a combination that vanishes.
-- `left_out`: rows that generator/redundancy.py found redundant with the file's numbers. Other lengths, or drives that
-  part later, may make them count again; that is checked here.
-- `branch_rates`: velocities with which a linkage may pass a singular position. Rows that depend on each other leave
-  the velocities open by α n, with n in the null space of Φ_q. Accelerations exist only where λᵀ γ(v) = 0 for the left
-  null vector λ of Φ_q. That is a quadratic equation for α: two real roots are two branches; with none the motion ends.
+- `rank`, `tied`: the rank of a matrix, and the share of each row in a vanishing combination.
+- `left_out`: equations that generator/redundancy.py found redundant with the file's values. Other lengths or
+  drives may make them independent again; that is checked here.
+- `branch_rates`: velocities with which a linkage may pass a singular position. Dependent equations leave the velocities
+  open by α n, with n in the null space of Φ_q. Accelerations exist only where λᵀ γ(v) = 0 for the left null vector λ
+  of Φ_q. This quadratic equation has two real roots for two branches; without any, the motion ends.
 """
 
 from __future__ import annotations
@@ -24,50 +24,52 @@ from gudgeon.model.compiled import Array, CompiledModel
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Problem, Trajectory
 
-SAMPLES = 3
-REACH = 0.05  # rad, or share of the size: how far from the start the other configurations are
-RANK = 1e-9  # singular values below this share of the largest count as zero
-DAMPED = 1e-7  # the least limit that a damped factorization can tell
-DEAD = 1e-6  # singular values below this share count as zero: a double root is found to 1e-8 only
+SAMPLES = 3  # configurations near the start at which ranks are evaluated
+REACH = 0.05  # rad, or relative to the size: distance of these configurations from the start
+RANK = 1e-9  # singular values below this fraction of the largest count as zero
+DAMPED = 1e-7  # smallest limit that a damped factorization can distinguish
+DEAD = 1e-6  # singular values below this fraction count as zero: a double root is found to 1e-8 only
 NEAR = 1e-4  # the same where a motion ended on its way to a dead centre
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}
-MOST = 2_000  # samples of an interrupted run at which that is looked at: Ctrl-C is to be answered
-OPEN = 1e-3  # rad, or share of the mechanism's size: a row left out that opens further contradicts the others
-SINGULAR = 1e-4  # share of the largest singular value below which one counts as zero
-CONSISTENT = 1e-3  # share of the rows' rates that contradict each other where the linkage can go no further
-SAME = 1e-6  # share of a rate that two branches have to differ by
+MOST = 2_000  # largest number of samples of an interrupted run that are checked, so that Ctrl-C is answered soon
+OPEN = 1e-3  # rad, or relative to the size: a redundant equation violated by more contradicts the others
+SINGULAR = 1e-4  # fraction of the largest singular value below which one counts as zero
+CONSISTENT = 1e-3  # relative contradiction of the rates at which the linkage cannot move further
+SAME = 1e-6  # smallest relative difference of the rates of two branches
 
 
 def rank(matrix: Array, least: float = RANK) -> int:
-    """How many rows are independent."""
+    """Return the number of independent rows of a matrix."""
     if matrix.shape[1] >= LARGE:
         return len(matrix) if is_independent(matrix, least) else rank_by_rows(matrix, least)
     return _rank(matrix, least)
 
 
 def tied(matrix: Array, least: float = RANK) -> Array:
-    """Of each row its largest share in a combination of rows that vanishes; 0 for rows that depend on nothing."""
+    """Return for each row its largest share in a vanishing combination of rows; 0 for independent rows."""
     if matrix.shape[1] >= LARGE:
         return tied_shares(matrix, max(least, DAMPED))
     return _tied(matrix, least)
 
 
 def _rank(matrix: Array, least: float) -> int:
+    """Return the rank of a small matrix by its singular values."""
     values = np.linalg.svd(matrix, compute_uv=False)
     return int((values > least * values[0]).sum())
 
 
 def _tied(matrix: Array, least: float) -> Array:
+    """Return the shares of the rows of a small matrix in vanishing combinations."""
     left, values, _ = np.linalg.svd(matrix)
     vanishing = left[:, int((values > least * values[0]).sum()) :]
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
 
 
 def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
-    """Names of rows of Φ and of start.rates that tie each other at q; empty at an ordinary configuration.
+    """Return the equations of Φ and start.rates that depend on each other at q; () at a regular position.
 
-    Rows that are redundant everywhere do not count. They were left out when the scene was derived, or tie each other
-    near q, too, as rows of joints with play do that are closed at the start alone.
+    Equations that are redundant everywhere do not count: they were left out when the scene was derived, or depend on
+    each other near q, too.
     """
     source = compiled.source
     redundant = set(left_out(compiled))
@@ -89,7 +91,7 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
 
 
 def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
-    """Names of the motion's rows (joints with play left out) that all but tie each other at q."""
+    """Return the equations of the motion (without joints with play) that nearly depend on each other at q."""
     rows = compiled.source.rows
     if not rows or not np.isfinite(q).all():
         return ()
@@ -97,7 +99,7 @@ def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array)
 
 
 def _tied_rows(compiled: CompiledModel, p: Array, matrix: Array, names: list[str], least: float) -> tuple[str, ...]:
-    """Names of the rows that depend on each other, by their geometry alone."""
+    """Return the names of the rows that depend on each other, by their geometry alone."""
     shares = tied(scaled_rows(compiled, p, matrix), least)
     return tuple(name for name, share in zip(names, shares, strict=True) if share > 1e-6)
 
@@ -105,8 +107,8 @@ def _tied_rows(compiled: CompiledModel, p: Array, matrix: Array, names: list[str
 def configurations(
     linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
 ) -> list[Array]:
-    """The start, and `count` configurations near it: a random step along the motion, closed again by Newton's."""
-    if not count:  # NumPy imports its random numbers when they are asked for
+    """Return the start and `count` configurations near it: random steps along the motion, closed by Newton."""
+    if not count:  # NumPy's random numbers are imported on request
         return [q]
     rng, found, kept, size = np.random.default_rng(0), [q], list(rows), mechanism_size(linkage, p)
     scale = np.where(angles(linkage.source), 1.0, size)
@@ -125,14 +127,16 @@ def configurations(
 
 
 def left_out(compiled: CompiledModel) -> list[int]:
-    """Rows of the closed linkage that are neither kept nor those of a joint with play."""
+    """Return the indices of equations of the closed linkage that are redundant: not kept, and not of joints with
+    play.
+    """
     source = compiled.source
     kept, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}
     return [k for k, row in enumerate(source.start_rows) if row.name not in kept and row.owner not in with_play]
 
 
 def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
-    """AssemblyError where a row that was left out would take a degree of freedom at the start."""
+    """Raise AssemblyError if a redundant equation would remove a degree of freedom at the start."""
     extra = left_out(compiled)
     if not extra:
         return
@@ -140,16 +144,16 @@ def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     kept = scaled_rows(compiled, p, compiled.phi_q(t, q, p))
     if rank(kept) == len(kept) and rank(np.concatenate([kept, rows[extra]])) > len(kept):
         raise AssemblyError(
-            f"{_named(compiled, extra)} said nothing new with the file's numbers and"
+            f"{_equations_text(compiled, extra)} said nothing new with the file's numbers and"
             " would hold the linkage with these\n"
             "  give the numbers in the file or as overrides of load(), so that the constraints are counted anew"
         )
 
 
 def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
-    """The error for the first sample at which a row that was left out is open.
+    """Return the error for the first sample at which a redundant equation is violated, or None.
 
-    Of a run that was interrupted, for the first of MOST samples, the last one among them. KeyboardInterrupt.
+    For an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.
     """
     compiled, p = problem.compiled, problem.p
     extra = left_out(compiled)
@@ -164,7 +168,7 @@ def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | Non
         t = float(trajectory.t[k])
         far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > OPEN * scale
         if far.any():
-            names = _named(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
+            names = _equations_text(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
             return SolverError(
                 f"the constraints contradict each other by t = {t:.9g} s: {names} depended on the others and is open"
                 " now\n  check the values of the drives and the lengths of links that run side by side",
@@ -173,14 +177,15 @@ def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | Non
     return None
 
 
-def _named(compiled: CompiledModel, rows: list[int]) -> str:
+def _equations_text(compiled: CompiledModel, rows: list[int]) -> str:
+    """Return a text with the names of equations and their joints."""
     found = [compiled.source.start_rows[k] for k in rows]
     owners = dict.fromkeys([*(row.owner for row in found), *compiled.source.indeterminate])
     return f"row {', '.join(row.name for row in found)} (with {', '.join(owners)})"
 
 
 def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[Array]:
-    """The velocities q̇ (n,) of each branch at the singular position q (n,); none where they cannot be told."""
+    """Return the velocities q̇ (n,) of each branch at the singular position q (n,); [] if they are unknown."""
     redundant = set(left_out(compiled))
     rows = [k for k in range(len(compiled.source.start_rows)) if k not in redundant]
     matrix = compiled.closed_phi_q(t, q, p)[rows]
@@ -203,7 +208,7 @@ def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[
 
 
 def branches_told(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
-    """The branches at q in words, by the angular velocity or velocity that differs most; "": none are known."""
+    """Return the branches at q as text, by the velocity that differs most; "" if none are known."""
     rates = branch_rates(compiled, p, t, q)
     if not rates:
         return ""

@@ -1,10 +1,9 @@
-"""The exact start on the branch nearest the guess: positions by Newton, then velocities.
+"""Assemble the start on the branch nearest to the guess: positions by Newton's method, then velocities.
 
-A scene with play starts from its closed linkage (e = 0, ideal velocities), but where the file's `start.play` says e
-and ė of a journal: rows of its joint are held apart by so much. Angles weigh most: a step moves guessed angles least,
-then the other angles, and positions follow. The ordinary case is one call of C (engine/scene/start.c). If C cannot
-close the linkage, or not near the guess, `search` looks for the nearest closed configuration. What `search` alone
-needs is imported when it is called, so that a warm start does not pay for it.
+A scene with play starts from its closed linkage (e = 0), unless the file's `start.play` gives e and ė of a journal.
+Guessed angles have the largest weights, then other angles, then positions. Usually one call of C suffices
+(engine/scene/start.c). If C cannot close the linkage near the guess, `search` finds the nearest closed configuration.
+Its modules are imported only then, for a quick start.
 """
 
 from __future__ import annotations
@@ -24,12 +23,12 @@ from gudgeon.model.sizes import metric
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure
 
-MIN_RESOLVED = float(np.finfo(float).tiny / np.finfo(float).eps)  # smaller numbers may have fewer digits than others
+MIN_RESOLVED = float(np.finfo(float).tiny / np.finfo(float).eps)  # smaller numbers may have fewer digits
 
 
 @dataclass(frozen=True)
 class Start:
-    """q, q̇ (n,) at time t, with the residual max |Φ| that is left."""
+    """Hold q, q̇ (n,) at time t, with the remaining residual max |Φ|."""
 
     q: Array
     v: Array
@@ -37,7 +36,7 @@ class Start:
 
 
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
-    """The start of a scene. Raises AssemblyError with rows, joints and residual."""
+    """Return the start of a scene. Raise AssemblyError with equations, joints and residual."""
     check_places(compiled, p)
     closed = compiled.close(t, p, mechanism_size(compiled, p)) if compiled.n < LARGE else None
     if closed is not None and np.isfinite(closed[1]).all():
@@ -46,11 +45,11 @@ def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
 
 
 def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
-    """The start by all means there are. Raises AssemblyError with rows, joints and residual."""
+    """Return the start by a search in Python. Raise AssemblyError with equations, joints and residual."""
     from gudgeon.assembly.closure import Closure
 
     closure = Closure(linkage, p, t)
-    with np.errstate(all="ignore"):  # Newton may come where a direction is not defined; it looks for that itself
+    with np.errstate(all="ignore"):  # Newton handles undefined directions itself
         q, closed = closure.nearest()
     if not closed:
         from gudgeon.assembly.failures import not_closed
@@ -59,21 +58,21 @@ def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     return Start(q, velocities(closure, q), float(np.abs(closure.residual(q)).max(initial=0.0)))
 
 
-def _ahead(closure: Closure) -> float:
-    """s, when the drives' rates are looked at: a rate that jumps at the start is what follows (numbers.h)."""
+def _time_of_rates(closure: Closure) -> float:
+    """Return the time (s) at which the drives' rates are evaluated: after a jump of the rate at the start."""
     more = max(32 * np.finfo(float).eps * abs(closure.t), 1e-100)
     return closure.t + more if closure.linkage.source.rate_jumps else closure.t
 
 
 def velocities(closure: Closure, q: Array) -> Array:
-    """q̇ with Φ_q q̇ = ν and the start's rates; what nothing determines is least in the metric of M."""
+    """Return q̇ with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M."""
     names = {"x": "vx", "y": "vy", "theta": "omega"}
     wanted = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.place)]
     index = [wanted.index(name) for name in closure.linkage.source.start_rates]
     extra = np.zeros((len(index), len(q)))
     extra[np.arange(len(index)), index] = 1.0
     matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), extra])
-    nu = closure.linkage.closed_nu(_ahead(closure), q, closure.p)
+    nu = closure.linkage.closed_nu(_time_of_rates(closure), q, closure.p)
     nu[closure.apart_index] -= closure.parting
     target = np.concatenate([nu, closure.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):

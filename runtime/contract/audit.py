@@ -1,4 +1,4 @@
-"""The checks of a run's audit and what each compares; the order of those in C is that of engine/boundary.h."""
+"""List the checks of a run's audit and what each compares, in the order of engine/boundary.h."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 from gudgeon.contract.boundary import AUDIT_CHECK_NAMES, AUDIT_FULL, AUDIT_OFF, AUDIT_ON
 
-LEVELS = {False: AUDIT_OFF, True: AUDIT_ON, "full": AUDIT_FULL}  # of the argument `audit`
+LEVELS = {False: AUDIT_OFF, True: AUDIT_ON, "full": AUDIT_FULL}  # levels in C by the argument `audit`
 
 
 @dataclass(frozen=True)
 class Check:
-    """A check by its name; `compares` completes "the check of …"; `place` is what its number counts, "": nothing."""
+    """Describe a check. `compares` completes "the check of …"; `place` is what its index counts, "" for nothing."""
 
     name: str
     compares: str
@@ -50,9 +50,9 @@ SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/au
 
 @dataclass(frozen=True)
 class Finding:
-    """The largest value of a check in a run."""
+    """Hold the largest value of a check in a run."""
 
     check: str
-    worst: float  # as a multiple of its limit
+    worst: float  # relative to its limit
     t: float  # s
     place: str  # name of the joint, constraint row, coordinate or event; "": the whole linkage

@@ -1,4 +1,4 @@
-"""A joint with play, and a bearing that is not a circle, as the runtime knows them."""
+"""Describe joints with play, and bearings with a contour, for the runtime."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class ClearanceInfo:
-    """A joint with play: journal on the second body, bearing on the first.
+    """Describe a joint with play: journal on the second body, bearing on the first.
 
-    Of a guide each corner of its slider is one: "guide.front_upper".
+    Each corner of a slider in its guide is one: "guide.front_upper".
     """
 
     name: str
@@ -24,23 +24,23 @@ class ClearanceInfo:
 
     @property
     def joint(self) -> str:
-        """The file's joint."""
+        """Return the name of the file's joint."""
         return self.name.partition(".")[0]
 
     @property
     def film_clearance(self) -> int:
-        """Index into p of the clearance that its film has: c, and what a film adds to it."""
+        """Return the index into p of the film's clearance: c plus the film's extra clearance."""
         return self.constants.get("film_clearance", self.clearance)
 
     @property
     def at_wall(self) -> bool:
-        """Whether it is a slider's corner at a wall of its guide."""
+        """Return whether it is a slider's corner at a wall of its guide."""
         return "." in self.name
 
 
 @dataclass(frozen=True)
 class ContourInfo:
-    """The depths of a joint's bearing beyond its circle: `count` slots from the slot `first` on."""
+    """Describe the depths of a bearing beyond its circle: `count` parameters from index `first` on."""
 
     joint: str
     first: int

@@ -1,6 +1,7 @@
-"""What the generator hands to the runtime: C text and the names of everything in it.
+"""Define what the generator passes to the runtime: C texts of a scene, and the names of all its quantities.
 
-Nothing else crosses. Stored as JSON: a warm start needs neither SymPy nor Jinja. Numbers are SI, indices from 0.
+Nothing else is passed. It is stored as JSON, so that a warm start needs neither SymPy nor Jinja. Values are SI, indices
+start at 0.
 """
 
 from __future__ import annotations
@@ -19,29 +20,30 @@ from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
 from gudgeon.contract.stored import as_text, complete, shorten, tuples
 
 HEADER = "model.h"
+# line of model.h: the engine depends only on the text before it
 ENGINE_ENDS = "/* The engine reads no further: scenes that have all this in common share its code. */"
-MAIN = "scene.c"  # what is compiled of a scene's files, beside the engine
-ENGINE_PART = 0  # what is compiled side by side: the engine, and MAIN in parts
-GIVEN = 1.001  # times a parameter's default
+MAIN = "scene.c"  # file that is compiled next to the engine
+ENGINE_PART = 0  # part number of the engine, which is compiled in parallel with the parts of MAIN
+GIVEN = 1.001  # factor of a parameter's default, and the value in place of zero, for the reference comparison
 GIVEN_ZERO = 0.001  # where that is zero
 
 
 @dataclass(frozen=True)
 class Slot:
-    """A run-time number: `given[i]` of the C function `prepare`."""
+    """Describe a run-time parameter: `given[i]` of the C function `prepare`."""
 
     address: str  # "bodies.L2.mass", "parameters.omega"
     unit: str  # SI, "kg*m^2"; "" for a pure number
-    default: float  # its value when nothing is overridden
-    follows: bool  # an expression of other parameters: it follows them unless overridden itself
+    default: float  # value if it is not overridden
+    follows: bool  # whether it is an expression of other parameters, unless overridden itself
     dimension: tuple[float, float, float]  # exponents of m, kg, s: whole, or halves
-    words: tuple[str, ...] = ()  # of a choice: what its number, 0, 1, …, stands for
-    tree: str = ""  # as it is written, JSON, where that may be undefined for some parameters
+    words: tuple[str, ...] = ()  # of a choice: the words for the values 0, 1, …
+    tree: str = ""  # its expression as JSON, if it may be undefined for some parameters
 
 
 @dataclass(frozen=True)
 class Condition:
-    """What a slot must satisfy; `bound` is a number, another slot's address, or several: "a + b" is their sum."""
+    """Describe a condition on a parameter. `bound` is a number, another address, or a sum "a + b" of several."""
 
     address: str
     relation: str
@@ -50,13 +52,13 @@ class Condition:
 
     @property
     def addresses(self) -> tuple[str, ...]:
-        """The slots whose sum is the bound; none of a number."""
+        """Return the addresses whose sum is the bound; () for a number."""
         return tuple(self.bound.split(" + ")) if isinstance(self.bound, str) else ()
 
 
 @dataclass(frozen=True)
 class BodyInfo:
-    """`index` of x in q; y and theta follow it."""
+    """Describe a body: `index` of x in q; y and theta follow it."""
 
     name: str
     index: int
@@ -64,7 +66,7 @@ class BodyInfo:
 
 @dataclass(frozen=True)
 class PointInfo:
-    """A point in its body's centre-of-mass frame: (sign_x p[x], sign_y p[y]); an index −1 is a zero."""
+    """Describe a point in its body's centre-of-mass frame: (sign_x p[x], sign_y p[y]); index −1 means zero."""
 
     name: str  # "L1.head"
     body: int  # index into bodies; −1: ground
@@ -76,17 +78,17 @@ class PointInfo:
 
 @dataclass(frozen=True)
 class RowInfo:
-    """A row of Φ (and its multiplier): "A.x" belongs to joint A."""
+    """Describe a constraint equation of Φ (and its multiplier): "A.x" belongs to joint A."""
 
     name: str
     owner: str  # joint or drive
     kind: str  # "joint" or "drive"
-    unit: str  # of the row: "m" or "rad"
+    unit: str  # of the residual: "m" or "rad"
 
 
 @dataclass(frozen=True)
 class JointInfo:
-    """A joint that is kept as a constraint; the reaction on the second body is given at `point`."""
+    """Describe a joint without play; the reaction on the second body is given at `point`."""
 
     name: str
     kind: str
@@ -98,7 +100,7 @@ class JointInfo:
 
 @dataclass(frozen=True)
 class DriveInfo:
-    """Its row (−1: redundant, left out); the row's unit tells a torque ("rad") from a force ("m")."""
+    """Describe a drive: its constraint equation (−1: redundant); unit "rad" means torque, "m" force."""
 
     name: str
     row: int
@@ -107,7 +109,7 @@ class DriveInfo:
 
 @dataclass(frozen=True)
 class SeriesInfo:
-    """A result of a force element, such as "coil.F"."""
+    """Describe a result of a force element, such as "coil.F"."""
 
     name: str
     unit: str
@@ -115,7 +117,7 @@ class SeriesInfo:
 
 @dataclass(frozen=True)
 class WrittenInfo:
-    """An expression of t or motion, or of a scene's `simulate`, as JSON; or a 0 that is written or left out."""
+    """Describe an expression of t or motion, or of a scene's `simulate`, as JSON; or a literal or missing 0."""
 
     address: str  # "drives.crank.value"
     tree: str
@@ -125,7 +127,7 @@ class WrittenInfo:
 
 @dataclass(frozen=True)
 class EventInfo:
-    """An event of the user: action "record" or "stop", direction "rising", "falling" or "both"."""
+    """Describe a user event: action "record" or "stop", direction "rising", "falling" or "both"."""
 
     name: str
     action: str
@@ -134,10 +136,10 @@ class EventInfo:
 
 @dataclass(frozen=True)
 class PartInfo:
-    """A joint, drive or force element as the file has it, for who draws it; its numbers are slots by their addresses.
+    """Describe a joint, drive or force element of the file for drawing; its values are parameters by address.
 
-    `ends` are points, "L1.head", in the file's order. Of what joins bodies or moves one they are centres of mass,
-    "L1.com", and "ground." is the ground.
+    `ends` are points, "L1.head", in the file's order. For elements between bodies they are centres of mass, "L1.com";
+    "ground." is the ground.
     """
 
     section: str  # "joints", "drives" or "forces"
@@ -149,7 +151,7 @@ class PartInfo:
 
 @dataclass(frozen=True)
 class KernelSource:
-    """A compiled-to-be scene. `files` are C texts by name; `main` is the one to compile."""
+    """Describe a scene to be compiled. `files` are C texts by name; `main` is the one to compile."""
 
     mechanism: str
     scene: str
@@ -165,113 +167,116 @@ class KernelSource:
     drives: tuple[DriveInfo, ...]
     clearances: tuple[ClearanceInfo, ...]
     series: tuple[SeriesInfo, ...]
-    start_rows: tuple[RowInfo, ...]  # of the start's Φ: joints with play are closed there
+    start_rows: tuple[RowInfo, ...]  # of the start's Φ, in which joints with play are closed
     start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
     start_set: tuple[str, ...]
     start_rates: tuple[str, ...]  # "L1.omega"
     frictions: tuple[str, ...]  # force elements that may stick
-    pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
+    pivots: tuple[str, ...]  # constraint equations in their order of elimination: a status k > 0 names pivots[k − 1]
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
-    rate_jumps: tuple[str, ...]  # drives whose rate may jump: the linkage follows by an impulse
-    indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open
+    rate_jumps: tuple[str, ...]  # drives whose rate may jump, which causes impulses
+    indeterminate: tuple[str, ...]  # joints and drives whose multipliers are undetermined because of redundancy
     slots: tuple[Slot, ...]
-    derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p
+    derived: tuple[str, ...]  # names of the derived values that follow the parameters in p
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
     simulate: Mapping[str, float]  # the scene's own t_end, step, output, if given
-    operations: Mapping[str, int]  # kernel -> operation count
+    operations: Mapping[str, int]  # function → operation count
     notes: tuple[str, ...]  # what was skipped and why (check -v)
     gravity: bool
     formulation: str = "full"  # what is integrated: "reduced" or "full"
     motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
-    closures: tuple[str, ...] = ()  # its rows
-    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: they are evaluated, not integrated
-    chain_rows: tuple[str, ...] = ()  # the rows of these loops
+    closures: tuple[str, ...] = ()  # constraint equations of the reduced formulation
+    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: evaluated, not integrated
+    chain_rows: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
-    story: Story = Story()  # how the equations became what is integrated (check -v)
+    story: Story = Story()  # record of the reduction (check -v)
     written: tuple[WrittenInfo, ...] = ()
-    expressions: tuple[WrittenInfo, ...] = ()  # that the file has by name, and uses by it here too
-    lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
-    states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
-    units: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
-    taylor: str = ""  # the file with the series of the motion, of a library with Taylor's method; "": it has none
-    stages: bool = False  # whether it has the matrices of methods whose stages are found together
-    lanes: str = ""  # the file to compile for runs side by side; "": there is none
+    expressions: tuple[WrittenInfo, ...] = ()  # named expressions of the file that are used by name here
+    lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
+    states: tuple[str, ...] = ()  # inner states of laws, "A.z", equally many per joint with play; "": none
+    # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
+    units: tuple[int, ...] = ()
+    taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
+    stages: bool = False  # whether the library has the matrices of methods with coupled stages
+    lanes: str = ""  # file to compile for lanes; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
-    simulate_written: tuple[WrittenInfo, ...] = ()  # of `simulate`, what follows parameters: its value is the default
-    tables: tuple[tuple[str, str], ...] = ()  # files beside the YAML that curves were read from, and their sha256
-    laws: tuple[tuple[str, str], ...] = ()  # of the user's own, and what they said (kinds/laws/registered.py)
+    # expressions of `simulate` that depend on parameters; their values are the defaults
+    simulate_written: tuple[WrittenInfo, ...] = ()
+    tables: tuple[tuple[str, str], ...] = ()  # table files of curves in the mechanism's folder, and their SHA-256
+    laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
 
     @property
     def beside(self) -> tuple[tuple[str, str], ...]:
-        """What the file's text does not hold itself, tables and laws of the user's own, and their SHA-256."""
+        """Return tables and user-defined laws, which the file's text does not contain, with their SHA-256."""
         return (*self.tables, *self.laws)
 
     @property
     def whole_sha256(self) -> str:
-        """SHA-256 of all that the file says: its own, and with tables or laws of the user's one over theirs too."""
+        """Return the SHA-256 of the file, including its tables and user-defined laws if there are any."""
         parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.beside)]
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     reference: Mapping[str, Any] = field(default_factory=dict)  # values by the NumPy target (model/reference.py)
-    peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
-    rigid: tuple[str, ...] = ()  # joints with play whose surfaces do not give: Newton's restitution
-    start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
-    parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
-    contours: tuple[ContourInfo, ...] = ()  # of joints with play whose bearings are no circles
-    massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
+    peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene requests
+    rigid: tuple[str, ...] = ()  # joints with play and rigid surfaces: Newton's restitution
+    start_apart: tuple[str, ...] = ()  # equations of joints with play that the start holds open, by e and its rate
+    parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements, for drawing
+    contours: tuple[ContourInfo, ...] = ()  # joints with play whose bearings have contours
+    massless: tuple[str, ...] = ()  # bodies without mass or inertia: quantities that need masses are unknown
 
     @cached_property
     def place(self) -> dict[str, int]:
-        """Where each slot stands, by its address; not to be written."""
+        """Return the index of each parameter by address. Do not write to it."""
         return {slot.address: k for k, slot in enumerate(self.slots)}
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Coordinates less constraint rows."""
+        """Return the number of coordinates less that of constraint equations."""
         return len(self.coordinates) - len(self.rows)
 
     @cached_property
     def guides(self) -> tuple[str, ...]:
-        """Translational joints with play, whose sliders touch at corners."""
+        """Return the translational joints with play, whose sliders touch at corners."""
         return tuple(dict.fromkeys(joint.joint for joint in self.clearances if joint.at_wall))
 
     @property
     def n_memory(self) -> int:
-        """What a sample remembers: an impact velocity a joint with play, a mode a friction, then inner states."""
+        """Return the number of discrete states: δ̇⁻ per joint with play, mode per friction, then inner states."""
         return len(self.clearances) + len(self.frictions) + len(self.states)
 
     @property
     def explicit(self) -> bool:
-        """Whether only the explicit methods in C run it: what a law does has no slopes."""
+        """Return whether only explicit methods fit: a contact law has no derivatives."""
         return bool(self.rigid)
 
     @property
     def no_slopes(self) -> str:
-        """Why there is no Jacobian; "" where there is one."""
+        """Return why there is no Jacobian; "" if there is one."""
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
         return f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
+        """Return the methods that fit this scene: integrators, or the kinematic method."""
         fitting = tuple(x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.explicit and x in NEED_SLOPES))
         return fitting if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
     def to_json(self) -> str:
-        """Readable JSON; the same source gives the same bytes."""
+        """Return readable JSON; the same source gives the same bytes."""
         return self._json
 
     @cached_property
     def _json(self) -> str:
+        """Return the JSON text, computed once."""
         return as_text(shorten(asdict(self), _defaults()))
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
-        """The source that `to_json` wrote."""
+        """Return the source that `to_json` wrote."""
         data = complete(json.loads(text), _defaults())
         kinds = {
             "bodies": BodyInfo,
@@ -299,7 +304,7 @@ class KernelSource:
 
 
 def _defaults() -> dict[str, Any]:
-    """What is not said where it is as usual: nothing, mostly."""
+    """Return the values that are left out of the JSON text, by name."""
     usual = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in usual.items()}
     lists = (
@@ -327,9 +332,9 @@ def _defaults() -> dict[str, Any]:
 
 
 def given_parameters(slots: Sequence[Slot], first: int) -> dict[int, float]:
-    """Return a value for every second slot from `first` on, by its number. Choices of a name keep their defaults.
+    """Return a value for every second parameter from `first` on, by index; choices keep their defaults.
 
-    With these a library is compared with values of the NumPy target (model/reference.py).
+    With these, a library is compared with values of the NumPy target (model/reference.py).
     """
     own = [(k, slot) for k, slot in enumerate(slots) if k % 2 == first and not slot.words]
     return {k: GIVEN * slot.default or GIVEN_ZERO for k, slot in own if math.isfinite(slot.default)}

@@ -1,8 +1,8 @@
-"""How a scene's equations became what is integrated, in figures: the generator writes it, `gudgeon check -v` tells it.
+"""Record how a scene's equations were reduced to those that are integrated; `gudgeon check -v` reports it.
 
-A ledger: it begins with all coordinates and all rows of the closed linkage; each step takes some and may bring
-others; what is left behind the last one is integrated. A step of elimination takes as many coordinates as rows, so
-that the freedom stays; only play (freedom comes) and redundant rows (they never took any) change the difference.
+The record begins with all coordinates and constraint equations of the closed linkage. Each step removes some and may
+add others; what remains is integrated. A step of elimination removes as many coordinates as equations, so that the
+degrees of freedom stay. Only play and redundant equations change the difference.
 """
 
 from __future__ import annotations
@@ -11,22 +11,24 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-# The steps in their order, by kind; what `owners` are:
+# Kinds of steps in their order, and the meaning of their `owners`:
 PLAY = "play"  # joints with play
-REDUNDANT = "redundant"  # owners of rows that say nothing new
+REDUNDANT = "redundant"  # owners of redundant equations
 PRESCRIBED = "prescribed"  # drives that make angles functions of time
-CONSTANT = "constant"  # joints that keep angles as they are
-FOLLOWING = "following"  # bodies whose angles say those that go
+CONSTANT = "constant"  # joints that keep angles constant
+FOLLOWING = "following"  # bodies whose angles determine the removed ones
 HUB = "hub"  # joints of points where more than two bodies meet
 HINGES = "hinges"  # joints of the tree whose points coincide
 SLIDES = "slides"  # joints of the tree that carry a body along an axis
-KNOWN = "known"  # slides and drives that say a slide
-CHAIN = "chain"  # joints whose loops determine what drives move
+KNOWN = "known"  # slides and drives that determine a slide
+CHAIN = "chain"  # joints whose loops determine driven coordinates
 
 
 @dataclass(frozen=True)
 class Step:
-    """Coordinates ("L1.x", "guide.slide") and rows ("A.x") that go and come; `owners` by kind, see above."""
+    """Describe a reduction step: coordinates ("L1.x", "guide.slide") and equations ("A.x") that are removed and
+    added.
+    """
 
     kind: str
     owners: tuple[str, ...]
@@ -38,23 +40,23 @@ class Step:
 
 @dataclass(frozen=True)
 class Solve:
-    """The linear system of a right-hand side, [M Φ_qᵀ; Φ_q 0], factored in an order that is chosen beforehand."""
+    """Describe the linear system of a right-hand side, [M Φ_qᵀ; Φ_q 0], factored in a fixed order."""
 
     coordinates: int
-    rows: int  # with one for each friction that may stick
-    entries: int  # of the matrix that are not identically zero, both halves
-    factor: int  # of L below its diagonal
-    products: int  # of the elimination
+    rows: int  # constraint equations, and one for each friction that may stick
+    entries: int  # nonzeros of the matrix, both halves
+    factor: int  # nonzeros of L below its diagonal
+    products: int  # multiplications of the elimination
 
     @property
     def size(self) -> int:
-        """Rows of the matrix."""
+        """Return the number of rows of the matrix."""
         return self.coordinates + self.rows
 
 
 @dataclass(frozen=True)
 class Group:
-    """Rows that are solved together, for as many coordinates (a linkage without freedom)."""
+    """Describe equations that are solved together for as many coordinates (kinematic linkages)."""
 
     rows: tuple[str, ...]
     coordinates: tuple[str, ...]
@@ -62,7 +64,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Placed:
-    """A body of the tree with the one that places it; `joint` is empty where the body keeps its x and y."""
+    """Describe a body of the tree and the one that carries it; `joint` is empty if the body keeps its x and y."""
 
     body: str
     parent: str
@@ -71,20 +73,22 @@ class Placed:
 
 @dataclass(frozen=True)
 class Story:
-    """`costs` are estimated operations of each tree that was looked at: the first breadth first, the least taken."""
+    """Record the reduction. `costs`: estimated operations of each tree; the first is breadth-first, the least is
+    used.
+    """
 
     coordinates: tuple[str, ...] = ()  # at the beginning
     rows: tuple[str, ...] = ()
-    jacobian: int = 0  # entries of the absolute Φ_q, joints with play open, that are not identically zero
+    jacobian: int = 0  # nonzeros of the absolute Φ_q, without joints with play
     steps: tuple[Step, ...] = ()
     tree: tuple[Placed, ...] = ()
     costs: tuple[int, ...] = ()
-    before: Solve | None = None  # in absolute coordinates
-    after: Solve | None = None  # of what is integrated or followed
-    groups: tuple[Group, ...] = ()  # in the order in which they are solved; without freedom only
+    before: Solve | None = None  # linear system in absolute coordinates
+    after: Solve | None = None  # linear system of what is integrated or followed
+    groups: tuple[Group, ...] = ()  # in the order in which they are solved; kinematic linkages only
 
     def ledger(self) -> Iterator[tuple[Step, int, int]]:
-        """Each step with how many coordinates and rows it leaves."""
+        """Yield each step with the numbers of coordinates and equations after it."""
         n, m = len(self.coordinates), len(self.rows)
         for step in self.steps:
             n += len(step.come) - len(step.gone)
@@ -93,7 +97,7 @@ class Story:
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> Story:
-        """The story that `dataclasses.asdict` and JSON made lists of."""
+        """Return the record from the lists that `dataclasses.asdict` and JSON made of it."""
         kinds = {"steps": Step, "tree": Placed, "groups": Group}
         solves = {"before": Solve, "after": Solve}
         found: dict[str, Any] = {}
@@ -108,5 +112,5 @@ class Story:
 
 
 def _build(kind: Any, item: Mapping[str, Any]) -> Any:
-    """JSON knows lists only."""
+    """Return an object of a class from JSON data, with lists as tuples."""
     return kind(**{f.name: tuple(v) if isinstance(v := item[f.name], list) else v for f in fields(kind)})

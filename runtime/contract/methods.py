@@ -1,7 +1,4 @@
-"""The integrators in C: each is declared once here and, if it chooses its step, once in engine/methods/methods.c.
-
-What the steps of a method are is C's own; here is what the rest asks: names, what they take, how they are drawn.
-"""
+"""Declare the integrators in C: each once here and, if it is adaptive, once in engine/methods/methods.c."""
 
 from __future__ import annotations
 
@@ -10,16 +7,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Method:
-    """An integrator by the name that a user gives it; `marker` is its own in the picture of `gudgeon bench`."""
+    """Describe an integrator by its public name; `marker` is its symbol in plots of `gudgeon bench`."""
 
     name: str
     marker: str
-    fixed: bool = False  # it takes a `step`, and no tolerance
-    slopes: bool = False  # it takes the Jacobian: a force needs a finite slope everywhere
-    smooth: bool = False  # for smooth motion alone; a library has it where somebody asked for it
-    staged: bool = False  # its stages are found together; a library has it where there is a film, or somebody asked
+    fixed: bool = False  # whether it takes a `step` and no tolerance
+    slopes: bool = False  # whether it uses the Jacobian, so that forces need finite slopes
+    smooth: bool = False  # for smooth motion only; a library has it only on request
+    staged: bool = False  # implicit stages solved together; a library has it with films, or on request
 
 
+# all integrators in C
 METHODS = (
     Method("rk4", "s", fixed=True),
     Method("dop853", "o"),
@@ -29,15 +27,18 @@ METHODS = (
     Method("radau9", ">", slopes=True, staged=True),
     Method("taylor", "*", smooth=True),
 )
-SMOOTH = tuple(method.name for method in METHODS if method.smooth)
-STAGED = tuple(method.name for method in METHODS if method.staged)
-INTEGRATORS = tuple(method.name for method in METHODS if not (method.smooth or method.staged))  # every library's
-ON_DEMAND = (*SMOOTH, *STAGED)  # for which a scene may be derived once more
-CHOOSING = tuple(method.name for method in METHODS if not method.fixed and not method.smooth)  # their step
-EXPLICIT, STIFF = "dop853", "rodas5p"  # what `auto` chooses from as it goes; stiff ones of films: STAGED
-FINE = 3e-7  # tolerances below it are for the second of STAGED
-ADAPTIVE = "adaptive"  # a name of ours for that
-KINEMATIC = "kinematic"  # follows the rows where no freedom is left
-STAGES = "stages"  # the reduced formulation with what STAGED need
-NEED_SLOPES = (*(method.name for method in METHODS if method.slopes), ADAPTIVE)
-OFFERED = ("auto", *CHOOSING, *SMOOTH, *(method.name for method in METHODS if method.fixed))  # to integrate
+SMOOTH = tuple(method.name for method in METHODS if method.smooth)  # methods for smooth motion only
+STAGED = tuple(method.name for method in METHODS if method.staged)  # methods whose stages are solved together
+# methods that every library has
+INTEGRATORS = tuple(method.name for method in METHODS if not (method.smooth or method.staged))
+ON_DEMAND = (*SMOOTH, *STAGED)  # methods for which a scene may have to be derived again
+# adaptive methods for any motion
+CHOOSING = tuple(method.name for method in METHODS if not method.fixed and not method.smooth)
+EXPLICIT, STIFF = "dop853", "rodas5p"  # methods between which `auto` switches; with films, the stiff one is from STAGED
+FINE = 3e-7  # tolerance below which `auto` uses the second of STAGED
+ADAPTIVE = "adaptive"  # internal name of the method that switches
+KINEMATIC = "kinematic"  # method for linkages without degrees of freedom
+STAGES = "stages"  # name of the reduced formulation with the matrices of STAGED
+NEED_SLOPES = (*(method.name for method in METHODS if method.slopes), ADAPTIVE)  # methods that use the Jacobian
+# methods that integrate, as command line and messages offer them
+OFFERED = ("auto", *CHOOSING, *SMOOTH, *(method.name for method in METHODS if method.fixed))

@@ -1,7 +1,6 @@
-"""The stored form of a scene's description, in which nothing is said twice: what follows from the rest is left out.
+"""Convert a scene's description to and from its stored form, which leaves out all that follows from the rest.
 
-`shorten` and `complete` work on the plain data of a KernelSource; what was given as something else than follows stays,
-so that each undoes the other.
+`shorten` and `complete` work on the plain data of a KernelSource, and are inverse to each other.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ _UNITS = ("kg", "m", "s")
 
 
 def base_units(dimension: tuple[float, float, float]) -> str:
-    """SI base units of exponents of m, kg, s: "kg*m^2/s^2", "kg/m^0.5/s^2"; "" for a pure number."""
+    """Return SI base units for exponents of m, kg, s: "kg*m^2/s^2", "kg/m^0.5/s^2"; "" for a pure number."""
     length, mass, time = dimension
     pairs = list(zip(_UNITS, (mass, length, time), strict=True))
     above = "*".join(u if n == 1 else f"{u}^{n}" for u, n in pairs if n > 0)
@@ -24,22 +23,22 @@ def base_units(dimension: tuple[float, float, float]) -> str:
 
 
 def shorten(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """Without what `complete` puts in again. `data` is changed."""
+    """Return the data without the values that `complete` restores. `data` is changed."""
     for name, follows in _OF_STORY.items():
-        _drop(data["story"], name, follows(data))
+        _drop_if_equal(data["story"], name, follows(data))
     for name, parts in _OF_PARTS.items():
         for item in data[name]:
             for part, of_item in parts.items():
-                _drop(item, part, of_item(data, item))
+                _drop_if_equal(item, part, of_item(data, item))
     for name, follows in _FOLLOWING.items():
-        _drop(data, name, follows(data))
-    data["rows"] = [_place(data["start_rows"], row) for row in data["rows"]]
+        _drop_if_equal(data, name, follows(data))
+    data["rows"] = [_index_or_row(data["start_rows"], row) for row in data["rows"]]
     usual = {name: value for name, value in defaults.items() if name not in _FOLLOWING}
-    return {name: value for name, value in data.items() if name not in usual or _plain(value) != usual[name]}
+    return {name: value for name, value in data.items() if name not in usual or _lists_of_tuples(value) != usual[name]}
 
 
 def complete(data: Data, defaults: Mapping[str, Any]) -> Data:
-    """With everything that follows. `data` is changed."""
+    """Return the data with all values that follow from the rest. `data` is changed."""
     for name, usual in defaults.items():
         if name not in _FOLLOWING:
             data.setdefault(name, usual)
@@ -59,55 +58,62 @@ def complete(data: Data, defaults: Mapping[str, Any]) -> Data:
 
 
 def as_text(data: Data) -> str:
-    """JSON with a line for each name, and for each item of what is made of parts."""
-    return "{\n" + ",\n".join(f" {_dumps(name)}: {_value(value)}" for name, value in data.items()) + "\n}"
+    """Return the data as JSON, one line for each name and each item of a list."""
+    return "{\n" + ",\n".join(f" {_dumps(name)}: {_format_value(value)}" for name, value in data.items()) + "\n}"
 
 
-def _value(value: Any) -> str:
+def _format_value(value: Any) -> str:
+    """Return a value as JSON, with lists of objects in one line per item."""
     of_parts = isinstance(value, (list, tuple)) and any(isinstance(item, (dict, list, tuple)) for item in value)
     return "[\n" + ",\n".join(f"  {_dumps(item)}" for item in value) + "\n ]" if of_parts else _dumps(value)
 
 
 def _dumps(value: Any) -> str:
+    """Return a value as JSON on one line."""
     return json.dumps(value, ensure_ascii=False)
 
 
-def _drop(data: Data, name: str, value: Any) -> None:
-    """What follows anyway; lists and tuples are one thing here."""
-    if name in data and _plain(data[name]) == _plain(value):
+def _drop_if_equal(data: Data, name: str, value: Any) -> None:
+    """Remove a name whose value equals the one that follows from the rest; lists and tuples are equal here."""
+    if name in data and _lists_of_tuples(data[name]) == _lists_of_tuples(value):
         del data[name]
 
 
-def _plain(value: Any) -> Any:
-    return [_plain(item) for item in value] if isinstance(value, (list, tuple)) else value
+def _lists_of_tuples(value: Any) -> Any:
+    """Return a value with tuples converted to lists."""
+    return [_lists_of_tuples(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
-def _place(rows: list[Data], row: Data) -> Any:
-    """A row of the motion is one of the closed linkage's: its number there, else itself."""
+def _index_or_row(rows: list[Data], row: Data) -> Any:
+    """Return the index of an equation of the motion among those of the closed linkage; else the equation itself."""
     return rows.index(row) if row in rows else row
 
 
-def _row_of(data: Data, name: str) -> int:
+def _index_of_row(data: Data, name: str) -> int:
+    """Return the index of the equation with this name, or −1."""
     names = [row["name"] for row in data["rows"]]
     return names.index(name) if name in names else -1
 
 
-def _unit(data: Data, name: str) -> str:
+def _unit_of_row(data: Data, name: str) -> str:
+    """Return the unit of the equation with this name."""
     return next((row["unit"] for row in data["start_rows"] if row["name"] == name), "")
 
 
+# values of the description that follow from the rest
 _FOLLOWING: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: [f"{body['name']}.{c}" for body in data["bodies"] for c in ("x", "y", "theta")],
     "motion_pivots": lambda data: data["pivots"],
 }
+# values of its items that follow
 _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
     "bodies": {"index": lambda data, body: 3 * [b["name"] for b in data["bodies"]].index(body["name"])},
     "joints": {
         "rows": lambda data, joint: [r for r, row in enumerate(data["rows"]) if row["owner"] == joint["name"]],
     },
     "drives": {
-        "row": lambda data, drive: _row_of(data, drive["name"]),
-        "unit": lambda data, drive: _unit(data, drive["name"]),
+        "row": lambda data, drive: _index_of_row(data, drive["name"]),
+        "unit": lambda data, drive: _unit_of_row(data, drive["name"]),
     },
     "parts": {"options": lambda data, part: {}},
     "slots": {
@@ -116,6 +122,7 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
         "tree": lambda data, slot: "",
     },
 }
+# values of the reduction record that follow
 _OF_STORY: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: data["coordinates"],
     "rows": lambda data: [row["name"] for row in data["start_rows"]],
@@ -123,5 +130,5 @@ _OF_STORY: dict[str, Callable[[Data], Any]] = {
 
 
 def tuples(item: dict[str, Any]) -> dict[str, Any]:
-    """JSON knows lists only: the fields of our values are tuples."""
+    """Return JSON data with lists converted to tuples."""
     return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}

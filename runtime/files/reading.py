@@ -1,4 +1,4 @@
-"""Files that are read: regular, and not too large. Those that a mechanism names lie in its folder, behind no link.
+"""Read files: only regular ones up to a size. Files that a mechanism names must be in its folder, not behind links.
 
 `read_named` reads what a call or the command line names, `read_beside` what a mechanism names.
 """
@@ -12,16 +12,16 @@ from pathlib import Path
 from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
 from gudgeon.files.writing import kind
 
-_PARTS = 8  # of a path, at most
+_PARTS = 8  # largest number of parts of a path
 MAX_BYTES = 1 << 20  # of a mechanism file
-MAX_TABLE_BYTES = 1 << 26  # of a table that a curve is read from: a million points and more
+MAX_TABLE_BYTES = 1 << 26  # of a table of a curve: more than a million points
 
 
 def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: str = "") -> bytes:
-    """At most so many bytes of a file; `what` it is, and a `hint`, for the errors.
+    """Return the bytes of a file, at most `most`; `what` it is and a `hint` are used in errors.
 
-    InputError if it cannot be read or is no regular file, LimitError if it is too large. A device or pipe is not
-    opened: it may have no end, or keep us waiting; and a file is read more than once.
+    Raises InputError if it cannot be read or is not a regular file, LimitError if it is too large. Devices and pipes
+    are not opened: they may have no end or block, and files are read more than once.
     """
     told = f"{what} {shortened(file)}".strip()
     try:
@@ -41,7 +41,7 @@ def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: st
 
 
 def check_regular(found: os.stat_result, told: str, hint: str = "") -> None:
-    """InputError for a folder, a device, a pipe, by what `told` calls it."""
+    """Raise InputError for a folder, a device or a pipe; `told` is its name in the message."""
     if not stat.S_ISREG(found.st_mode):
         pipe = stat.S_ISFIFO(found.st_mode)
         hint = "write what comes through the pipe to a file first" if pipe else hint
@@ -49,16 +49,16 @@ def check_regular(found: os.stat_result, told: str, hint: str = "") -> None:
 
 
 def read_beside(file: str | os.PathLike[str], name: str, most: int, where: Location | None = None) -> bytes:
-    """At most so many bytes of `name`, a path relative to the folder of `file`. InputError if it may not be read.
+    """Return the bytes of `name`, a path relative to the folder of `file`, at most `most`. Raise InputError.
 
-    No folder on the way and not the file itself may be a link, so that nothing outside is ever read.
+    Neither a folder on the path nor the file may be a link, so that nothing outside the folder is read.
     """
     parts = name.split("/")
-    if not 0 < len(parts) <= _PARTS or any(part in ("", ".", "..") or _odd(part) for part in parts):
+    if not 0 < len(parts) <= _PARTS or any(part in ("", ".", "..") or _is_forbidden(part) for part in parts):
         hint = "expected the name of a file in the mechanism's folder or below: lift.csv, data/lift.csv"
         raise BadValueError(f"{name[:60]!r} is no path to a table", where, hint)
     try:
-        data, found = _read(Path(file).parent, parts, most)
+        data, found = _read_without_links(Path(file).parent, parts, most)
     except OSError as error:
         linked = _is_link(Path(file).parent, parts)
         why = "a link is not followed" if linked else error.strerror or error
@@ -71,12 +71,13 @@ def read_beside(file: str | os.PathLike[str], name: str, most: int, where: Locat
     return data
 
 
-def _odd(part: str) -> bool:
+def _is_forbidden(part: str) -> bool:
+    """Return whether a part of a path has characters that are not allowed."""
     return "\\" in part or not part.isprintable()
 
 
-def _read(folder: Path, parts: list[str], most: int) -> tuple[bytes, os.stat_result]:
-    """Bytes and what they are of; folder by folder, so that nobody can put a link in between."""
+def _read_without_links(folder: Path, parts: list[str], most: int) -> tuple[bytes, os.stat_result]:
+    """Return bytes and status of a file, opened folder by folder, so that no link can be inserted meanwhile."""
     here = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
         for part in parts[:-1]:
@@ -96,5 +97,5 @@ def _read(folder: Path, parts: list[str], most: int) -> tuple[bytes, os.stat_res
 
 
 def _is_link(folder: Path, parts: list[str]) -> bool:
-    """Whether a link is on the way: for what is told."""
+    """Return whether the path contains a link, for the message."""
     return any(os.path.islink(folder.joinpath(*parts[: k + 1])) for k in range(len(parts)))

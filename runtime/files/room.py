@@ -1,7 +1,7 @@
-"""How much memory and disk is free, asked before more is begun than there is room for.
+"""Check free memory and disk space before a computation starts that needs more.
 
-Linux hands out memory that it does not have and kills who writes to it; a disk that fills after an hour's run loses the
-hour. Of memory what is little is not asked about: it costs a comparison.
+Linux grants memory that it lacks and later kills the process; a disk that fills up loses the results of a long run.
+Small requests are not checked.
 """
 
 from __future__ import annotations
@@ -15,26 +15,27 @@ from pathlib import Path
 
 from gudgeon.errors import OutputError
 
-LEAST = 1 << 26  # bytes that are always taken to be there
-SHARE = 0.9  # of what is free may be asked for: others ask too
-_GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.usage_in_bytes")  # cgroups v2, v1
+LEAST = 1 << 26  # bytes that are always assumed to be free
+SHARE = 0.9  # largest fraction of the free memory that may be requested, as other programs need some
+# files of limit and use in cgroups v2, v1
+_GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.usage_in_bytes")
 
 
 def check_memory(size: float, what: str) -> None:
-    """MemoryError where `size` bytes are more than is free; `what` will take them."""
+    """Raise MemoryError if `size` bytes exceed the free memory; `what` needs them."""
     if size > LEAST and size > SHARE * (free := free_memory()):
         raise MemoryError(f"{what} would take {in_bytes(size)}, and {in_bytes(free)} are free")
 
 
 def check_disk(folder: str | os.PathLike[str], size: float, what: str, path: str | os.PathLike[str] = "") -> None:
-    """OutputError, of `path` or of the folder, where `size` bytes are more than is free where that is, or will be."""
+    """Raise OutputError, of `path` or the folder, if `size` bytes exceed the free disk space there."""
     if size > (free := free_disk(folder)):
         told = f"{os.strerror(errno.ENOSPC)}: {what} would take {in_bytes(size)}, and {in_bytes(free)} are free"
         raise OutputError(path or folder, OSError(errno.ENOSPC, told))
 
 
 def free_disk(folder: str | os.PathLike[str]) -> float:
-    """Bytes that the user may write there, of the nearest folder above that is there; infinite where it is unknown."""
+    """Return the bytes that the user may write in a folder, or its nearest existing parent; infinite if unknown."""
     path = Path(folder).absolute()
     for place in (path, *path.parents):
         with suppress(OSError):
@@ -44,11 +45,12 @@ def free_disk(folder: str | os.PathLike[str]) -> float:
 
 
 def free_memory(root: Path = Path("/")) -> float:
-    """Bytes that this process may take yet: of the machine, within its control group and its own limit."""
-    return max(0.0, min(_of_the_machine(root), *_of_groups(root), _of_the_process(root)))
+    """Return the bytes of memory that this process may still use: of machine, control groups and own limit."""
+    return max(0.0, min(_free_in_machine(root), *_free_in_groups(root), _free_in_process(root)))
 
 
-def _of_the_machine(root: Path) -> float:
+def _free_in_machine(root: Path) -> float:
+    """Return the free memory of the machine in bytes."""
     with suppress(OSError, ValueError):
         for line in (root / "proc/meminfo").read_text().splitlines():
             if line.startswith("MemAvailable:"):
@@ -58,8 +60,8 @@ def _of_the_machine(root: Path) -> float:
     return math.inf
 
 
-def _of_groups(root: Path) -> Iterator[float]:
-    """Of each group that the process is in and that has a limit; pages of files that can be dropped are free."""
+def _free_in_groups(root: Path) -> Iterator[float]:
+    """Yield the free memory of each control group with a limit; droppable file pages count as free."""
     yield math.inf
     lines: list[str] = []
     with suppress(OSError):
@@ -73,11 +75,12 @@ def _of_groups(root: Path) -> Iterator[float]:
         for folder in (own, *(parent for parent in own.parents if parent.is_relative_to(top))):
             for limit, used in _GROUPS:
                 with suppress(OSError, ValueError):  # "max": none
-                    held = int((folder / used).read_text()) - _droppable(folder)
+                    held = int((folder / used).read_text()) - _droppable_bytes(folder)
                     yield float(int((folder / limit).read_text()) - held)
 
 
-def _droppable(folder: Path) -> int:
+def _droppable_bytes(folder: Path) -> int:
+    """Return the bytes of file pages in a control group that can be dropped."""
     with suppress(OSError, ValueError):
         for line in (folder / "memory.stat").read_text().splitlines():
             name, _, number = line.partition(" ")
@@ -86,8 +89,8 @@ def _droppable(folder: Path) -> int:
     return 0
 
 
-def _of_the_process(root: Path) -> float:
-    """Within `ulimit -v`."""
+def _free_in_process(root: Path) -> float:
+    """Return the free memory within the process's own limit (`ulimit -v`)."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -99,7 +102,7 @@ def _of_the_process(root: Path) -> float:
 
 
 def in_bytes(size: float) -> str:
-    """As people read it: 1.2 GB."""
+    """Return a size as text: 1.2 GB."""
     for power, unit in ((12, "TB"), (9, "GB"), (6, "MB"), (3, "kB")):
         if size >= 10.0**power:
             return f"{size / 10.0**power:.3g} {unit}"

@@ -1,4 +1,4 @@
-"""Temporary folders that no killed process leaves for ever: each is locked by its process, and swept once it is not."""
+"""Make temporary folders that are removed even after killed processes: each is locked by its process."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ from pathlib import Path
 
 PREFIX = "gudgeon-tmp-"
 GRACE_S = 60.0  # a younger folder may belong to a process that has not locked it yet
-OURS = re.compile(rf"{PREFIX}[a-z0-9_]{{8}}")  # as mkdtemp names them
+OURS = re.compile(rf"{PREFIX}[a-z0-9_]{{8}}")  # names as mkdtemp makes them
 
 
 class TemporaryFolder:
-    """A folder in $TMPDIR, of the user alone, until `remove` or until the process ends, however it ends.
+    """Hold a folder in $TMPDIR, for this user only, until `remove` or the end of the process.
 
-    The lock (flock) of the folder ends with the process; who makes the next one removes folders that nobody locks.
+    The lock (flock) of the folder ends with the process. Whoever makes the next folder removes those without a lock.
     """
 
     def __init__(self) -> None:
-        """Raises OSError where no folder can be made."""
+        """Make and lock the folder. Raise OSError if that fails."""
         root = Path(tempfile.gettempdir())
         self.path = Path(tempfile.mkdtemp(prefix=PREFIX, dir=root))
-        self._lock: int | None = _locked(self.path)
-        _sweep(root, os.stat(self.path).st_ctime - GRACE_S)
+        self._lock: int | None = _lock_folder(self.path)
+        _remove_abandoned(root, os.stat(self.path).st_ctime - GRACE_S)
 
     def remove(self) -> None:
-        """Remove the folder and what is in it; nothing happens the second time."""
+        """Remove the folder and its contents; a second call does nothing."""
         shutil.rmtree(self.path, ignore_errors=True)
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None
 
 
-def _locked(folder: Path) -> int | None:
-    """An open folder that this process alone has locked; None where another one has, or locks do not work."""
+def _lock_folder(folder: Path) -> int | None:
+    """Return a handle of the folder, locked by this process; None if another has locked it, or locks do not work."""
     from fcntl import LOCK_EX, LOCK_NB, flock
 
     handle = None
@@ -50,7 +50,7 @@ def _locked(folder: Path) -> int | None:
     return handle
 
 
-def _sweep(root: Path, newest: float) -> None:
+def _remove_abandoned(root: Path, newest: float) -> None:
     """Remove folders of this user, older than `newest`, whose processes have ended."""
     with suppress(OSError):
         for entry in os.scandir(root):
@@ -60,6 +60,6 @@ def _sweep(root: Path, newest: float) -> None:
                 found = entry.stat(follow_symlinks=False)
                 if found.st_uid != os.geteuid() or found.st_ctime > newest:
                     continue
-                if (lock := _locked(Path(entry.path))) is not None:
+                if (lock := _lock_folder(Path(entry.path))) is not None:
                     shutil.rmtree(entry.path, ignore_errors=True)
                     os.close(lock)

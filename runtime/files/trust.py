@@ -1,8 +1,8 @@
-"""Whether code in a folder can be another user's, as ssh asks of its keys.
+"""Check whether another user could have written code in a folder, as ssh checks its keys.
 
-What is loaded from the cache runs with the rights of whoever loads it. So the folder and what is in it belong to the
-user or to root, and neither group nor others may write there; on the way to it, nobody else may put another folder in
-its place. An access list that lets somebody write shows in the bits of the group.
+Code in the cache runs with the rights of the user who loads it. The folder and its contents must belong to the user or
+root, and group and others must not be able to write there. On the path to it, no one else may replace a folder. An
+access list that grants writing shows in the bits of the group.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ import os
 import stat
 from functools import cache
 
-LINKS = 40  # on the way to a folder, as the kernel counts
+LINKS = 40  # largest number of links on a path, as in the kernel
 
 
 class Untrusted(Exception):
-    """Somebody else may have written this; the text says what and who."""
+    """Signal that another user may have written a file; the text says which and who."""
 
 
 def check_way(path: str | os.PathLike[str]) -> None:
-    """Untrusted if another user may write the folder, or put another in its place; it need not be there yet."""
-    passed, there = _way(os.fspath(path))
+    """Raise Untrusted if another user may write the folder or replace it; it need not exist yet."""
+    passed, there = _path_components(os.fspath(path))
     for above, found in passed[:-1] if there else passed:
         _check_above(above, found)
     if there:
@@ -29,7 +29,7 @@ def check_way(path: str | os.PathLike[str]) -> None:
 
 
 def check(path: str | os.PathLike[str], found: os.stat_result) -> None:
-    """Untrusted if a file or folder is neither the user's nor root's, or if group or others may write it."""
+    """Raise Untrusted if a file or folder is not the user's or root's, or if group or others may write it."""
     if found.st_uid not in (os.geteuid(), 0):
         raise Untrusted(f"{os.fspath(path)} belongs to another user (uid {found.st_uid})")
     if found.st_mode & 0o022 and not stat.S_ISLNK(found.st_mode):
@@ -38,7 +38,7 @@ def check(path: str | os.PathLike[str], found: os.stat_result) -> None:
 
 
 def check_folder(path: str | os.PathLike[str]) -> None:
-    """The same of a folder that is no link. Raises OSError if it is none."""
+    """Raise Untrusted as `check` for a folder that is not a link. Raise OSError for anything else."""
     found = os.lstat(path)
     if not stat.S_ISDIR(found.st_mode):
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(path))
@@ -46,7 +46,10 @@ def check_folder(path: str | os.PathLike[str]) -> None:
 
 
 def _check_above(path: str, found: os.stat_result) -> None:
-    """The same of a folder, or a link, on the way: where names are kept by their owners (/tmp) all may write."""
+    """Raise Untrusted if another user may replace a folder or link on the path.
+
+    In folders whose files only their owners may rename (/tmp), all may write.
+    """
     mine = (os.geteuid(), 0)
     if found.st_uid not in mine and not (found.st_uid == _nobody() and _root_has_no_name()):
         raise Untrusted(f"{path} belongs to another user (uid {found.st_uid})")
@@ -58,7 +61,7 @@ def _check_above(path: str, found: os.stat_result) -> None:
 
 
 def read(path: str | os.PathLike[str]) -> bytes:
-    """A trusted regular file's bytes; no link is followed. Raises Untrusted, OSError."""
+    """Return the bytes of a trusted regular file; links are not followed. Raise Untrusted, OSError."""
     handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     with open(handle, "rb", buffering=0) as file:
         found = os.fstat(handle)
@@ -68,8 +71,8 @@ def read(path: str | os.PathLike[str]) -> bytes:
         return file.read()
 
 
-def _way(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]:
-    """Folders and links from / to the folder as the kernel passes them, and whether all of them are there."""
+def _path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]:
+    """Return folders and links from / to the folder as the kernel passes them, and whether all of them exist."""
     names = [name for name in reversed(path.split("/")) if name not in ("", ".")]
     here = "/" if path.startswith("/") else os.getcwd()
     passed, links = [(here, os.lstat(here))], 0
@@ -97,7 +100,7 @@ def _way(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]:
 
 
 def _own_group(group: int) -> bool:
-    """A group of the user alone, of the user's name, as many systems make one for each user."""
+    """Return whether a group has the user's name and no other member, as many systems make one for each user."""
     import grp
     import pwd
 
@@ -110,7 +113,7 @@ def _own_group(group: int) -> bool:
 
 @cache
 def _nobody() -> int:
-    """Who owns what an unknown user owns."""
+    """Return the user id that stands for unknown users."""
     try:
         with open("/proc/sys/kernel/overflowuid") as file:
             return int(file.read())
@@ -120,7 +123,7 @@ def _nobody() -> int:
 
 @cache
 def _root_has_no_name() -> bool:
-    """In a container whose users are numbered anew, without the machine's root: root's folders look like nobody's."""
+    """Return whether this is a container without the machine's root, whose folders seem to be nobody's."""
     try:
         with open("/proc/self/uid_map") as file:
             return not any(int(line.split()[1]) == 0 for line in file)  # user inside, outside, how many

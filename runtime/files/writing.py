@@ -1,9 +1,9 @@
-"""The one place where a user's file is written: aside, under a name of its own, then moved into place.
+"""Write all files for users: to a temporary name first, then moved into place.
 
-What stood there is whole until the new file is; a full disk, a limit or Ctrl-C leaves nothing behind. The temporary
-name is random and opened exclusively, and everything goes through the opened folder, so that nothing outside it is
-written: a link in the place of a file is replaced, never followed. A device, pipe or socket is refused, and so is a
-file that nobody may write. What is replaced hands on its permissions and, where that is allowed, its owner.
+The old file stays complete until the new one is; a full disk, a limit or Ctrl-C leaves nothing behind. The temporary
+name is random and opened exclusively within the opened folder, so that nothing outside it is written. A link in the
+place of a file is replaced, not followed. Devices, pipes, sockets and write-protected files are refused. The new file
+gets the permissions of the old one and, if allowed, its owner.
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ from typing import BinaryIO
 
 from gudgeon.errors import OutputError
 
-PART = re.compile(r"\.gudgeon-[0-9a-f]{16}\.part")  # what a killed process may leave
-LARGEST = 1 << 26  # bytes of a file that may be one of those that are emitted
+PART = re.compile(r"\.gudgeon-[0-9a-f]{16}\.part")  # temporary names, which a killed process may leave
+LARGEST = 1 << 26  # bytes of the largest file that may be an emitted one
 _OPEN = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC | os.O_NOFOLLOW
 _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # O_PATH: a folder of which no list is had
 
 
 class Aside:
-    """Files of one folder, written under names of their own until they are moved into place; a context.
+    """Write files of one folder under temporary names and move them into place; a context.
 
-    The folder is made if it is not there; follow: it may be a link, as a folder that a user names may. What was
-    written and not moved is removed at the end of the context, after an error the folders that were made for it too.
-    sync: each file reaches the disk before it is moved, for what cannot be made again (milliseconds, on a busy disk
-    seconds); without, a machine that loses its power in these seconds may keep neither file on some file systems.
+    The folder is made if it does not exist; follow: it may be a link. Files that were not moved are removed at the end
+    of the context, after an error also the folders that were made. sync: each file reaches the disk before it is moved,
+    for results that cannot be repeated. Without it, a power failure may lose both files on some file systems.
     """
 
     def __init__(self, folder: str | os.PathLike[str], *, sync: bool = False, follow: bool = True) -> None:
         self.folder, self.sync, self.follow = Path(folder), sync, follow
         self._made: list[Path] = []
         self._fd = -1
-        self._parts: list[str] = []  # on the disk
+        self._parts: list[str] = []  # temporary files on the disk
         self._whole: list[tuple[str, str]] = []  # temporary name, name
 
     def __enter__(self) -> Aside:
+        """Make and open the folder."""
         with telling(self.folder):
             self._made = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -49,6 +49,7 @@ class Aside:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        """Remove the files that were not moved, and close the folder."""
         try:
             self._clear(kind is not None)
         except KeyboardInterrupt:
@@ -56,7 +57,7 @@ class Aside:
             raise
 
     def _clear(self, failed: bool) -> None:
-        """What was not moved goes; a second call goes on where the first was left."""
+        """Remove temporary files and, if `failed`, new folders; a second call continues the first."""
         while self._parts:
             with suppress(OSError):
                 os.unlink(self._parts[-1], dir_fd=self._fd)
@@ -71,9 +72,9 @@ class Aside:
 
     @contextmanager
     def file(self, name: str) -> Iterator[BinaryIO]:
-        """A file to be written, which can be read and has places; whole once the block has ended well."""
+        """Yield a file to write, which can be read and positioned; it is complete when the block ends without error."""
         with telling(self.folder / name):
-            old = _replaceable(self.folder, name, self._fd)
+            old = _check_replaceable(self.folder, name, self._fd)
             part = f".gudgeon-{os.urandom(8).hex()}.part"
             self._parts.append(part)  # first: Ctrl-C may come as it has been opened
             try:
@@ -85,18 +86,18 @@ class Aside:
                 yield file
                 file.flush()
                 if old:
-                    _hand_on(handle, old)
+                    _copy_permissions(handle, old)
                 if self.sync:
                     _sync(handle)
             self._whole.append((part, name))
 
     def write(self, name: str, data: bytes | memoryview) -> None:
-        """The same, of all its bytes."""
+        """Write a file with these bytes under a temporary name."""
         with self.file(name) as file:
             file.write(data)
 
     def move(self, count: int | None = None) -> None:
-        """The first `count` of the whole files into place, in the order in which they were written; None: all."""
+        """Move the first `count` complete files into place, in the order in which they were written; None: all."""
         for _ in range(len(self._whole) if count is None else count):
             part, name = self._whole.pop(0)
             with telling(self.folder / name):
@@ -104,7 +105,7 @@ class Aside:
                 self._parts.remove(part)
 
     def remove(self, name: str, own: Callable[[bytes], bool]) -> None:
-        """Remove a regular file of the folder if its bytes are our own; it may be gone already."""
+        """Remove a regular file of the folder if `own` accepts its bytes; it may be gone already."""
         with telling(self.folder / name):
             data = read_regular(name, dir_fd=self._fd)
             if data is not None and own(data):
@@ -113,9 +114,9 @@ class Aside:
 
 @contextmanager
 def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[BinaryIO]:
-    """A file to be written, which can be read and has places; it stands at `path` once the block has ended well.
+    """Yield a file to write; it is moved to `path` when the block ends without error.
 
-    Raises OutputError, for an OSError of the block too; `path` is then as it was. sync: as in Aside.
+    Raises OutputError, also for an OSError of the block; `path` is then unchanged. sync: as in Aside.
     """
     path = _file_path(path)
     with Aside(path.parent, sync=sync) as aside:
@@ -125,18 +126,18 @@ def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[Bin
 
 
 def write_bytes(path: str | os.PathLike[str], data: bytes | memoryview) -> None:
-    """A file with these bytes at `path`, or OutputError and `path` as it was."""
+    """Write a file with these bytes at `path`. Raise OutputError and leave `path` unchanged if that fails."""
     with written(path) as file:
         file.write(data)
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """A file with this text, as UTF-8."""
+    """Write a file with this text, as UTF-8."""
     write_bytes(path, text.encode())
 
 
 def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> bytes | None:
-    """The bytes of a file that may be ours; None if there is none, for a link or device, or beyond LARGEST."""
+    """Return the bytes of a regular file up to LARGEST; None if it is absent, a link or a device, or too large."""
     try:
         handle = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=dir_fd)
     except OSError as error:
@@ -154,7 +155,7 @@ def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> 
 
 
 def check_target(path: str | os.PathLike[str]) -> None:
-    """OutputError if it is known already that `write_bytes` would refuse this path; nothing is written."""
+    """Raise OutputError if `write_bytes` would refuse this path; nothing is written."""
     path = _file_path(path)
     with telling(path):
         with suppress(FileNotFoundError, NotADirectoryError):
@@ -162,13 +163,13 @@ def check_target(path: str | os.PathLike[str]) -> None:
         if path.parent.exists():
             handle = os.open(path.parent, _FOLDER)
             try:
-                _replaceable(path.parent, path.name, handle)
+                _check_replaceable(path.parent, path.name, handle)
             finally:
                 os.close(handle)
 
 
 def _file_path(path: str | os.PathLike[str]) -> Path:
-    """Return the path of a file to be written. Raises OutputError for an empty name, and for "." and "/"."""
+    """Return the path of a file to be written. Raise OutputError for an empty name, and for "." and "/"."""
     if not os.fspath(path):
         raise OutputError(path, "the name is empty")
     if not Path(path).name:
@@ -178,15 +179,15 @@ def _file_path(path: str | os.PathLike[str]) -> Path:
 
 @contextmanager
 def telling(path: Path) -> Iterator[None]:
-    """OSErrors of the block as OutputErrors for `path`."""
+    """Convert each OSError of the with block to an OutputError for `path`."""
     try:
         yield
     except OSError as error:
         raise OutputError(path, error) from error
 
 
-def _replaceable(folder: Path, name: str, handle: int) -> os.stat_result | None:
-    """What is known of the file that will be replaced, None if there is none or a link; OutputError if it must stay."""
+def _check_replaceable(folder: Path, name: str, handle: int) -> os.stat_result | None:
+    """Return the status of the file to be replaced, None if it is absent or a link. Raise OutputError if refused."""
     try:
         old = os.stat(name, dir_fd=handle, follow_symlinks=False)
     except FileNotFoundError:
@@ -203,7 +204,7 @@ def _replaceable(folder: Path, name: str, handle: int) -> os.stat_result | None:
 
 
 def _sync(handle: int) -> None:
-    """Onto the disk: some file systems say only here that they are full."""
+    """Flush a file to the disk: some file systems report only here that they are full."""
     try:
         os.fsync(handle)
     except OSError as error:
@@ -212,7 +213,7 @@ def _sync(handle: int) -> None:
 
 
 def kind(found: os.stat_result) -> str:
-    """What a path that is no regular file is, in words."""
+    """Return a description of a path that is not a regular file."""
     kinds = {
         stat.S_IFDIR: "a folder",
         stat.S_IFIFO: "a pipe",
@@ -224,8 +225,8 @@ def kind(found: os.stat_result) -> str:
     return kinds.get(stat.S_IFMT(found.st_mode), "no regular file")
 
 
-def _hand_on(handle: int, old: os.stat_result) -> None:
-    """Owner, if that is allowed, and permissions of a file to the one that replaces it."""
+def _copy_permissions(handle: int, old: os.stat_result) -> None:
+    """Set permissions and, if allowed, owner of a file to those of the one that it replaces."""
     made = os.fstat(handle)
     with suppress(PermissionError):
         if (made.st_uid, made.st_gid) != (old.st_uid, old.st_gid):

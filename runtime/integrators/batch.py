@@ -311,6 +311,7 @@ class Runs(StoredRuns):
         self.struct.ask, self.struct.caller, self.struct.every = asker.arguments
 
         def poll() -> None:
+            """Raise what a poll from C raised, and poll once more."""
             asker.check(False)
             self._poll(problem, run)
 

@@ -72,7 +72,7 @@ def failure(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end:
     e_max, last = run["peaks"][: len(compiled.source.clearances), PEAK_e_max], run["last"]
     if status == STALLED:
         return _stalled_error(compiled, run, t_end, e_max)
-    if math.isfinite(step):  # which looks as far beyond the last state
+    if math.isfinite(step):  # it evaluates so far after the last state
         return _error_of_status(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
     return _error_of_status(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
 

@@ -156,7 +156,7 @@ class Course:
             pointer(work, written=True),
             pointer(done, "long *", True),
         )
-        if status:  # told by the samples' own
+        if status:  # reported by the samples' works
             work[int(done[0]) + 1 :] = np.nan
         none = np.zeros((count, 0))
         steps = Steps(t, q, v, work[1:], none, none.astype(np.int8), np.zeros(count, dtype=bool))

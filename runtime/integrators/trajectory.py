@@ -157,7 +157,8 @@ class Trajectory:
     event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
     audit: tuple[Finding, ...] = ()  # largest value of each check
-    no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number
+    # EVENT_DTYPE: times from which on an event is not a number
+    no_number: NDArray[Any] = field(default_factory=no_events)
     change_points: tuple[int, float] = NO_CHANGE_POINTS  # samples at or near one, and the time of the first (s)
 
 

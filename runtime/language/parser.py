@@ -41,11 +41,10 @@ _COMPARISONS = ("<", "<=", ">", ">=")
 def parse(
     text: str, where: Location, parameters: Container[str] = (), curves: Mapping[str, Curve] | None = None
 ) -> Expr:
-    """The tree of `text`, whose first character stands at `where`.
+    """Return the tree of `text`, whose first character is at `where`.
 
-    `parameters`: what a unit must not be taken for; `curves` may be called by their names.
-    Raises ExpressionError (syntax), UnitError (unknown unit) or LimitError (too long, deep or large),
-    each at the exact column.
+    `parameters`: names that take precedence over units; `curves` may be called by their names. Raises ExpressionError
+    (syntax), UnitError (unknown unit) or LimitError (too long, deep or large), each at the exact column.
     """
     if len(text) > MAX_LENGTH:
         raise LimitError(f"an expression of {len(text)} characters", where, f"expected at most {MAX_LENGTH}")

@@ -23,6 +23,7 @@ def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float
     where, expected = Location(f"value of {address}", 1, 1), dimension(*exponents)
 
     def read(value: str) -> float:
+        """Return the value of a text without names, after checking its dimension."""
         expr = parse(value, where)
         name = next(names(expr), None)
         if name is not None:

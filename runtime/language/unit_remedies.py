@@ -158,6 +158,7 @@ def _remedy(
         return ""
 
     def accepted(proposals: Iterable[str], most: int) -> list[str]:
+        """Return the first `most` proposals that are accepted in place of the quantity."""
         before, after = text[: found.begin], text[found.end :]
         divides = before.rstrip().endswith(("/", "**"))
         bracketed = (f"({one})" if divides and re.search(r"[*(]", one) else one for one in proposals)

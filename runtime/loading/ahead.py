@@ -1,6 +1,6 @@
-"""What a library is compiled from, and compiled ahead of it: each part as soon as the texts that it reads are there.
+"""Compile the parts of a library in the background, each as soon as the texts that it reads exist.
 
-Scenes whose sizes and tables agree share the object of the engine: `Shared`.
+Scenes with equal sizes and tables share the object file of the engine (`Shared`).
 """
 
 from __future__ import annotations
@@ -28,22 +28,24 @@ if TYPE_CHECKING:
 
 
 def own_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
-    """The compiler's lines for what is a scene's own, by the names of the objects."""
+    """Return the compiler's command lines for a scene's own object files, by the names of these."""
     if source.cdef or not source.units:
         unit = "lanes" if source.cdef else ""
         return {"scene.o": unit_line(portable, [source.main], "scene.o", quick, unit)}
-    return dict(_part(part, portable, quick) for part in source.units)
+    return dict(_part_line(part, portable, quick) for part in source.units)
 
 
-def _part(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
+def _part_line(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
+    """Return the name of the object file of a part of a scene, and the compiler's command line for it."""
     name = f"scene_{part}.o"
     return name, unit_line(portable, [f"-DPART={part}", MAIN], name, quick)
 
 
 class Ahead:
-    """A context that nothing survives. What cannot be begun here is told where the library is made.
+    """Compile parts of a library in the background; a context at whose end all compilers are stopped.
 
-    quick: parts are compiled without optimization (loading/behind.py).
+    Errors are ignored here; they appear when the library is made. quick: compile without optimization
+    (loading/behind.py).
     """
 
     def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:
@@ -52,46 +54,48 @@ class Ahead:
         self._begun: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
     def __enter__(self) -> Ahead:
+        """Return the context."""
         return self
 
     def begin(self, part: int, texts: Mapping[str, str]) -> None:
-        """A part of the scene, or the engine, of which these texts are there by now."""
+        """Start to compile a part of the scene, or the engine, whose texts exist now."""
         try:
             if part == ENGINE_PART:
                 self.begin_shared(self._engine(texts[HEADER], self._quick))
             else:
-                self._begin(*_part(part, self._portable, self._quick), texts)
+                self._begin(*_part_line(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
     def foresee(self, header: str) -> None:
-        """The engine of a scene that may have this model.h: a core has nothing to do in the next second."""
+        """Start to compile the engine for a scene that probably has this model.h, if a second core is free."""
         if header and (os.cpu_count() or 1) > 1:
             self.begin(ENGINE_PART, {HEADER: header})
 
     def shared_objects(self, source: KernelSource, quick: bool = False) -> list[Shared]:
-        """What it has in common with others: no engine where C is compiled alone."""
+        """Return the object files that a scene shares with others: the engine, or none if it is compiled alone."""
         return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
 
     def _engine(self, header: str, quick: bool) -> Shared:
-        """A quick library takes the optimized one too, where it is there."""
+        """Return the engine's object file; a quick library uses the optimized one if the cache has it."""
         engine = engine_object(header, self._portable)
         if not quick or engine.is_there(self._portable, self._cache or default_cache()):
             return engine
         return engine_object(header, self._portable, quick=True)
 
     def begin_shared(self, shared: Shared) -> None:
-        """What the cache does not have yet. GudgeonError or OSError where it cannot be."""
+        """Start to compile a shared object file that the cache lacks. Raise GudgeonError or OSError if that fails."""
         if self.is_under_way(shared.name, shared.line, shared.texts):
             return
         if shared.name in self._begun:  # it was foreseen wrongly
             self._programs.stop(self._begun.pop(shared.name)[2])
-            shutil.rmtree(self._place(shared.name))
+            shutil.rmtree(self._folder_of(shared.name))
         if not shared.is_there(self._portable, self._cache or default_cache()):
             self._begin(shared.name, shared.line, shared.texts)
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
-        folder = self._place(name)
+        """Start the compiler for an object file in a temporary folder."""
+        folder = self._folder_of(name)
         folder.mkdir(exist_ok=True)
         for file, text in texts.items():
             if not (folder / file).exists():
@@ -99,10 +103,10 @@ class Ahead:
         environment = {**compiler.plain(), "TMPDIR": str(folder)}
         self._begun[name] = line, dict(texts), self._programs.begin([*line], folder, environment)
 
-    def _place(self, name: str) -> Path:
-        """The folder of an object: a scene's parts read the same texts, the engine its own."""
+    def _folder_of(self, name: str) -> Path:
+        """Return the folder of an object file: the parts of a scene share one, the engine has its own."""
         if self._folder is None:
-            with CtrlC() as ctrl_c:  # none is made that nobody knows of
+            with CtrlC() as ctrl_c:  # so that every folder made is known
                 temporary = TemporaryFolder()
                 self._folder = temporary.path
                 self._clear = finalize(self, temporary.remove)  # at the latest
@@ -110,12 +114,12 @@ class Ahead:
         return self._folder / name.partition("_")[0]
 
     def take(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
-        """Waits for the object of this line and these texts and moves it to its place, once; False: there is none."""
+        """Wait for an object file with this command line and texts, and move it to `made`; False if there is none."""
         if self._folder is None or not self.is_under_way(made.name, line, texts):
             return False
         _, _, process = self._begun.pop(made.name)
         self._programs.wait(process)
-        found = self._place(made.name) / made.name
+        found = self._folder_of(made.name) / made.name
         if process.returncode or not found.exists():
             return False
         shutil.move(found, made)
@@ -123,17 +127,18 @@ class Ahead:
 
     @property
     def is_busy(self) -> bool:
-        """Whether anything is under way."""
+        """Return whether a compiler is running, or its result is still to be taken."""
         return bool(self._begun)
 
     def is_under_way(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
-        """Whether `take` may have it."""
+        """Return whether this object file is being compiled from these texts."""
         if name not in self._begun:
             return False
         known, read, _ = self._begun[name]
         return known == line and all(texts.get(file) == text for file, text in read.items())
 
     def __exit__(self, *wrong: object) -> None:
+        """Stop all compilers and remove the temporary folder, also if Ctrl-C comes."""
         with CtrlC() as ctrl_c:  # a second one leaves nothing either
             self._programs.__exit__(*wrong)
             if self._folder is not None:
@@ -143,7 +148,7 @@ class Ahead:
 
 @dataclass(frozen=True)
 class Shared:
-    """An object: its kind in the cache, its file, the compiler's line, what decides it, and the texts that it reads."""
+    """Describe an object file that scenes share: kind in the cache, name, command line, what decides it, its texts."""
 
     kind: str
     name: str
@@ -152,18 +157,19 @@ class Shared:
     texts: Mapping[str, str]
 
     def key(self, portable: bool, cache: Cache) -> str:
-        """Everything that decides its bytes."""
+        """Return the cache key: a digest of everything that decides the bytes of the object file."""
         identity = compiler.identity(compiler.find_compiler(), cache)
         return digest([*self.decided_by, *self.line, identity, "" if portable else compiler.cpu()])
 
     def is_there(self, portable: bool, cache: Cache) -> bool:
-        """Whether the cache has it."""
+        """Return whether the cache has the object file."""
         return cache.has(self.kind, self.key(portable, cache))
 
     def fetch(self, portable: bool, cache: Cache, ahead: Ahead, renew: bool = False) -> Path:
-        """The object, compiled if the cache has none or `renew` is asked for. BuildError if it does not compile."""
+        """Return the object file, compiled if the cache lacks it or `renew` is set. Raise BuildError."""
 
         def make(folder: Path) -> None:
+            """Compile the object file in a folder, or take it from the background compilation."""
             if ahead.take(folder / self.name, self.line, self.texts):
                 return
             for name, text in self.texts.items():
@@ -178,7 +184,10 @@ class Shared:
 
 
 def engine_object(header: str, portable: bool, quick: bool = False) -> Shared:
-    """The time loops for a scene with this model.h, of which they read what stands in front of its numbers."""
+    """Return the object file of the time loops for a scene with this model.h.
+
+    They read only the part of it before its values.
+    """
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]
     line = unit_line(portable, [str(UNIT)], "engine.o", quick, "loops")

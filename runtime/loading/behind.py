@@ -1,10 +1,11 @@
-"""The first start of a scene: a library that is compiled quickly serves, while the optimized one is made behind it.
+"""Compile the optimized library of a new scene in another process, while a quickly compiled one serves.
 
-The quick one has the same texts, without optimization: a third of the compiler's time, the same bits in every number,
-and up to three times the time of a run. A process of its own (`make`), which outlives this one, compiles the optimized
-one into the cache, where every later start finds it; runs that are under way go on with it as soon as it is there.
-Where that process cannot be begun, where it failed once, where the cache is not kept, and with GUDGEON_QUICK=0, the
-optimized one is waited for.
+The quick library has the same texts, without optimization. It takes a third of the compiler's time, gives the same
+bits, and runs up to three times as long. A separate process (`make`), which may outlive this one, compiles the
+optimized library into the cache. Runs that are under way continue with it as soon as it exists.
+
+The optimized library is awaited if that process cannot be started or has failed before, if the cache is not kept, or
+with GUDGEON_QUICK=0.
 """
 
 from __future__ import annotations
@@ -28,16 +29,17 @@ from gudgeon.waiting.ctrl_c import CtrlC
 if TYPE_CHECKING:
     import subprocess
 
-KIND = "quick"  # of entries of the cache: the library, and the source that the other process compiles
+KIND = "quick"  # of entries of the cache: the quick library, and the source that the other process compiles
 SOURCE = "source.json"
+# program of the other process
 OTHER = "import sys; sys.path[:] = sys.argv[2:]; from gudgeon.loading.behind import make; make(sys.argv[1])"
-NICE = 5  # the run that goes on meanwhile is what somebody waits for
-MOST = 4  # processes at once: of many scenes in a row they would pile up
-_begun: list[subprocess.Popen[bytes]] = []  # by this process
+NICE = 5  # lower priority of the other process, since the run is more urgent
+MOST = 4  # largest number of such processes at once
+_begun: list[subprocess.Popen[bytes]] = []  # processes started by this process
 
 
 def is_allowed(cache: Cache) -> bool:
-    """Whether a process may be left behind, and what it makes is kept."""
+    """Return whether a background process may be started, and its result is kept."""
     if os.environ.get("GUDGEON_QUICK") == "0" or cache.private:
         return False
     if getattr(sys, "frozen", False) or not Path(sys.executable or "").name.startswith(("python", "pypy")):
@@ -49,7 +51,7 @@ def is_allowed(cache: Cache) -> bool:
 
 
 class Behind:
-    """The optimized library `key` of a scene, while another process makes it. `build`: what makes it here."""
+    """Provide the optimized library `key` of a scene while another process makes it. `build` makes it here."""
 
     def __init__(self, cache: Cache, key: str, build: Callable[[Path], None], open_: Callable[[Path], Library]) -> None:
         self._cache, self._key, self._build, self._open = cache, key, build, open_
@@ -57,7 +59,7 @@ class Behind:
         self._owner, self._lock = os.getpid(), Lock()
 
     def begin(self, quick: Path, portable: bool) -> bool:
-        """Starts the other process, which reads what it compiles in this entry of the cache; whether it could be."""
+        """Start the other process, which reads the cache entry `quick`; return whether it could be started."""
         import subprocess
 
         told = json.dumps([str(self._cache.root), str(quick), portable])
@@ -72,10 +74,10 @@ class Behind:
         return self._process is not None
 
     def look(self, functions: Functions) -> bool:
-        """Takes the optimized library where it is there by now; whether it is still to come."""
+        """Use the optimized library if it exists by now; return whether it is still to come."""
         lock = self._own_lock()
         if not lock.acquire(blocking=False):
-            return True  # another thread looks
+            return True  # another thread is checking
         try:
             over = self._process is not None and self._process.poll() is not None
             if not self._cache.holds("libraries", self._key):
@@ -83,29 +85,30 @@ class Behind:
             entry = self._cache.root / "libraries" / self._key
             with suppress(GudgeonError, OSError, Untrusted):  # the next start makes it anew, and tells
                 if is_whole(entry):
-                    self._take(functions, entry)
+                    self._switch_to(functions, entry)
             return False
         finally:
             lock.release()
 
     def wait(self, functions: Functions) -> None:
-        """The same when it is there; made here if the other process did not. BuildError."""
+        """Wait for the optimized library and use it; make it here if the other process did not. Raise BuildError."""
         with self._own_lock():
-            self._take(functions, self._cache.fetch("libraries", self._key, self._build))
+            self._switch_to(functions, self._cache.fetch("libraries", self._key, self._build))
 
     def _own_lock(self) -> Lock:
-        """In the child of a fork a new one: whoever held the other is not in it, and the process is not its own."""
+        """Return the lock. In a forked child it is a new one, because the parent may hold the old one."""
         if os.getpid() != self._owner:
             self._owner, self._lock, self._process = os.getpid(), Lock(), None
         return self._lock
 
-    def _take(self, functions: Functions, entry: Path) -> None:
+    def _switch_to(self, functions: Functions, entry: Path) -> None:
+        """Make `functions` those of the library in a cache entry, if it can be opened."""
         with suppress(ImportError):  # the next start tells
             functions.become(self._open(entry).lib)
 
 
 def make(told: str) -> None:
-    """In the other process. What goes wrong is told by the next start, which compiles it where it can be seen."""
+    """Compile the optimized library; called in the other process. The next start reports errors."""
     from filelock import FileLock
 
     from gudgeon.loading.build import compile_kernels

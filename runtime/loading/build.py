@@ -1,6 +1,6 @@
-"""C text to an opened library: a compiler builds it, the cache keeps it, library.py opens it.
+"""Build a library from C text: a compiler makes it, the cache stores it, library.py opens it.
 
-On a hit nothing but `_cffi_backend` is imported: neither cffi's parser nor subprocess.
+If the cache has it, only `_cffi_backend` is imported: neither cffi's parser nor subprocess.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from gudgeon.loading.library import Library, carried, opened
 from gudgeon.waiting.asking import working
 from gudgeon.waiting.programs import Programs
 
-LIBRARY = "kernels.so"
+LIBRARY = "kernels.so"  # file name of the library in an entry of the cache
 PRESENT = "gudgeon_prepare"  # a function that every scene's library has
 _libraries: dict[str, Library] = {}
 _lock = Lock()
@@ -37,12 +37,11 @@ def compile_kernels(
     ahead: Ahead | None = None,
     quick: bool = False,
 ) -> Library:
-    """The library of a kernel source, compiled if the cache has none; without a compiler what the wheel carries.
+    """Return the library of a kernel source, compiled if the cache lacks it; without a compiler, the wheel's.
 
-    portable: no instructions that only this CPU has. rebuild: compile even if the cache has it.
-    ahead: where parts of it may be under way already. quick: where nothing is there yet, a library that is compiled
-    quickly may serve while the optimized one is made (behind.py).
-    Raises BuildError if there is no compiler, or if the C does not compile or load.
+    portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. ahead: parts that
+    may be under way already. quick: if the cache has none, a quickly compiled library may serve while the optimized one
+    is made (behind.py). Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
     cache = cache or default_cache()
     try:
@@ -61,10 +60,11 @@ def compile_kernels(
         return known
 
     def build(folder: Path, quick: bool = False, ahead: Ahead | None = ahead) -> None:
+        """Build the library in a folder, and report that this takes a while."""
         with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
             _build(source, folder, portable, ahead or none, cache, rebuild, quick)
 
-    library = _quickly(source, portable, cache, key, build) if quick and not rebuild else None
+    library = _compile_quickly(source, portable, cache, key, build) if quick and not rebuild else None
     if library is None:
         entry = cache.fetch("libraries", key, build, renew=rebuild)
         try:
@@ -75,12 +75,12 @@ def compile_kernels(
         return _libraries.setdefault(key, library)
 
 
-def _quickly(
+def _compile_quickly(
     source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
 ) -> Library | None:
-    """A quick library in place of `key`, which another process makes now; None: that one is to be waited for.
+    """Return a quick library while another process makes the one with `key`; None if that one must be awaited.
 
-    Where there was a quick one before, the optimized one is under way, or did not come: this time it is seen why.
+    If the cache has a quick one already, the optimized one is under way or failed; then it is made here, to see why.
     """
     if not is_allowed(cache) or cache.holds("libraries", key):
         return None
@@ -91,6 +91,7 @@ def _quickly(
         return None
 
     def quickly(folder: Path) -> None:
+        """Build the quick library in a folder, and store its source for the other process."""
         build(folder, True)
         for name in source.files:
             (folder / name).unlink()
@@ -102,7 +103,7 @@ def _quickly(
     behind = Behind(cache, key, lambda folder: build(folder, ahead=None), lambda entry: _open(entry, source.cdef))
     try:
         library = _open(entry, source.cdef)
-    except ImportError:  # told of the optimized one
+    except ImportError:  # reported for the optimized one
         return None
     if not behind.begin(entry, portable):
         return None
@@ -111,7 +112,7 @@ def _quickly(
 
 
 def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
-    """Whether `compile_kernels` finds the library in the cache."""
+    """Return whether `compile_kernels` finds the library in the cache."""
     cache, command = default_cache(), compiler.find_compiler()
     flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
@@ -121,13 +122,14 @@ def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
 def library_key(
     source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], identity: str, portable: bool
 ) -> str:
-    """Everything that decides the library's bytes or whether this machine can run them."""
+    """Return the cache key: a digest of everything that decides the library's bytes or whether it runs here."""
     cpu, texts = "" if portable else compiler.cpu(), own_texts(source)
     own = [source.main, source.cdef, *command, *flags, *(flag for more in compiler.MORE.values() for flag in more)]
     return digest(["library/6", *own, identity, cpu, engine_digest(), *texts])
 
 
 def _open(entry: Path, cdef: str) -> Library:
+    """Open the library of a cache entry. Raise ImportError if it cannot be loaded or lacks its functions."""
     found = opened(entry / LIBRARY, cdef)
     if not cdef and not hasattr(found.lib, PRESENT):
         raise ImportError(f"{entry / LIBRARY} has no function {PRESENT}")
@@ -135,7 +137,7 @@ def _open(entry: Path, cdef: str) -> Library:
 
 
 def _open_elsewhere(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
-    """Open the library built anew, or a copy of it in a temporary folder, with a warning. Raises BuildError."""
+    """Open the library built anew, or a copy of it in a temporary folder, with a warning. Raise BuildError."""
     private, root = private_cache(), entry.parents[1]
     if not _noexec(root):  # what the compiler wrote may be broken
         try:
@@ -164,16 +166,17 @@ def _open_elsewhere(key: str, entry: Path, cdef: str, cache: Cache, build: Make,
 
 
 def _noexec(folder: Path) -> bool:
-    """Whether the file system forbids to run what is in it; False where it does not say (macOS)."""
+    """Return whether the file system forbids to execute files in a folder; False where that is unknown (macOS)."""
     return bool(os.statvfs(folder).f_flag & getattr(os, "ST_NOEXEC", 0))
 
 
 def _copy(entry: Path, folder: Path) -> None:
+    """Copy the library of a cache entry to a folder."""
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
 def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
-    """A library for any processor of the kind that $CC compiles for, which may be another than this machine's."""
+    """Build a portable library in a folder, for the processor that $CC compiles for; return its path."""
     with Ahead(True, cache) as none:
         _build(source, folder, True, none, cache, False, False)
     return folder / LIBRARY
@@ -182,9 +185,9 @@ def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
 def _build(
     source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache, renew: bool, quick: bool
 ) -> None:
-    """Write the C files into the folder, compile there what is the scene's own, and link it with what scenes share.
+    """Write the C files into the folder, compile the scene's own parts, and link them with the shared ones.
 
-    All are under way at once; what `ahead` has begun is taken.
+    All parts are compiled in parallel; those that `ahead` has begun are used.
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -1,13 +1,13 @@
-"""The cache folder: an entry is there as a whole or not at all, and is made once however many ask for it.
+"""Store compiled libraries and derived sources in a cache folder: entries are complete or absent, and made only
+once.
 
-An entry is a folder `<kind>/<key>/` with a list of checksums. It is made aside, under a lock of its own,
-and moved in by one rename, so that a process killed at any moment leaves nothing that a later one trusts.
-Reading takes no lock and writes nothing. A folder that cannot be written (read-only, full, no locks) is
-replaced by a private temporary one for the rest of the process, with a warning: a cache must never be
-the reason why a run fails.
+An entry is a folder `<kind>/<key>/` with a list of checksums. It is made in a temporary folder under a lock, and moved
+into place by one rename, so that a killed process leaves no entry that a later one trusts. Reading takes no lock and
+writes nothing. If the folder cannot be written (read-only, full, no locks), a private temporary one replaces it for the
+rest of the process, with a warning.
 
-What is in it is loaded and run, so a folder that another user may write is not used either, nor an entry that another
-user may have written (trust.py); the list of checksums holds kind and key, so that no entry stands for another.
+What is in the cache is executed. A folder that another user may write is therefore not used, nor an entry that another
+user may have written (trust.py). The list of checksums contains kind and key, so that no entry can replace another.
 """
 
 from __future__ import annotations
@@ -27,15 +27,16 @@ from gudgeon.files.trust import Untrusted, check_folder, check_way, read
 from gudgeon.waiting.ctrl_c import CtrlC
 
 LIST = "checksums"
-END = "whole"  # begins the last line of the list: without it the list itself was cut short
-ASIDE = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")  # folders that `_make` makes: the key, and mkdtemp's letters
-LOCK_SECONDS = 300.0  # longer than any compile; a lock held longer is a process that hangs
+END = "whole"  # begins the last line of the list; without it the list is incomplete
+# names of temporary folders made by `_make`: the key, and mkdtemp's letters
+ASIDE = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")
+LOCK_SECONDS = 300.0  # longer than any compilation; a lock held longer means a process that hangs
 
 Make = Callable[[Path], None]  # writes the files of an entry into the empty folder that it is given
 
 
 def digest(parts: Iterable[str | bytes]) -> str:
-    """SHA-256 of the parts in order; the lengths go in too, so that ("ab", "c") is not ("a", "bc")."""
+    """Return the SHA-256 of the parts in order, with their lengths, so that ("ab", "c") differs from ("a", "bc")."""
     total = sha256()
     for part in parts:
         data = part.encode() if isinstance(part, str) else part
@@ -45,22 +46,22 @@ def digest(parts: Iterable[str | bytes]) -> str:
 
 
 class Cache:
-    """Entries by kind and key in one folder."""
+    """Store entries by kind and key in one folder."""
 
     def __init__(self, root: str | os.PathLike[str], *, private: bool = False) -> None:
         self.root = Path(root)
-        self.private = private  # dies with the process: what fails here fails for good
+        self.private = private  # whether it is removed with the process, so that errors in it are final
 
     def fetch(self, kind: str, key: str, make: Make, *, renew: bool = False) -> Path:
-        """The folder of an entry; `make` is called if it is not there, is damaged, or `renew` is asked for.
+        """Return the folder of an entry; `make` writes it if it is absent or damaged, or if `renew` is set.
 
-        Errors of `make` pass through, except that an OSError counts as the folder's fault: the entry is
-        then made in a private folder. Raises CacheError if even that is impossible.
+        Errors of `make` are passed on, except OSError, which counts as a fault of the folder: the entry is then made in
+        a private folder. Raises CacheError if even that fails.
         """
         try:
             self._check(kind)
             entry = self.root / kind / key
-            if not renew and _usable(entry):
+            if not renew and _is_usable(entry):
                 return entry
             return self._make(entry, make, renew)
         except (OSError, Untrusted) as error:
@@ -68,11 +69,11 @@ class Cache:
                 told = f"the temporary folder {self.root} cannot be used: {error}"
                 is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in told
                 raise CacheError(f"{told}\n  {LIMITED}" if is_limit else told) from error
-            self._tell(error)
+            self._warn_unusable(error)
         return private_cache().fetch(kind, key, make, renew=renew)
 
     def has(self, kind: str, key: str) -> bool:
-        """Whether an entry is there, whole."""
+        """Return whether a complete entry exists."""
         try:
             self._check(kind)
             return is_whole(self.root / kind / key)
@@ -80,13 +81,13 @@ class Cache:
             return False
 
     def holds(self, kind: str, key: str) -> bool:
-        """Whether there is such an entry, whole or not: one look."""
+        """Return whether an entry exists, complete or not; this is faster than `has`."""
         return os.path.exists(self.root / kind / key)  # False too where the system has no such long name
 
     def _check(self, *folders: str) -> None:
-        """Untrusted if what is in the cache or these folders of it may be another user's; they need not be there.
+        """Raise Untrusted if another user may have written the cache or these folders of it; they may be absent.
 
-        The way to a temporary folder is the system's.
+        The path to a temporary folder is not checked.
         """
         try:
             if self.private:
@@ -98,7 +99,8 @@ class Cache:
         except FileNotFoundError:
             return
 
-    def _tell(self, error: OSError | Untrusted) -> None:
+    def _warn_unusable(self, error: OSError | Untrusted) -> None:
+        """Warn that the cache folder cannot be used, and why."""
         what = f"the cache folder {self.root} cannot be used ({error})"
         do = "Set GUDGEON_CACHE to a folder that can be written."
         if isinstance(error, Untrusted):
@@ -109,16 +111,17 @@ class Cache:
         tell_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
 
     def _make(self, entry: Path, make: Make, renew: bool) -> Path:
+        """Make an entry under a lock in a temporary folder, and move it into place; return its path."""
         import tempfile
 
         from filelock import FileLock  # 40 ms: only when something has to be made
 
         aside = self.root / "aside"
         for folder in (self.root, aside, self.root / "locks", entry.parent):
-            _own_folder(folder)
-        self._check("aside", "locks", entry.parent.name)  # somebody may have been quicker to make them
-        with FileLock(self._lock(entry.name), timeout=LOCK_SECONDS):
-            if not renew and _usable(entry):  # another process made it while this one waited
+            _make_own_folder(folder)
+        self._check("aside", "locks", entry.parent.name)  # another process may have made them first
+        with FileLock(self._lock_path(entry.name), timeout=LOCK_SECONDS):
+            if not renew and _is_usable(entry):  # another process made it while this one waited
                 return entry
             left: list[Path] = []
             try:
@@ -138,52 +141,53 @@ class Cache:
                     _remove(folder)
         return entry
 
-    def _lock(self, key: str) -> Path:
+    def _lock_path(self, key: str) -> Path:
+        """Return the path of the lock file of a key."""
         return self.root / "locks" / f"{key}.lock"
 
     def _sweep(self, aside: Path, held: str) -> None:
-        """Remove what killed processes left: our folders aside whose key nobody holds (but this process)."""
+        """Remove the temporary folders of killed processes: those whose key no process has locked."""
         from filelock import FileLock, Timeout
 
         for folder in aside.iterdir():
-            if not ASIDE.fullmatch(folder.name) or not _own(folder):
+            if not ASIDE.fullmatch(folder.name) or not _is_own_folder(folder):
                 continue  # nothing that was made here
             key = folder.name.partition(".")[0]
             if key == held:
                 _remove(folder)
                 continue
             try:
-                with FileLock(self._lock(key), timeout=0):
+                with FileLock(self._lock_path(key), timeout=0):
                     _remove(folder)
             except Timeout:
-                continue  # somebody is at work there
+                continue  # another process works there
 
 
-def _own_folder(path: Path) -> None:
-    """Make a folder, and those above it, for the user alone."""
+def _make_own_folder(path: Path) -> None:
+    """Make a folder, and its parents, with permissions for the user only."""
     for folder in reversed([path, *path.parents]):
         if not folder.is_dir():
             folder.mkdir(mode=0o700, exist_ok=True)
 
 
-def _own(folder: Path) -> bool:
-    """Whether it is a folder, no link, and the user's."""
+def _is_own_folder(folder: Path) -> bool:
+    """Return whether a path is a folder, not a link, that belongs to the user."""
     found = folder.lstat()
     return stat.S_ISDIR(found.st_mode) and found.st_uid == os.geteuid()
 
 
 def tell_once(text: str, about: str = "") -> None:
-    """A warning, once in a process however many entries are asked for."""
+    """Issue a warning once per process, identified by `about` or its text."""
     if (about or text) not in _told:
         _told.add(about or text)
         warnings.warn(text, RuntimeWarning, stacklevel=4)
 
 
-_told: set[str] = set()
+_told: set[str] = set()  # warnings that were issued
 
 
-def _usable(entry: Path) -> bool:
-    """Whether an entry is whole; a warning if another user may have written it."""
+def _is_usable(entry: Path) -> bool:
+    """Return whether an entry is complete; warn if another user may have written it."""
     try:
         return is_whole(entry)
     except Untrusted as error:
@@ -192,14 +196,14 @@ def _usable(entry: Path) -> bool:
 
 
 def is_whole(entry: Path) -> bool:
-    """Whether every file of the entry is there with the bytes that were put in under its kind and key.
+    """Return whether every file of the entry exists with the bytes stored under its kind and key.
 
-    Raises Untrusted if another user may have put them there.
+    Raises Untrusted if another user may have written them.
     """
     try:
         check_folder(entry)
         lines = read(entry / LIST).decode().splitlines()
-        if not lines or lines.pop() != _end(entry):
+        if not lines or lines.pop() != _last_line(entry):
             return False
         pairs = [line.split(" ", 1) for line in lines]
         if any(os.path.basename(name) != name for _, name in pairs):
@@ -209,20 +213,22 @@ def is_whole(entry: Path) -> bool:
         return False
 
 
-def _end(entry: Path) -> str:
+def _last_line(entry: Path) -> str:
+    """Return the last line of an entry's list of checksums."""
     return f"{END} {entry.parent.name} {entry.name}"
 
 
 def _seal(folder: Path, entry: Path) -> None:
-    """The list of an entry's checksums; its files become the user's alone to write, whatever the umask says."""
+    """Write the list of an entry's checksums, and make its files writable for the user only."""
     paths = sorted(path for path in folder.iterdir() if path.is_file())
     lines = [f"{sha256(path.read_bytes()).hexdigest()} {path.name}" for path in paths]
-    (folder / LIST).write_text("\n".join([*lines, _end(entry)]) + "\n")
+    (folder / LIST).write_text("\n".join([*lines, _last_line(entry)]) + "\n")
     for path in (*paths, folder / LIST):
         path.chmod(path.stat().st_mode & ~0o022)
 
 
 def _remove(path: Path) -> None:
+    """Remove a file, link or folder."""
     import shutil
 
     if path.is_dir() and not path.is_symlink():
@@ -232,7 +238,7 @@ def _remove(path: Path) -> None:
 
 
 def default_cache() -> Cache:
-    """The user's cache: $GUDGEON_CACHE, or the platform's folder for caches. BadValueError for "~nobody"."""
+    """Return the user's cache: $GUDGEON_CACHE, or the platform's cache folder. Raise BadValueError for "~nobody"."""
     chosen = os.environ.get("GUDGEON_CACHE")
     if chosen:
         try:
@@ -249,6 +255,7 @@ def default_cache() -> Cache:
 
 @cache
 def _user_folder() -> str:
+    """Return the platform's cache folder for gudgeon."""
     from platformdirs import user_cache_dir
 
     return user_cache_dir("gudgeon", appauthor=False)
@@ -256,7 +263,7 @@ def _user_folder() -> str:
 
 @cache
 def private_cache() -> Cache:
-    """A folder of this process alone, removed when it ends."""
+    """Return a cache in a temporary folder of this process, removed when it ends."""
     import atexit
 
     from gudgeon.files.temporary import TemporaryFolder
@@ -268,6 +275,7 @@ def private_cache() -> Cache:
     owner = os.getpid()
 
     def remove() -> None:
+        """Remove the folder at the end of the process that made it."""
         if os.getpid() == owner:  # not in a forked worker that ends before its parent
             folder.remove()
 

@@ -1,4 +1,4 @@
-"""The C compiler: which one, its flags, everything about this machine that a library depends on, and one call of it."""
+"""Find and call the C compiler, and choose its flags; identify the machine on which a library runs."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from gudgeon.waiting.programs import Programs
 if TYPE_CHECKING:
     import subprocess
 
+# hint for messages
 INSTALL_COMPILER = (
     "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
     "macOS: xcode-select --install; a wheel of 100 MB: pip install 'gudgeon[cc]' — or name it in $CC"
@@ -47,11 +48,12 @@ MORE = {
     "lanes": ("-fschedule-insns", "-fschedule-insns2", "-fsched-pressure"),
 }
 
-GCCS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # clang has its own
+GCCS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # flags that only gcc has
 # Of zig's clang: no checks, which it makes where no level of optimization is named, as for a link, and the CPU that all
-# have, where it takes this machine's; -march=native behind it still holds.
+# have, where it takes this machine's; -march=native after it still holds.
 ZIG = ("-fno-sanitize=undefined", "-mcpu=baseline")
 
+# flags that change results, which $CC may not contain
 INEXACT = frozenset(
     (
         "-ffast-math",
@@ -63,6 +65,7 @@ INEXACT = frozenset(
         "-fno-signed-zeros",
     )
 )
+# messages of compilers on a full disk, and their error numbers
 FULL = {
     "No space left on device": errno.ENOSPC,
     "Disk quota exceeded": errno.EDQUOT,
@@ -72,10 +75,10 @@ FULL = {
 
 
 def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
-    """Compiler flags of this command; `portable` leaves out what binds the library to this CPU.
+    """Return the compiler's flags; `portable` leaves out those that bind the library to this CPU.
 
-    quick: no optimization, which takes a third of the time. Numbers are the same: sums are made in the order of the
-    text at every level.
+    quick: no optimization, which takes a third of the time. Results are the same, since sums keep their order at every
+    level.
     """
     machine = os.uname().machine
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
@@ -86,23 +89,24 @@ def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) ->
 
 
 def of_unit(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
-    """These flags for the time loops ("loops"), for runs side by side ("lanes"), for what is a scene's own ("")."""
+    """Return the flags for the time loops ("loops"), the lanes ("lanes"), or a scene's own code ("")."""
     return (*flags, *(MORE.get(unit, ()) if set(flags) >= GCCS else ()))
 
 
 def _is_zig(command: tuple[str, ...]) -> bool:
+    """Return whether the compiler is zig's."""
     return bool(command) and Path(command[0]).name == "zig"
 
 
 def link_flags() -> tuple[str, ...]:
-    """What makes objects a library that can be opened."""
+    """Return the flags that make a shared library of object files."""
     return ("-dynamiclib",) if sys.platform == "darwin" else ("-shared",)
 
 
 def find_compiler() -> tuple[str, ...]:
-    """The command: $CC (words of it may be options or a wrapper), the first of cc, gcc, clang on PATH, or zig's.
+    """Return the compiler's command: $CC (may contain options), the first of cc, gcc, clang on PATH, or zig's.
 
-    Raises BuildError if there is none, BadValueError for a $CC that is no command.
+    Raises BuildError if there is none, BadValueError for an invalid $CC.
     """
     import shlex
     import shutil
@@ -125,7 +129,7 @@ def find_compiler() -> tuple[str, ...]:
 
 
 def is_there() -> bool:
-    """Whether there is one."""
+    """Return whether there is a compiler."""
     try:
         return bool(find_compiler())
     except BuildError:
@@ -133,7 +137,9 @@ def is_there() -> bool:
 
 
 def zig() -> Path:
-    """The compiler that comes as a wheel, with a C library and a linker. ImportError where it is not installed."""
+    """Return the compiler zig, installed as a wheel with a C library and a linker. Raise ImportError if it is
+    missing.
+    """
     import ziglang
 
     found = Path(ziglang.__file__).with_name("zig")
@@ -143,10 +149,9 @@ def zig() -> Path:
 
 
 def identity(command: tuple[str, ...], cache: Cache) -> str:
-    """Compiler, its version, machine, C library: what a library's key must hold.
+    """Return compiler, version, machine and C library as text for the keys of libraries.
 
-    Asking a compiler for its version takes longer than a warm start may: the answer is kept under the
-    path, size and time of every program in the command.
+    The version is cached by path, size and time of every program in the command, since asking for it is slow.
     """
     import shutil
 
@@ -167,6 +172,7 @@ def version() -> str:
 
 
 def _ask_version(command: tuple[str, ...], folder: Path) -> None:
+    """Write the compiler's version into a folder. Raise BuildError if it cannot be run."""
     try:
         with Programs() as programs:
             answer, _ = programs.wait(programs.begin([*command, "--version"], None, plain()))
@@ -176,13 +182,14 @@ def _ask_version(command: tuple[str, ...], folder: Path) -> None:
 
 
 def _machine() -> tuple[str, ...]:
+    """Return operating system, processor architecture and C library."""
     libc = os.confstr("CS_GNU_LIBC_VERSION") if "CS_GNU_LIBC_VERSION" in os.confstr_names else ""
     return sys.platform, os.uname().machine, libc or ""
 
 
 @remember
 def cpu() -> str:
-    """Model and instruction sets of the CPU, which `native` code is bound to."""
+    """Return model and instruction sets of the CPU, to which `native` code is bound."""
     if sys.platform == "darwin":
         import subprocess
 
@@ -199,19 +206,19 @@ def cpu() -> str:
 
 
 def plain() -> dict[str, str]:
-    """The environment for the compiler: messages in English, because we read some; where zig keeps its C library."""
+    """Return the environment for the compiler: English messages, which are parsed, and zig's cache folder."""
     return {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), **os.environ, "LC_ALL": "C"}
 
 
 def unit_line(portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = "") -> tuple[str, ...]:
-    """The line for one unit of a library (of_unit): what it shares with others stays inside."""
+    """Return the command line that compiles one unit of a library with hidden symbols; `unit` as in of_unit."""
     command = find_compiler()
     options = of_unit(flags(portable, command, quick), unit)
     return (*command, *options, "-fvisibility=hidden", *include_flags(), "-c", *files, "-o", made)
 
 
 def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
-    """A compiler under way in the folder."""
+    """Start a compiler in a folder. Raise BuildError if it cannot be run."""
     environment = {**plain(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
     try:
         return programs.begin([*line], folder, environment)
@@ -220,7 +227,9 @@ def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.P
 
 
 def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
-    """Wait; what to raise where it failed: OSError for a full disk (another folder is tried then), else BuildError."""
+    """Wait for a compiler; return None or its error: OSError for a full disk (another folder is tried), else
+    BuildError.
+    """
     out, err = programs.wait(process)
     if process.returncode == 0 and made.is_file():
         return None

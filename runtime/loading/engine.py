@@ -1,7 +1,7 @@
-"""The engine: the C that all scenes share (engine/), beside which a scene's own is compiled.
+"""Provide the engine's C files, which all scenes share (engine/), and the declarations of its functions.
 
-What of it a scene needs is decided by the sizes in its model.h, here as in C. `contents` reads all files of a folder
-quickly, for each start asks whether one of hundreds changed.
+The sizes in a scene's model.h decide which functions it has. `contents` reads a folder quickly, because each start
+checks whether a file of the engine changed.
 """
 
 from __future__ import annotations
@@ -23,64 +23,65 @@ _SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)
 
 
 def engine_files() -> dict[str, str]:
-    """Its texts by their paths from the folder that holds `engine`, sorted."""
+    """Return the engine's texts by their paths relative to the parent folder, sorted."""
     return {f"{ENGINE.name}/{name}": text.decode() for name, text in contents(ENGINE, ".c", ".h")}
 
 
 def engine_readme() -> tuple[str, str]:
-    """The page that says which of them to read first: its path and its text. No part of what is compiled."""
+    """Return path and text of the engine's README."""
     path = ENGINE / "README.md"
     return path.relative_to(ENGINE.parent).as_posix(), path.read_text(encoding="utf-8")
 
 
 @cache
 def engine_digest() -> str:
-    """Of all its texts."""
+    """Return the digest of all texts of the engine."""
     return digest([part for item in engine_files().items() for part in item])
 
 
 def own_texts(source: KernelSource) -> list[str]:
-    """Names and texts of a scene's own files, as keys of what is compiled from them hold them."""
+    """Return names and texts of a scene's own files, for cache keys."""
     return [part for name in sorted(source.files) for part in (name, source.files[name])]
 
 
 def include_flags() -> tuple[str, ...]:
-    """The compiler's, for files that include "model.h" beside them and "engine/..."."""
+    """Return the compiler's flags for including "model.h" and "engine/..."."""
     return ("-I.", f"-I{ENGINE.parent}")
 
 
 def declarations(source: KernelSource) -> str:
-    """What of the library is called from outside, as cffi reads it."""
+    """Return the declarations of a library's functions, as cffi reads them."""
     return source.cdef or declared_for(source.files[HEADER])
 
 
 def declared_for(header: str) -> str:
-    """The same for a scene with the engine and this model.h."""
-    return _with_sizes(CALLS.read_text(encoding="utf-8"), _sizes(header))
+    """Return the declarations for a scene with the engine and this model.h."""
+    return _select_lines(CALLS.read_text(encoding="utf-8"), _parse_sizes(header))
 
 
 def all_declarations() -> str:
-    """Of all scenes, and of libraries of lanes: what a library does not have is missed when it is asked for."""
+    """Return the declarations of all scenes and of libraries of lanes; absent functions fail when called."""
     lines = CALLS.read_text(encoding="utf-8").splitlines()
     return "".join(f"{line}\n" for line in lines if not line.startswith("#")) + lane_declarations()
 
 
 def lane_declarations() -> str:
-    """Of a library of runs side by side."""
-    return _with_sizes(LANE_CALLS.read_text(encoding="utf-8"), {})
+    """Return the declarations of a library of lanes."""
+    return _select_lines(LANE_CALLS.read_text(encoding="utf-8"), {})
 
 
 def sizes(source: KernelSource) -> dict[str, int]:
-    """The whole numbers of model.h by name."""
-    return _sizes(source.files[HEADER])
+    """Return the integers of a scene's model.h, by name."""
+    return _parse_sizes(source.files[HEADER])
 
 
-def _sizes(header: str) -> dict[str, int]:
+def _parse_sizes(header: str) -> dict[str, int]:
+    """Return the integers defined in a model.h, by name."""
     return {name: int(value) for name, value in _SIZE.findall(header)}
 
 
-def _with_sizes(text: str, values: dict[str, int]) -> str:
-    """The lines of a header whose `#if NAME && !NAME` hold; no more of the preprocessor is needed, nor nested ones."""
+def _select_lines(text: str, values: dict[str, int]) -> str:
+    """Return the lines of a header whose `#if NAME && !NAME` hold; conditions are not nested."""
     kept, holds = [], True
     for line in text.splitlines():
         if line.startswith("#if "):
@@ -94,7 +95,7 @@ def _with_sizes(text: str, values: dict[str, int]) -> str:
 
 
 def contents(folder: Path, *suffixes: str) -> Iterator[tuple[str, bytes]]:
-    """(path from the folder with "/", bytes) of files that end so, in the order of their paths' parts."""
+    """Yield (path relative to the folder, bytes) of files with these suffixes, sorted by the parts of their paths."""
     found, left = list[tuple[list[str], str]](), [(list[str](), str(folder))]
     while left:
         parts, place = left.pop()

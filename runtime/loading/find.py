@@ -1,4 +1,4 @@
-"""From a mechanism's name or file to a simulation: two look-ups when nothing changed, the generator when it did."""
+"""Find a mechanism by name or file, and return its kernel source from the cache, or derive it."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from gudgeon.loading.ahead import Ahead
 
 Overrides = Mapping[str, str | float | bool]
-DEFAULT_SCENE = "ideal"  # it exists in every file
+DEFAULT_SCENE = "ideal"  # exists in every file
 FORMULATIONS = ("reduced", "full")
 SOURCE = "source.json"
 
 
 @dataclass(frozen=True)
 class Loading:
-    """Where a simulation's kernels came from and how long each stage took (s)."""
+    """Report where a simulation's kernels came from, and how long each stage took (s)."""
 
     origin: str  # "cache", "generated" (committed, shipped) or "derived"
     read: float
@@ -43,12 +43,13 @@ class Loading:
 
 
 def override_values(overrides: Overrides | None) -> dict[str, str | float | bool]:
-    """Overrides as texts, numbers and flags. Raises BadValueError for anything else."""
+    """Return overrides as texts, numbers and flags. Raise BadValueError for other types."""
     found = mapping(overrides, "overrides", "{address: a value as the file would have it}")
-    return {text(name, "an address of overrides"): _override(name, value) for name, value in found.items()}
+    return {text(name, "an address of overrides"): _check_override(name, value) for name, value in found.items()}
 
 
-def _override(name: str, value: object) -> str | float | bool:
+def _check_override(name: str, value: object) -> str | float | bool:
+    """Return one checked override."""
     if isinstance(value, (str, bool)):
         return text(value, f"overrides: {name}") if isinstance(value, str) else value
     number = number_of(value, f"overrides: {name}")
@@ -56,7 +57,7 @@ def _override(name: str, value: object) -> str | float | bool:
 
 
 def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
-    """The YAML file that a name or path stands for. Raises UnknownNameError for an unknown name."""
+    """Return the YAML file of a name or path. Raise UnknownNameError for an unknown name."""
     mechanism = path(mechanism, "mechanism")
     if isinstance(mechanism, os.PathLike) or "/" in mechanism or mechanism.endswith((".yaml", ".yml")):
         return Path(mechanism)
@@ -64,7 +65,7 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 
 
 def read_bytes(file: Path) -> bytes:
-    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if too large."""
+    """Return the bytes of a mechanism file. Raise InputError if it cannot be read, LimitError if it is too large."""
     try:
         return read_named(file, MAX_BYTES, hint="name a YAML file")
     except LimitError:
@@ -87,10 +88,10 @@ def kernel_source(
     cache: Cache | None = None,
     ahead: Ahead | None = None,
 ) -> tuple[KernelSource, str]:
-    """The C of a scene and where it came from: the cache, the committed files, or a derivation just made.
+    """Return the kernel source of a scene, and its origin: the cache, the committed files, or a new derivation.
 
-    formulation: as `load` takes it, or the name of a method for smooth motion: the reduced one with that method.
-    ahead: compiles what it is told of, while a derivation goes on.
+    formulation: as in `load`, or a method for smooth motion: the reduced one with that method. ahead: compiles parts in
+    the background during a derivation.
     """
     if formulation not in (*FORMULATIONS, *SMOOTH, STAGES):
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
@@ -99,12 +100,13 @@ def kernel_source(
     origin = "cache"
 
     def make(folder: Path) -> None:  # what tables and laws the file has is found out here
+        """Write the kernel source into a folder: the committed one, or a new derivation."""
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
-        if source is None and overrides and not _touches(data, file, scene, overrides):
+        if source is None and overrides and not _changes_scene(data, file, scene, overrides):
             source, origin = kernel_source(
                 data, file, scene, formulation=formulation, regenerate=regenerate, cache=cache, ahead=ahead
             )
@@ -114,6 +116,7 @@ def kernel_source(
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     def fetch(key: str, renew: bool) -> KernelSource:
+        """Return the kernel source from the cache, made if it is absent."""
         entry = cache.fetch("models", key, make, renew=renew)
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
@@ -128,7 +131,7 @@ def kernel_source(
 
 
 def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
-    """Whether the cache has the C of a scene, or there is no such file. Its own tables and laws are not looked at."""
+    """Return whether the cache has a scene's kernel source, or the file does not exist; tables are not checked."""
     try:
         data = read_bytes(find_mechanism(mechanism))
     except InputError:
@@ -136,8 +139,8 @@ def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
     return default_cache().has("models", model_key(data, scene, overrides, FORMULATIONS[0]))
 
 
-def _touches(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
-    """Whether overrides change what the scene is derived from: another scene's law, say, does not."""
+def _changes_scene(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
+    """Return whether overrides change what the scene is derived from."""
     whole(*READER)
     from gudgeon.generator.reader.read import touches
 
@@ -145,12 +148,12 @@ def _touches(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
 
 
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
-    """The tables that a source was made with, and the sha256 of what they hold now. InputError if one is gone."""
+    """Return the tables of a kernel source with their present SHA-256. Raise InputError if one is missing."""
     return tuple((name, sha256(read_beside(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
 def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
-    """The user's laws that a source was made with, and what those say that are registered now; "": there is none."""
+    """Return the user-defined laws of a kernel source with their present keys; "" if a law is not registered."""
     if not source.laws:
         return ()
     from gudgeon.generator.kinds.laws.registered import key_of
@@ -167,9 +170,9 @@ def derived(
     seconds: dict[str, float] | None = None,
     ahead: Ahead | None = None,
 ) -> KernelSource:
-    """The C of a scene, derived now; each stage notes its seconds where somebody wants them.
+    """Derive the kernel source of a scene; each stage records its time in `seconds`.
 
-    A mistake in the file is told before SymPy is imported.
+    Errors in the file are reported before SymPy is imported.
     """
     with working(f"deriving {file.stem}, scene {scene}"), at_rest():  # nearly all that SymPy makes stays in its caches
         whole(*READER)
@@ -188,16 +191,13 @@ def derived(
 
 
 def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:
-    """Everything that decides the emitted C: the file's bytes, what is asked of it, and who emits it."""
+    """Return the cache key of a kernel source: a digest of the file's bytes, the request and the generator."""
     asked = json.dumps([scene, sorted(overrides.items()), formulation])
     return digest(["model/1", data, asked, generator_hash()])
 
 
 def generator_hash(package: Path = PACKAGE) -> str:
-    """Hash of the contents of the generator, its templates, what it reads with (`language`) and the stored form
-
-    (`contract`): 4 ms; times of files say nothing after a checkout.
-    """
+    """Return the hash of the files that decide the emitted C: contract, generator, language, templates."""
     parts: list[str | bytes] = []
     for folder in ("contract", "generator", "language", "templates"):
         for name, data in contents(package / folder, ".py", ".jinja"):

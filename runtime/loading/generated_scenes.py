@@ -1,7 +1,7 @@
-"""The format of `generated/<mechanism>/`: the kernel sources of a mechanism's scenes, each text stored once.
+"""Read and write `generated/<mechanism>/`: the kernel sources of a mechanism's scenes, each text stored once.
 
-Texts that a person reads are files, `<scene>/<name>`. All other texts, and the rest of each KernelSource, are in one
-compressed archive beside them. Scenes that have the same text refer to the file of the first one.
+Texts for readers are files, `<scene>/<name>`. All other texts, and the rest of each KernelSource, are in one compressed
+archive. Scenes with the same text refer to the file of the first one.
 """
 
 from __future__ import annotations

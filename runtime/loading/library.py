@@ -1,12 +1,11 @@
-"""A library opened: its functions as Python calls them, which takes neither a compiler nor Python.h (cffi's ABI mode).
+"""Open a compiled library and call its functions through cffi's ABI mode, without a compiler or Python.h.
 
-cffi's parser of declarations takes a tenth of a second to import. What it makes of the engine's is kept in declared.py,
-which `make generated` writes; other declarations, and the engine's while they are being edited, are parsed here.
+cffi's parser takes a tenth of a second to import. Its result for the engine's declarations is stored in declared.py,
+which `make generated` writes. Other declarations are parsed here.
 
-A wheel carries libraries for machines without a compiler (`carried`): shipped mechanisms, one run at a time.
-`tools/wheels.py` compiles them when it makes a wheel for a platform, without instructions that only some processors
-have; a clone has none. They are known by the texts that they were compiled from, so that an edited file, or another
-engine, never gets them.
+A wheel contains libraries of shipped mechanisms for machines without a compiler (`carried`), made by `tools/wheels.py`
+with portable instructions. They are identified by the texts that they were compiled from, so that an edited file or
+another engine never uses them.
 """
 
 from __future__ import annotations
@@ -28,12 +27,12 @@ from gudgeon.loading.shipped import PACKAGE
 from gudgeon.waiting.imports import CFFI, whole
 
 HASTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
-CARRIED = PACKAGE / "carried"
+CARRIED = PACKAGE / "carried"  # folder of the bundled libraries
 
 
 @dataclass(frozen=True)
 class Library:
-    """Of a kernel source: the file, what cffi knows of its declarations, its functions."""
+    """Hold an opened library: its file, cffi's interface and its functions."""
 
     file: Path
     ffi: Any
@@ -41,17 +40,17 @@ class Library:
 
 
 class Better(Protocol):
-    """A library that is being made (behind.py): both give it to `become`."""
+    """Provide an optimized library that is being made (behind.py); both methods pass it to `become`."""
 
     def look(self, functions: Functions) -> bool:
-        """At once, if it is there; whether it is still to come."""
+        """Use the library if it exists; return whether it is still to come."""
 
     def wait(self, functions: Functions) -> None:
-        """When it is there."""
+        """Wait for the library and use it."""
 
 
 class Functions:
-    """The functions of a library by name, which release the GIL; one that it does not have is an AttributeError."""
+    """Call the functions of a library by name; calls release the GIL. Missing ones raise AttributeError."""
 
     _behind: Better | None = None
 
@@ -59,6 +58,7 @@ class Functions:
         self._libraries = [library]  # the last one is called; others stay open, for a call may be in one
 
     def __getattr__(self, name: str) -> Any:
+        """Return a function of the newest library, and remember it."""
         if name.startswith("_"):
             raise AttributeError(name)
         library = self._libraries[-1]
@@ -73,28 +73,28 @@ class Functions:
 
     @property
     def haste(self) -> str:
-        """What is to be told of times that it takes: nothing, where no better one is being made."""
+        """Return a note for measured times while an optimized library is being made; else ""."""
         return HASTE if self._behind else ""
 
     def follow(self, behind: Better) -> None:
-        """A better library of the same texts is being made."""
+        """Register an optimized library of the same texts that is being made."""
         self._behind = behind
 
     def newest(self) -> None:
-        """Where a better one is being made: from now on that one, if it is there."""
+        """Switch to the optimized library if it exists by now."""
         if (behind := self._behind) and not behind.look(self):
             self._behind = None
 
     def best(self) -> None:
-        """The same when it is there: for what takes longer than a compiler does."""
+        """Wait for the optimized library and switch to it, before long computations."""
         if behind := self._behind:
             behind.wait(self)
             self._behind = None
 
     def become(self, other: Functions) -> None:
-        """From the next call on those of another library of the same texts, also where a run is under way.
+        """Use the functions of another library of the same texts from the next call on, even during a run.
 
-        Structs are laid out alike, and tables of the library that a run began in stay where they are.
+        Structs have the same layout, and tables of the library in which a run began stay in memory.
         """
         self._libraries.append(other._libraries[-1])
         for name in [name for name in vars(self) if not name.startswith("_")]:
@@ -102,8 +102,8 @@ class Functions:
 
 
 def opened(file: Path, cdef: str = "") -> Library:
-    """The library in a file: of the engine, or with these declarations. ImportError where it cannot be opened."""
-    ffi = _engines() if cdef in ("", lane_declarations()) else _parsed(cdef)
+    """Open the library in a file, of the engine or with given declarations. Raise ImportError."""
+    ffi = _engines() if cdef in ("", lane_declarations()) else _parse_declarations(cdef)
     try:
         return Library(file, ffi, Functions(ffi.dlopen(str(file))))
     except (OSError, UnicodeEncodeError) as error:  # cffi takes a path as UTF-8
@@ -112,11 +112,13 @@ def opened(file: Path, cdef: str = "") -> Library:
 
 @lru_cache(maxsize=1)
 def _engines() -> Any:
+    """Return cffi's interface to the engine's declarations."""
     text = all_declarations()
-    return declared.ffi if digest([text]) == declared.OF else _parsed(text)
+    return declared.ffi if digest([text]) == declared.OF else _parse_declarations(text)
 
 
-def _parsed(text: str) -> Any:
+def _parse_declarations(text: str) -> Any:
+    """Return cffi's interface to declarations that are parsed now."""
     whole(*CFFI)
     from cffi import FFI
 
@@ -126,7 +128,7 @@ def _parsed(text: str) -> Any:
 
 
 def carried(source: KernelSource) -> Library | None:
-    """The library of this source; None where the wheel has none for this machine, or the user names a compiler."""
+    """Return the bundled library of a source; None if there is none for this machine, or the user set $CC."""
     if os.environ.get("CC"):
         return None
     path = CARRIED / platform(sys.platform, os.uname().machine) / file_name(source)
@@ -137,10 +139,10 @@ def carried(source: KernelSource) -> Library | None:
 
 
 def platform(system: str, machine: str) -> str:
-    """The folder of such machines."""
+    """Return the name of the folder for a kind of machine."""
     return f"{system}-{machine}"
 
 
 def file_name(source: KernelSource) -> str:
-    """By everything that it was compiled from."""
+    """Return the name of a bundled library: a digest of everything that it is compiled from."""
     return digest(["carried/1", source.main, source.cdef, engine_digest(), *own_texts(source)])[:32] + ".so"

@@ -1,8 +1,7 @@
-"""What comes with gudgeon: the mechanism files, and the kernels that were generated from them.
+"""Find the mechanisms, studies and generated kernels that come with gudgeon.
 
-`generated/<mechanism>/` holds the KernelSource of each scene (generated_scenes.py). With it an unmodified shipped
-mechanism needs no derivation. Files in `mechanisms/gallery/` are found by name as those beside it are, and are derived
-where they are loaded: no C of them is kept.
+`generated/<mechanism>/` holds the KernelSource of each scene (generated_scenes.py), so that unmodified mechanisms need
+no derivation. Files in `mechanisms/gallery/` are found by name too, but their C is not stored.
 """
 
 from __future__ import annotations
@@ -18,46 +17,47 @@ MECHANISMS = PACKAGE / "mechanisms"
 GALLERY = MECHANISMS / "gallery"
 STUDIES = PACKAGE / "study_files"
 GENERATED = PACKAGE / "generated"
-STUDY = b"format: gudgeon-study/"
+STUDY = b"format: gudgeon-study/"  # text that marks the file of a study
 
 
 def shipped() -> tuple[str, ...]:
-    """The names of the mechanisms that come with gudgeon, sorted."""
+    """Return the names of the mechanisms that come with gudgeon, sorted."""
     return tuple(sorted(path.stem for folder in (MECHANISMS, GALLERY) for path in folder.glob("*.yaml")))
 
 
 def generated() -> tuple[str, ...]:
-    """Those whose C comes with gudgeon too, sorted."""
+    """Return the names of the mechanisms whose C comes with gudgeon too, sorted."""
     return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
 
 
 def shipped_studies() -> dict[str, Path]:
-    """Files of the studies that come with gudgeon, by name; mechanisms that they bring along stand beside them."""
+    """Return the files of the studies that come with gudgeon, by name."""
     found = sorted(STUDIES.glob("*.yaml"))
     return {path.stem: path.resolve() for path in found if STUDY in path.read_bytes()}
 
 
 def shipped_file(name: str) -> Path:
-    """The file of a shipped mechanism. Raises UnknownNameError, which names the nearest and all.
+    """Return the file of a shipped mechanism. Raise UnknownNameError with the nearest names.
 
-    InputError where none are installed.
+    Raises InputError if none are installed.
     """
     names = shipped()
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
         return file.resolve()  # in a clone the package has links: show the real file
-    raise _unknown("mechanism", name, names)
+    raise _unknown_name_error("mechanism", name, names)
 
 
 def shipped_study(name: str) -> Path:
-    """The file of a shipped study. Raises UnknownNameError, InputError as shipped_file."""
+    """Return the file of a shipped study. Raise UnknownNameError or InputError as `shipped_file`."""
     found = shipped_studies()
     if name in found:
         return found[name]
-    raise _unknown("study", name, tuple(found))
+    raise _unknown_name_error("study", name, tuple(found))
 
 
-def _unknown(what: str, name: str, names: tuple[str, ...]) -> InputError:
+def _unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputError:
+    """Return the error for an unknown name, or for an installation without such files."""
     if not names:
         told = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
         return InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
@@ -71,7 +71,7 @@ def _unknown(what: str, name: str, names: tuple[str, ...]) -> InputError:
 
 
 def committed_header(mechanism: str, scene: str) -> str:
-    """The model.h that is committed for a scene, whatever bytes of YAML it was made from; "" where there is none."""
+    """Return the committed model.h of a scene, for any version of its YAML; "" if there is none."""
     if not (mechanism.isidentifier() and scene.isidentifier()):
         return ""
     try:
@@ -81,7 +81,7 @@ def committed_header(mechanism: str, scene: str) -> str:
 
 
 def committed(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
-    """The committed kernels of a shipped mechanism's scene, if they were made from these very bytes of YAML."""
+    """Return the committed kernel source of a shipped scene, if it was made from these bytes of YAML; else None."""
     if not (mechanism.isidentifier() and scene.isidentifier()):
         return None  # a name must not walk out of the folder
     source = read_scene(GENERATED / mechanism, scene)

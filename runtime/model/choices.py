@@ -1,8 +1,8 @@
-"""Choices of a run by name, materials of bearings and of bodies' shapes: slots whose numbers are places of words.
+"""Handle choices of a run by name, such as materials: parameters whose values are indices into lists of words.
 
-What a choice is called, "bearings.pin.journal_material", begins the addresses of the numbers that follow it: those of
-the chosen material, as the run has them ("materials.bronze.E"), unless they are given themselves. They are filled in
-before C sees them, so that nothing is derived or compiled anew.
+The address of a choice, "bearings.pin.journal_material", begins the addresses of the values that depend on it. These
+are the values of the chosen material in this run ("materials.bronze.E"), unless they are given themselves. They are
+filled in before C reads them, so that nothing is derived or compiled again.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from gudgeon.language.wanted import told
 
 Array: TypeAlias = NDArray[Any]
 
-OTHERWISE = "the scene's is"  # in remarks on what is chosen
+OTHERWISE = "the scene's is"  # phrase in notes on choices
 
 
 def place_of_word(value: Any, slot: Slot) -> float:
-    """The number of a slot that has words. Raises UnknownNameError with the nearest, BadValueError for no name."""
+    """Return the value of a parameter that has words: the index of a word. Raise UnknownNameError, BadValueError."""
     if not isinstance(value, str):
         raise BadValueError(f"{slot.address} is {told(value)}: expected one of: {', '.join(slot.words)}")
     if value.strip() not in slot.words:
@@ -35,7 +35,7 @@ def place_of_word(value: Any, slot: Slot) -> float:
 
 
 def choice_of_a_law(source: KernelSource, address: str) -> tuple[str, str]:
-    """(message, hint) about the address of a contact's law or of one of its options, which C is made of; else ""."""
+    """Return message and hint for the address of a contact's law or its options, which are compiled; else ""."""
     from gudgeon.generator.kinds.laws.law import called  # imports no SymPy
 
     section, name, role, key = [*address.split("."), "", "", "", ""][:4]
@@ -51,7 +51,7 @@ def choice_of_a_law(source: KernelSource, address: str) -> tuple[str, str]:
 
 
 def expression_by_name(source: KernelSource, address: str) -> tuple[str, str]:
-    """The same of an expression that the file has by name."""
+    """Return message and hint for the address of a named expression of the file, which is compiled; else ""."""
     whole = f"expressions.{address.removeprefix('expressions.')}"
     one = next((one for one in source.expressions if one.address == whole), None)
     if one is None:
@@ -66,7 +66,7 @@ def expression_by_name(source: KernelSource, address: str) -> tuple[str, str]:
 
 
 def said(slot: Slot, value: float) -> float | str:
-    """What a slot's number is to be called: the word that it stands for, or itself. ValueError for no word's place."""
+    """Return a parameter's value as users see it: its word, or the number. Raise ValueError for an invalid index."""
     if not slot.words:
         return float(value)
     if value not in range(len(slot.words)):
@@ -75,17 +75,17 @@ def said(slot: Slot, value: float) -> float | str:
 
 
 def of_runs(slot: Slot, values: Array) -> Any:
-    """Values of many runs, (n,): numbers, or texts."""
+    """Return the values of a parameter in n runs, (n,): numbers, or words."""
     return np.array([said(slot, x) for x in values.tolist()], dtype=object) if slot.words else values.copy()
 
 
 def choices(source: KernelSource) -> tuple[int, ...]:
-    """Which slots are choices."""
+    """Return the indices of the parameters that are choices."""
     return tuple(k for k, slot in enumerate(source.slots) if slot.words)
 
 
 def filled_in(source: KernelSource, chosen: Iterable[int], given: Array, is_given: Array, p: Array) -> tuple[Any, Any]:
-    """Values and mask, (n_slots,) each, with the numbers of what is chosen, as they are in p."""
+    """Return values and mask (n_slots,) with the values that depend on the `chosen` parameters, taken from p."""
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     values, mask = given.copy(), is_given.copy()
     for k in chosen:
@@ -97,7 +97,7 @@ def filled_in(source: KernelSource, chosen: Iterable[int], given: Array, is_give
 
 
 def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
-    """A remark on what a run chooses otherwise than its scene does."""
+    """Return a note for each choice of a run that differs from its scene's."""
     return tuple(
         f"{slot.address} is {said(slot, float(given[k]))} ({OTHERWISE} {said(slot, slot.default)})"
         for k, slot in ((k, source.slots[k]) for k in np.flatnonzero(is_given).tolist())
@@ -106,5 +106,5 @@ def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[s
 
 
 def tells_choice(text: str) -> bool:
-    """Whether a remark is one of these."""
+    """Return whether a note is about a choice."""
     return f" ({OTHERWISE} " in text

@@ -1,4 +1,6 @@
-"""Where a bearing or a guide is: depths of contours by joint and angle, corners of a slider in their guide."""
+"""Describe the shapes of bearings and guides: contour depths by joint and angle, and corners of a slider in its
+guide.
+"""
 
 from __future__ import annotations
 
@@ -21,13 +23,13 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 Contours = Mapping[str, ArrayLike]
-_WANTED = "{joint: depths (m) at equal angles}"
+_WANTED = "{joint: depths (m) at equal angles}"  # expected form of the argument `contour`
 Number = TypeVar("Number", float, Array)
 _DEPTH, _RATE = (CLEARANCE_COLUMNS.index(name) for name in ("delta", "deltadot"))
 
 
 def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
-    """Depths of the joints that are given, (n,) each, n as many as the file has there; with `runs` (N, n) too.
+    """Return the checked depths of the given joints, (n,) each as in the file; with `runs` also (N, n).
 
     Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths, BadValueError for
     different numbers of runs.
@@ -48,12 +50,12 @@ def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> di
 
 
 def of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
-    """Those of run i."""
+    """Return the contours of run i."""
     return {joint: own[i] if own.ndim == 2 else own for joint, own in contours.items()}
 
 
 def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_given: NDArray[Any]) -> None:
-    """Depths (n,) by joint among values and mask of the slots, (n_slots,) each. BadValueError for one given twice."""
+    """Write the depths (n,) by joint into values and mask (n_slots,). Raise BadValueError for depths given twice."""
     for one in source.contours:
         if one.joint in contour:
             own = slice(one.first, one.first + one.count)
@@ -63,7 +65,7 @@ def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_giv
 
 
 def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
-    """Depths (..., n) that p (..., n_slots + n_derived) has; None of a joint whose bearing is a circle."""
+    """Return the depths (..., n) of a joint from p (..., n_slots + n_derived); None if its bearing is a circle."""
     for one in source.contours:
         if one.joint == joint:
             return np.asarray(p[..., one.first : one.first + one.count])
@@ -71,16 +73,16 @@ def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
 
 
 def widest(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
-    """The radial clearance (m) of a joint with play, of a contour at its deepest place."""
+    """Return the radial clearance (m) of a joint with play, at the deepest point of its contour."""
     depths, c = contour_of(source, p, joint.name), float(p[joint.clearance])
     return c if depths is None else c + float(depths.max())
 
 
 def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
-    """The contour through depths (n,), m, at angles (rad) in the bearing's frame, or its first or second derivative.
+    """Return the contour depth (m) or its first or second derivative at angles (rad) in the bearing's frame.
 
-    As engine/scene/contour.h has it: polynomials of degree five whose ends have slopes and second derivatives by
-    central differences.
+    The contour passes through depths (n,). As in engine/scene/contour.h, it consists of polynomials of degree five,
+    with slopes and second derivatives at their ends by central differences.
     """
     w, count = np.asarray(depths, float), len(np.asarray(depths))
     turns = np.asarray(angle, float) / (2.0 * np.pi)
@@ -97,7 +99,7 @@ def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
 
 
 def narrowest(source: KernelSource, p: Array) -> Array:
-    """Radial clearances (m), of contours at their shallowest, (..., n_clearances) of p (..., n_slots + n_derived)."""
+    """Return the radial clearances (m), at the shallowest point of contours: (..., n_clearances) of p."""
     own = p[..., [joint.clearance for joint in source.clearances]]
     for one in source.contours:
         place = next(k for k, joint in enumerate(source.clearances) if joint.name == one.joint)
@@ -106,14 +108,14 @@ def narrowest(source: KernelSource, p: Array) -> Array:
 
 
 def in_contours(source: KernelSource) -> frozenset[int]:
-    """Slots that are depths of contours: a run sets them together."""
+    """Return the indices of the parameters that are contour depths; a run sets them together."""
     return frozenset(k for one in source.contours for k in range(one.first, one.first + one.count))
 
 
 def corner_gap(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, number: int) -> tuple[float, float]:
-    """Penetration δ (m) and δ̇ (m/s) at joint with play `number`, a corner, at q, v (n,).
+    """Return penetration δ (m) and δ̇ (m/s) of the slider corner that is joint `number`, at q, v (n,).
 
-    Where the equations of motion have no solution it is NaN: the run itself tells.
+    They are NaN where the equations of motion have no solution.
     """
     memory = np.zeros(compiled.n_memory)
     memory[: len(compiled.source.clearances)] = math.nan
@@ -125,7 +127,7 @@ def corner_gap(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, 
 
 
 def corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number) -> Number:
-    """Return how much nearer to its wall than in the middle of the guide a corner is, m, of one position or of many.
+    """Return how much nearer to its wall a corner is than in the middle of the guide, m; for one or many positions.
 
     With the slider's offset o across the guide (m), its tilt φ (rad), half length a, half height b and corner radius r
     it is ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1).
@@ -137,7 +139,7 @@ def corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Numb
 
 
 def slider_of(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
-    """A guide's address, half the slider's length and height and the radius of its corners, m."""
+    """Return a guide's address, half length and half height of the slider, and the radius of its corners, m."""
     guide = source.slots[joint.clearance].address.rpartition(".")[0]
     a, b, radius = (
         float(p[source.place[address]]) if (address := f"{guide}.{what}") in source.place else 0.0

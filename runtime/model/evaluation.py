@@ -1,4 +1,4 @@
-"""Everything that follows from samples of a run, in one pass of C over them, and the memory that samples take."""
+"""Evaluate all quantities of a run's samples in C, and estimate the memory that samples take."""
 
 from __future__ import annotations
 
@@ -29,15 +29,16 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[np.float64]
 
 CLEARANCE_COLUMNS = CLEARANCE_COLUMN_NAMES
-MANY = 10_000  # samples from which on it is asked whether there is memory for what follows from them
-FIRST, SOON = 256, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
-OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
-OF_A_RUN = 1000  # bytes, about: a run's own lists and counts
+MANY = 10_000  # samples from which on the memory is checked before an evaluation
+FIRST, SOON = 256, 5e-3  # samples of the first call of C, and the time (s) of a call, so that Ctrl-C is handled soon
+# quantities that one C function of the scene computes together
+OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})
+OF_A_RUN = 1000  # bytes, about: lists and counts of a run
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """Everything that follows from N samples, SI; what was not asked for has no row."""
+    """Hold the quantities at N samples, SI units; fields that were not requested have no rows."""
 
     a: Array  # (N, n) q̈
     multipliers: Array  # (N, m) λ
@@ -51,7 +52,7 @@ class Evaluation:
     drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
 
 
-PARTS = frozenset(field.name for field in fields(Evaluation))
+PARTS = frozenset(field.name for field in fields(Evaluation))  # names of the fields of an Evaluation
 
 
 def evaluate(
@@ -64,16 +65,20 @@ def evaluate(
     take: Callable[[], object],
     parts: Collection[str],
 ) -> Evaluation:
-    """See CompiledModel.evaluate."""
+    """Return the quantities at N samples of one run; arguments as in CompiledModel.evaluate."""
     time = taken(t, "t", (None,))
-    if compiled.beyond:  # velocities are those behind a corner, and rounding hides on which side of it t is
+    if compiled.beyond:  # velocities are those after a switching point; rounding hides the side of t
         time = np.asarray(time + around(time))
     N = len(time)
-    latched = _table(memory, "memory", N, None)
+    latched = _check_table(memory, "memory", N, None)
     if compiled.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
-        _table(latched, "memory", N, compiled.n_memory)
-    inputs = (("q", _table(q, "q", N, compiled.n)), ("v", _table(v, "v", N, compiled.n)), ("memory", latched))
-    out = _room(compiled, N, parts)
+        _check_table(latched, "memory", N, compiled.n_memory)
+    inputs = (
+        ("q", _check_table(q, "q", N, compiled.n)),
+        ("v", _check_table(v, "v", N, compiled.n)),
+        ("memory", latched),
+    )
+    out = _allocate(compiled, N, parts)
     failed, first, chunk, none = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
     results, numbers = tuple(vars(out).values()), compiled.pointer(taken(p, "p", (compiled.n_p,)))  # in C's order
     while first < N:
@@ -101,13 +106,16 @@ def evaluate_runs(
     p: Array,
     parts: Collection[str],
 ) -> Evaluation:
-    """The same at few samples of several runs, one behind the other: counts[i] of run i, whose numbers are p[i]."""
+    """Return the quantities at few samples of several runs: counts[i] samples of run i with values p[i].
+
+    The samples of the runs follow each other.
+    """
     N, time = sum(counts), t + around(t) if compiled.beyond else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
     given = [compiled.pointer(taken(values, name, shape)) for name, values, shape in shapes]
     given.append(compiled.pointer(taken(memory, "memory", (N, compiled.n_memory))))
     numbers = compiled.pointer(taken(p, "p", (len(counts), compiled.n_p)))
-    out, failed = _room(compiled, N, parts), compiled.ffi.new("long *")
+    out, failed = _allocate(compiled, N, parts), compiled.ffi.new("long *")
     filled = [compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(out).values()]
     of_each = compiled.ffi.new("long[]", counts)
     status = compiled.lib.gudgeon_evaluate_runs(len(counts), of_each, *given, numbers, compiled.n_p, *filled, failed)
@@ -117,17 +125,17 @@ def evaluate_runs(
 
 
 def around(t: Array) -> Array:
-    """s, so near to a time t that rounding may hide on which side of a corner it is."""
+    """Return the distance (s) from times t within which rounding may hide on which side of a switching point t is."""
     return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
 
 def evaluated_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
-    """Of what follows from one sample; None: all of it."""
+    """Return the bytes of an evaluation per sample; `parts` None: of all fields."""
     return 8 * sum(math.prod(none.shape[1:]) for name, none in compiled.none if parts is None or name in parts)
 
 
-def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
-    """What C fills, until then NaN; (0, ...) of a part that nobody wants."""
+def _allocate(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
+    """Return an Evaluation for C to fill, NaN until then; fields that are not requested have no rows."""
     wanted = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
     if N > MANY:
         check_memory(float(N) * evaluated_bytes(compiled, wanted), f"what follows from {N} samples")
@@ -136,7 +144,7 @@ def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation
 
 
 def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
-    """Of each part its name and what it is without a row."""
+    """Return the names of all fields of an Evaluation, with empty arrays of their shapes."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,),
@@ -154,7 +162,7 @@ def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
 
 
 def _mark_indeterminate(compiled: CompiledModel, out: Evaluation) -> None:
-    """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it; or masses are missing."""
+    """Set forces to NaN that redundant constraints leave undetermined, or all if masses are missing."""
     s = compiled.source
     for unknown in (out.multipliers, out.reactions, out.torques, out.energy, out.power) if s.massless else ():
         unknown[:] = np.nan
@@ -164,8 +172,8 @@ def _mark_indeterminate(compiled: CompiledModel, out: Evaluation) -> None:
         out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
 
-def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
-    """Checked as `taken` does; of an array of doubles, however it lies, no copy: its rows are taken piece by piece."""
+def _check_table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
+    """Return checked values (rows, columns); arrays of doubles of any layout are not copied."""
     if type(values) is not np.ndarray or values.dtype != np.float64:
         return taken(values, name, (rows, columns))
     taken(values[:0] if values.ndim else values, name, (0, columns))
@@ -173,7 +181,7 @@ def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Arra
 
 
 def sample_bytes(compiled: CompiledModel) -> int:
-    """Of one sample as methods keep it: its time, motion (of a kinematic scene q̈ too), works, memory and codes."""
+    """Return the bytes of a sample as methods store it: time, motion, works, discrete states and codes."""
     orders = 2 if compiled.source.degrees_of_freedom else 3
     numbers = 1 + orders * compiled.n + N_WORK + max(compiled.n_memory, 1)
     return 8 * numbers + max(len(compiled.source.clearances), 1)
@@ -187,10 +195,10 @@ def check_room(
     parts: Collection[str] = (),
     at_once: int = 1,
 ) -> None:
-    """MemoryError where the samples of so many runs, each with as many, are more than there is memory for.
+    """Raise MemoryError if the samples of so many runs do not fit into memory.
 
-    kept: these series of each run in place of its states, which then lie there `at_once` runs at a time, with the
-    `parts` that they follow from.
+    kept: names of series that are stored in place of the states. The states then exist for `at_once` runs at a time,
+    with the `parts` that the series need.
     """
     if kept is None:
         size = float(samples) * sample_bytes(compiled) * runs

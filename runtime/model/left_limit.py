@@ -1,8 +1,8 @@
-"""The last instant of a run belongs to the motion before it: accelerations there are left limits.
+"""Choose the evaluation times of samples: accelerations at the last instant of a run are left limits.
 
-Where the acceleration that a drive prescribes switches exactly at the end (a curve that is held, `where`, `ramp`), the
-last sample is evaluated just before. A jump of the rate is an impulse, after which the velocities of the last sample
-are: there the side after it stays, so that a run that goes on from this one begins with the same velocities.
+A drive's acceleration may switch exactly at the end (extrapolated curve, `where`, `ramp`). The last sample is then
+evaluated just before. A jump of the rate is an impulse that the last velocities already contain. There, the side after
+it is used, so that a run that resumes from this one begins with the same velocities.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
 
-JUMP_TOL = 1e-6  # of the values on both sides: a smaller difference is none of a switch
-STEEPEST = 1e3  # times as fast as the rows' accelerations, a smooth change of ν between both sides may be
+JUMP_TOL = 1e-6  # relative difference of the values on both sides from which on it counts as a jump
+STEEPEST = 1e3  # a smooth change of ν between both sides may be so many times as fast as the accelerations
 
 
 def may_switch(compiled: CompiledModel) -> bool:
@@ -46,7 +46,7 @@ def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: A
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
     nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
     smooth = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
-    switches = _jumps(*gamma).any() and not (_jumps(*nu) & (np.abs(nu[1] - nu[0]) > smooth)).any()
+    switches = _has_jump(*gamma).any() and not (_has_jump(*nu) & (np.abs(nu[1] - nu[0]) > smooth)).any()
     return np.append(t[:-1], before) if switches and before > previous else t
 
 
@@ -56,5 +56,6 @@ def evaluation_times_of(run: Result, compiled: CompiledModel) -> Array:
     return evaluation_times(compiled, run.t, run.q, run.v, run.p, begin)
 
 
-def _jumps(one: Array, other: Array) -> NDArray[np.bool_]:
+def _has_jump(one: Array, other: Array) -> NDArray[np.bool_]:
+    """Return a mask of the values that differ by more than JUMP_TOL."""
     return np.asarray(np.abs(one - other) > JUMP_TOL * (np.abs(one) + np.abs(other)))

@@ -1,4 +1,4 @@
-"""The parameters of many runs: rows of slots, from a sequence of mappings or from columns."""
+"""Read the parameters of many runs, from a sequence of mappings or from columns."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, 
 from gudgeon.model.sizes import far_clearances
 from gudgeon.model.written import undefined_rows
 
-FLOATS = (float, np.floating)  # what may be no number
+FLOATS = (float, np.floating)  # types that may hold NaN
 Values: TypeAlias = float | str
 ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
 Mask: TypeAlias = NDArray[np.bool_]
@@ -28,7 +28,7 @@ Mask: TypeAlias = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Same:
-    """A column of one value that stands for all runs."""
+    """Hold a column with one value for all runs."""
 
     value: Any
 
@@ -37,58 +37,62 @@ Column: TypeAlias = Array | list[Any] | Same
 
 
 class Columns(Sequence[Mapping[str, Any]]):
-    """The mappings of n runs, each made when it is asked for: a column a name, without what a run leaves out."""
+    """Provide the parameter mapping of each of n runs from columns by name, without the values left out."""
 
     def __init__(self, columns: Mapping[str, Column], n: int) -> None:
         self.columns, self.n = columns, n
-        self.left_out: dict[int, list[str]] = {}
+        self.left_out: dict[int, list[str]] = {}  # names that are left out, by run
 
     def __len__(self) -> int:
+        """Return the number of runs."""
         return self.n
 
     def __getitem__(self, key: Any) -> Any:
+        """Return the mapping of one run, or the list of those of a slice."""
         at = range(self.n)[key]
         if isinstance(at, range):
             return [self[i] for i in at]
         out = self.left_out.get(at, ())
-        return {name: _of_run(one, at) for name, one in self.columns.items() if name not in out}
+        return {name: _value_of_run(one, at) for name, one in self.columns.items() if name not in out}
 
     def leave_out(self) -> dict[int, BadValueError]:
-        """Leaves out numbers that are NaN or infinite; of each run that has any, what is said of the first."""
+        """Leave out values that are NaN or infinite; return an error for each run that has any, by index."""
         bad: dict[int, BadValueError] = {}
         for name, one in self.columns.items():
-            for i in _odd(one, self.n):
+            for i in _not_finite_in(one, self.n):
                 self.left_out.setdefault(i, []).append(name)
-                bad.setdefault(i, BadValueError(f"{name}: {_of_run(one, i)} is not a finite number"))
+                bad.setdefault(i, BadValueError(f"{name}: {_value_of_run(one, i)} is not a finite number"))
         return dict(sorted(bad.items()))
 
 
-def _of_run(one: Column, i: int) -> Any:
+def _value_of_run(one: Column, i: int) -> Any:
+    """Return the value of a column for run i."""
     if isinstance(one, Same):
         return one.value
     return one.item(i) if isinstance(one, np.ndarray) else one[i]
 
 
-def _odd(one: Column, n: int) -> Iterable[int]:
-    """Which of n runs have a number there that is NaN or infinite."""
+def _not_finite_in(one: Column, n: int) -> Iterable[int]:
+    """Return the indices of the runs whose value in a column is NaN or infinite."""
     if isinstance(one, Same):
-        return range(n if _is_odd(one.value) else 0)
+        return range(n if _is_not_finite(one.value) else 0)
     if isinstance(one, np.ndarray):
         return list[int](np.flatnonzero(~np.isfinite(one)).tolist())
-    return [i for i, x in enumerate(one) if _is_odd(x)]
+    return [i for i, x in enumerate(one) if _is_not_finite(x)]
 
 
-def _is_odd(x: Any) -> bool:
+def _is_not_finite(x: Any) -> bool:
+    """Return whether a value is a float that is NaN or infinite."""
     return isinstance(x, FLOATS) and not math.isfinite(x)
 
 
 def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
-    """A mapping for each run, and runs that have none: one of their numbers is NaN or infinite.
+    """Return a parameter mapping for each run, and errors of runs with NaN or infinite values, by index.
 
-    `parameters`: a mapping for every run; or {address: one value, or one for every run}, as which a structured
-    array counts too. Raises BadValueError.
+    `parameters`: a mapping for every run; or {address: one value, or one for every run}, also as a structured array.
+    Raises BadValueError.
     """
-    rows, bad = _rows(parameters), dict[int, BadValueError]()
+    rows, bad = _read_rows(parameters), dict[int, BadValueError]()
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
     if isinstance(rows, Columns):
@@ -96,7 +100,7 @@ def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dic
     elif len(rows) > 1:
         floats = [x for row in rows for x in row.values() if isinstance(x, FLOATS)]
         for i, row in enumerate(() if all(map(math.isfinite, floats)) else rows):
-            if odd := [name for name, x in row.items() if _is_odd(x)]:
+            if odd := [name for name, x in row.items() if _is_not_finite(x)]:
                 bad[i] = BadValueError(f"{odd[0]}: {row[odd[0]]} is not a finite number")
                 rows[i] = {name: value for name, value in row.items() if name not in odd}
     if len(bad) == len(rows):
@@ -105,16 +109,17 @@ def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dic
 
 
 def given_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
-    """Values and mask of the slots that are given, (n_runs, n_slots) each; raises as `given_slots`."""
+    """Return values and mask (n_runs, n_slots) of the given parameters; raises as `given_slots`."""
     plain = plain_each(source, rows)
     found: tuple[Array, Mask] = each_of(rows, lambda _, row: given_slots(source, row)) if plain is None else plain
     return found
 
 
 def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
-    """The same at once, where all runs are given the same slots as floats; None where each is to be read by itself.
+    """Return values and mask (n_runs, n_slots) if all runs give the same parameters as floats; else None.
 
-    In columns one value for all runs may be anything that stands for a number.
+    This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a
+    number.
     """
     first, place = rows[0].keys(), source.place
     if not isinstance(rows, Columns):
@@ -124,10 +129,10 @@ def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple
     at = [place.get(name, place.get(f"parameters.{name}", -1)) for name in rows.columns if isinstance(name, str)]
     if len(at) < len(rows.columns) or len({*at, -1}) <= len(at) or any(source.slots[k].words for k in at):
         return None
-    shape = (len(place), len(rows))  # memory of slots that nobody is given is never touched
+    shape = (len(place), len(rows))  # memory of parameters that no run gives is never touched
     given, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
     for k, one in zip(at, rows.columns.values(), strict=True):
-        numbers = _plain(one, source.slots[k])
+        numbers = _read_floats(one, source.slots[k])
         if numbers is None:
             return None
         given[:, k], mask[:, k] = numbers, True
@@ -137,8 +142,8 @@ def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple
     return (given, mask) if np.isfinite(given[:, at]).all() else None
 
 
-def _plain(one: Column, slot: Slot) -> Array | float | None:
-    """The numbers of a column, NaN and infinite ones too; None where they are to be read one by one."""
+def _read_floats(one: Column, slot: Slot) -> Array | float | None:
+    """Return the numbers of a column, including NaN; None if they must be read one by one."""
     if isinstance(one, Same):
         try:
             return number(one.value, slot)
@@ -152,7 +157,7 @@ def _plain(one: Column, slot: Slot) -> Array | float | None:
 
 
 def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]) -> Any:
-    """Values and mask of the slots that are given, (n_runs, n_slots) each; `slots` of a run. BadValueError names it."""
+    """Return values and mask (n_runs, n_slots) by calling `slots` for each run. BadValueError names the run."""
     pairs = []
     for i, row in enumerate(rows):
         try:
@@ -162,7 +167,8 @@ def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str
     return np.array([given for given, _ in pairs]), np.array([mask for _, mask in pairs])
 
 
-def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
+def _read_rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
+    """Return the parameters as a list of mappings or as Columns. Raise BadValueError."""
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)
         parameters = {name: table[name] for name in parameters.dtype.names}
@@ -175,7 +181,7 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
             raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
         return rows
     parameters = mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
-    columns = {name: _column(f"parameters: {name}", values) for name, values in parameters.items()}
+    columns = {name: _read_column(f"parameters: {name}", values) for name, values in parameters.items()}
     lengths = {name: len(column) for name, column in columns.items() if not isinstance(column, Same)}
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
@@ -185,13 +191,13 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
 
 
 def column(name: str, values: Any) -> list[Any] | None:
-    """The values of every run; None where one stands for all. Raises BadValueError, which begins with `name`."""
-    found = _column(name, values)
+    """Return the values of every run, or None if one holds for all. Raise BadValueError, which begins with `name`."""
+    found = _read_column(name, values)
     return None if isinstance(found, Same) else found.tolist() if isinstance(found, np.ndarray) else found
 
 
-def _column(name: str, values: Any) -> Column:
-    """The same as it is kept in Columns."""
+def _read_column(name: str, values: Any) -> Column:
+    """Return the values of one name as a column. Raise BadValueError."""
     try:
         shape = () if isinstance(values, (str, bytes, Mapping, type)) else np.shape(values)
     except ValueError:  # rows of different lengths
@@ -202,22 +208,22 @@ def _column(name: str, values: Any) -> Column:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
         return taken(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
-    return list(values) if hasattr(values, "__iter__") else _column(name, np.asarray(values))  # by __array__ alone
+    return list(values) if hasattr(values, "__iter__") else _read_column(name, np.asarray(values))  # by __array__ alone
 
 
 def prepare_sets(
     compiled: CompiledModel, given: Array, is_given: Mask, free: bool
 ) -> tuple[Array, Array, dict[int, BadValueError]]:
-    """Parameters of all runs, (n_runs, n_slots + n_derived): as they are, and of the motion.
+    """Return the values of all runs, (n_runs, n_slots + n_derived), those for the motion, and invalid runs.
 
-    With `free` the motion is without Baumgarte's terms. Then the runs, by number, whose parameters break a
-    condition of the file.
+    With `free`, the values for the motion have no Baumgarte gains. Runs are invalid if their parameters break a
+    condition of the file; their errors are returned by index.
     """
     p = compiled.prepare_each(given, is_given)
     motion = without_baumgarte(compiled, given, is_given) if free else p
     bad = {}
     parts = [slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)]
-    valid = [_valid(compiled.source, p[part], is_given[part]) for part in parts]
+    valid = [_satisfies_conditions(compiled.source, p[part], is_given[part]) for part in parts]
     for i in np.flatnonzero(~np.concatenate(valid)).tolist():
         try:
             check(compiled.source, p[i], is_given[i])
@@ -226,8 +232,8 @@ def prepare_sets(
     return p, motion, bad
 
 
-def _valid(source: KernelSource, p: Array, is_given: Mask) -> Mask:
-    """What parameters.check asks for, of several runs at once, (n_runs,)."""
+def _satisfies_conditions(source: KernelSource, p: Array, is_given: Mask) -> Mask:
+    """Return a mask (n_runs,) of the runs that satisfy the conditions of parameters.check."""
     place = source.place
     valid = np.asarray(np.isfinite(p).all(axis=1))
     for condition in conditions(source):

@@ -1,4 +1,4 @@
-"""Run-time numbers: addresses to slots, units, and the conditions that every value must satisfy."""
+"""Read run-time parameters: addresses, units, and the conditions that every value must satisfy."""
 
 from __future__ import annotations
 
@@ -22,28 +22,29 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance, zero_inertia
 from gudgeon.model.written import undefined_number
 
-# a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
+# a number as files have it, in ASCII digits without '_'; float() accepts more
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 # such a number where a file is sure to take it: whole parts begin with one zero at most, exponents are below 400
 _MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]?[0-3]?[0-9]{1,2}"
 _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")
 # a number and a unit without the space that the file format wants between them: nothing else can be meant
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
-GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
-TOGETHER = {"gains": GAINS}  # one name for several numbers
+GAINS = ("baumgarte.alpha", "baumgarte.beta")  # Baumgarte's gains, which only rk4 in the full formulation uses
+TOGETHER = {"gains": GAINS}  # one name for several parameters
 ZERO = "0.0"  # a literal zero of the file, as JSON
-MOST_GAIN = 1e150  # 1/s: its square is a number
-FAR, MOST_TOLD = 60.0, 3  # powers of ten from 1, beyond which a number makes others overflow; how many are told
+MOST_GAIN = 1e150  # 1/s: its square is still a double
+# powers of ten from 1 beyond which a value makes others overflow; and how many such values are listed
+FAR, MOST_TOLD = 60.0, 3
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
 def given_slots(
     source: KernelSource, parameters: Mapping[str, float | str] | None, what: str = "parameters"
 ) -> tuple[Array, Array]:
-    """Values and mask, (n_slots,) each, from {address or parameter name: float or '0.5 mm'}.
+    """Return values and mask (n_slots,) from {address or parameter name: float or '0.5 mm'}.
 
-    None is an empty one, and a Series of pandas counts. `what` the mapping is called where it is wrong. Raises
-    UnknownNameError; BadValueError for a number given twice, by two spellings of its address.
+    None is an empty mapping; a pandas Series is accepted. `what` names the mapping in messages. Raises
+    UnknownNameError, and BadValueError for a parameter given twice, by two spellings of its address.
     """
     parameters = mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
     place = source.place
@@ -52,7 +53,7 @@ def given_slots(
         address = name if name in place else f"parameters.{name}"
         several = TOGETHER.get(name, ()) if address not in place else (address,)
         if not several or several[0] not in place:
-            raise _unknown(name, source)
+            raise _unknown_parameter(name, source)
         for own in several:
             k = place[own]
             if k in spelled:
@@ -62,25 +63,25 @@ def given_slots(
 
 
 def addresses(source: KernelSource) -> list[str]:
-    """What a number of the run may be called: by its address, a parameter by its short name, gains together."""
+    """Return all names of run-time parameters: addresses, short names of parameters, and names of groups."""
     found = [slot.address for slot in source.slots]
     together = [name for name, several in TOGETHER.items() if several[0] in found and f"parameters.{name}" not in found]
     return [address.removeprefix("parameters.") for address in found] + found + together
 
 
 def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
-    """(message, hint) about an address that holds an expression of t or motion, or a 0; "" for another one."""
-    if (found := _of_the_run(address))[0]:
+    """Return message and hint for an address with an expression of t or motion, or a 0; "" for others."""
+    if (found := _explain_run_option(address))[0]:
         return found
     meant = (address, *(one.address for one in source.written if one.address.partition(".")[2] == address))
     address = meant[-1]  # "motor.value" too
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        several = (expression_by_name, _unplaced_journal, _only_material, _of_motion, choice_of_a_law)
+        several = (expression_by_name, _explain_eccentricity, _explain_material, _explain_motion, choice_of_a_law)
         return next((words for one in several if (words := one(source, address))[0]), ("", ""))
     key = address.rpartition(".")[2]
     if written is not None and written.tree == ZERO:
-        return _literal_zero(address, key)
+        return _explain_zero(address, key)
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
@@ -88,8 +89,8 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     )
 
 
-def _of_the_run(address: str) -> tuple[str, str]:
-    """The same of what a scene's `simulate` says: the run has it from its options."""
+def _explain_run_option(address: str) -> tuple[str, str]:
+    """Return message and hint for the address of a scene's `simulate`, which options of the run set; else ""."""
     section, _, key = address.rpartition(".simulate.")
     if not section.startswith("scenes.") or key not in ("t_end", "output", "step"):
         return "", ""
@@ -97,15 +98,15 @@ def _of_the_run(address: str) -> tuple[str, str]:
     return told, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
 
 
-def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
-    """The same of a coordinate or velocity of a body: what its start is, and what drives it."""
+def _explain_motion(source: KernelSource, address: str) -> tuple[str, str]:
+    """Return message and hint for the address of a coordinate or velocity, which is a result; else ""."""
     body, _, part = address.rpartition(".")
     if body not in (one.name for one in source.bodies) or part not in ("x", "y", "theta", "vx", "vy", "omega"):
         return "", ""
     told = f"{address} is a result of the motion, and no number of the file"
     rate, own = part in ("vx", "vy", "omega"), {slot.address for slot in source.slots}
     held = rate and source.degrees_of_freedom <= 0
-    if by := _driven(source, body) or held and _driven(source, ""):
+    if by := _driving_parameters(source, body) or held and _driving_parameters(source, ""):
         return told, by
     said = [name for name in (f"start.{section}.{address}" for section in ("rates", "set", "guess")) if name in own]
     unit = {"omega": "rad/s", "theta": "deg"}.get(part, "m/s" if rate else "mm")
@@ -115,8 +116,8 @@ def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
     return told, hint
 
 
-def _driven(source: KernelSource, body: str) -> str:
-    """Which drives say how a body moves ("": any at all), and by which parameters; "" where none does."""
+def _driving_parameters(source: KernelSource, body: str) -> str:
+    """Return a text on the drives that determine how a body moves ("": any body), and their parameters; else ""."""
     told = []
     for part in source.parts:
         ends = part.ends[:1] if part.kind in ("angle", "coordinate") else part.ends  # then a reference, which it leaves
@@ -131,8 +132,8 @@ def _driven(source: KernelSource, body: str) -> str:
     return "; ".join(told)
 
 
-def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
-    """The same of the eccentricity of a journal that the file's start does not name."""
+def _explain_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
+    """Return message and hint for an eccentricity at the start that the file does not give; else ""."""
     start, play, joint, *part = [*address.split("."), "", "", ""][:4]
     able = {clearance.joint: clearance.at_wall for clearance in source.clearances}
     placed = any(slot.address.startswith(f"start.play.{joint}.") for slot in source.slots)
@@ -142,8 +143,8 @@ def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
     return f"{address}: the file's start does not say where {joint} begins", f"write {wanted}, then it can be set"
 
 
-def _only_material(source: KernelSource, address: str) -> tuple[str, str]:
-    """The same of a material, where the file has no other that would do."""
+def _explain_material(source: KernelSource, address: str) -> tuple[str, str]:
+    """Return message and hint for the choice of a material, if the file has only one; else ""."""
     owner, _, key = address.rpartition(".")
     if not key.endswith("material") or not any(slot.address.startswith(f"{owner}.") for slot in source.slots):
         return "", ""
@@ -152,7 +153,7 @@ def _only_material(source: KernelSource, address: str) -> tuple[str, str]:
 
 
 def number(value: float | str, slot: Slot) -> float:
-    """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI. Of a choice its name."""
+    """Return a value in SI from a float, or a text as in files ('0.5 mm', '1e-9'); of a choice, its index."""
     if slot.words:
         return place_of_word(value, slot)
     if type(value) is float and sys.float_info.min <= abs(value) < math.inf:
@@ -174,7 +175,7 @@ def number(value: float | str, slot: Slot) -> float:
 
 
 def plain_number(text: str) -> float | None:
-    """The number that a text without a unit writes; None where there is more to read, or no float has its size."""
+    """Return the number that a text without a unit writes; None for other texts, or if it is out of range."""
     found = _PLAIN.fullmatch(text.strip(" "))
     if found is None:
         return None
@@ -184,25 +185,25 @@ def plain_number(text: str) -> float | None:
 
 
 def spaced(text: str) -> str:
-    """A space before the unit of a number: "0.5mm" is "0.5 mm"."""
+    """Return the text with a space before the unit of a number: "0.5mm" becomes "0.5 mm"."""
     glued = _GLUED.fullmatch(text.strip())
     return f"{glued[1]} {glued[2]}" if glued else text.strip()
 
 
 def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
-    """(p, given, is_given), checked: see CompiledModel.prepare. Raises BadValueError, UnknownNameError."""
+    """Return (p, given, is_given), checked: see CompiledModel.prepare. Raise BadValueError, UnknownNameError."""
     given, is_given = given_slots(compiled.source, parameters)
     return prepare_slots(compiled, given, is_given), given, is_given
 
 
 def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
-    """The p of values and mask, checked. Raises BadValueError."""
+    """Return the checked values p of given parameters and mask. Raise BadValueError."""
     check(compiled.source, p := compiled.prepare(given, is_given), is_given)
     return p
 
 
 def without_baumgarte(compiled: CompiledModel, given: Array, is_given: NDArray[np.generic]) -> Array:
-    """p of a run, or of n, with both gains zero: for methods that project onto the constraints instead."""
+    """Return the values p of one or n runs with both Baumgarte gains zero, for methods that project."""
     place = compiled.source.place
     gains = [place[name] for name in GAINS if name in place]
     if given.ndim == 2:
@@ -213,7 +214,10 @@ def without_baumgarte(compiled: CompiledModel, given: Array, is_given: NDArray[n
 
 
 def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
-    """Every condition again, on the values of this run; `is_given`: slots that do not follow others."""
+    """Raise BadValueError if the values p of a run violate a condition or are not finite.
+
+    `is_given`: parameters that are given, so that they do not follow others.
+    """
     value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
     for condition in conditions(source):  # first: sides that make no triangle leave a point that is NaN
         bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
@@ -221,9 +225,9 @@ def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None
         if known and not RELATIONS[condition.relation](value[condition.address], bound):
             unit = next(slot.unit for slot in source.slots if slot.address == condition.address)
             raise BadValueError(
-                f"{condition.address} is {_said(value[condition.address], unit)}{_by(source, condition, value)}:"
-                f" {condition.message}"
-                + (f" ({condition.bound} is {_said(bound, unit)})" if isinstance(condition.bound, str) else "")
+                f"{condition.address} is {_format_value(value[condition.address], unit)}"
+                f"{_changed_parameters(source, condition, value)}: {condition.message}"
+                + (f" ({condition.bound} is {_format_value(bound, unit)})" if isinstance(condition.bound, str) else "")
                 + f"; expected {expected(source, condition.address)}"
             )
     for slot in source.slots:
@@ -231,13 +235,13 @@ def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
     for k, number in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(number):
-            raise BadValueError(zero_inertia(value, source.derived[k]) or _overflow(source, value, k, number))
+            raise BadValueError(zero_inertia(value, source.derived[k]) or _overflow_message(source, value, k, number))
     if told := undefined_number(source, p, is_given) or far_clearance(source, p):
         raise BadValueError(told)
 
 
-def _overflow(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
-    """What is said of derived number k: by the names that results know, and with the numbers that made it so."""
+def _overflow_message(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
+    """Return a message on derived value k that overflows, with the parameters that cause it."""
     place, name = len(source.slots) + k, source.derived[k]
     own = (f"{joint.name}.{one}" for joint in source.clearances for one, at in joint.constants.items() if at == place)
     far = [slot for slot in source.slots if not slot.words and abs(math.log10(abs(value[slot.address]) or 1.0)) > FAR]
@@ -248,7 +252,7 @@ def _overflow(source: KernelSource, value: Mapping[str, float], k: int, number: 
 
 
 def conditions(source: KernelSource) -> tuple[Condition, ...]:
-    """Those of the file, of Baumgarte's gains, which no file has, and of a least δ̇⁻ that the file left out."""
+    """Return the conditions of the file, those of Baumgarte's gains, and those of velocity floors."""
     gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
     asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
     floors = {slot.address for slot in source.slots if slot.address.endswith(".velocity_floor")}
@@ -257,17 +261,17 @@ def conditions(source: KernelSource) -> tuple[Condition, ...]:
     return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked), *least)
 
 
-def _said(value: float, unit: str) -> str:
-    """A number in SI with its unit."""
+def _format_value(value: float, unit: str) -> str:
+    """Return a number in SI with its unit."""
     return f"{value:.6g} {unit}".strip()
 
 
-def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) -> str:
-    """The parameters that differ from the file's, where a number follows parameters: " with c = 0.008 m"."""
+def _changed_parameters(source: KernelSource, condition: Condition, value: Mapping[str, float]) -> str:
+    """Return the changed parameters that a value follows: " with c = 0.008 m"; "" if it follows none."""
     if not any(slot.address == condition.address and slot.follows for slot in source.slots):
         return ""
     changed = [
-        f"{slot.address.removeprefix('parameters.')} = {_said(value[slot.address], slot.unit)}"
+        f"{slot.address.removeprefix('parameters.')} = {_format_value(value[slot.address], slot.unit)}"
         for slot in source.slots
         if slot.address.startswith("parameters.") and value[slot.address] != slot.default
     ]
@@ -275,19 +279,20 @@ def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) 
 
 
 def expected(source: KernelSource, address: str) -> str:
-    """All that the conditions ask of a number: "> 0 and <= 1"."""
+    """Return the conditions on a parameter as text: "> 0 and <= 1"."""
     asked = [(c.relation, c.bound) for c in conditions(source) if c.address == address]
     return " and ".join(f"{one} {bound if isinstance(bound, str) else f'{bound:g}'}" for one, bound in asked)
 
 
-def _literal_zero(address: str, key: str) -> tuple[str, str]:
-    """The same of a 0: terms of it are not there."""
+def _explain_zero(address: str, key: str) -> tuple[str, str]:
+    """Return message and hint for the address of a literal 0, which is not part of the equations."""
     told = f"{address} is 0, written so or left out, and stands in no equation: it is no number that can be set"
     hint = f"write a parameter there (parameters: {{own: 0 …}} with its unit, {key}: own) and set that"
     return told, f"{hint}; or write another number than 0 there, which can be set, to 0 too"
 
 
-def _unknown(name: str, source: KernelSource) -> UnknownNameError:
+def _unknown_parameter(name: str, source: KernelSource) -> UnknownNameError:
+    """Return the error for an address that is not a run-time parameter, with the best hint."""
     told, hint = as_parameter(source, name)
     if told:
         return UnknownNameError(told, None, hint)
@@ -302,6 +307,6 @@ def _unknown(name: str, source: KernelSource) -> UnknownNameError:
 
 
 def value(text: str) -> float | str:
-    """A number as typed: a float if it is one (SI), else text with a space before its unit ("0.5mm", "0.5 mm")."""
+    """Return a typed number: a float in SI, or text with a space before its unit ("0.5 mm" for "0.5mm")."""
     number = plain_number(text)
     return spaced(text) if number is None else number

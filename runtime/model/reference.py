@@ -1,8 +1,8 @@
-"""A compiled library against values that the NumPy target computed when the scene was derived.
+"""Compare a compiled library with values that the NumPy target computed when the scene was derived.
 
-The values are stored with the emitted C (generator/targets/numpy/reference.py). Both are printed from the same
-statements by different printers, so that a wrong line of C, a wrong compilation or a library of other texts is found
-before anything is simulated.
+The values are stored with the emitted C (generator/targets/numpy/reference.py). C and NumPy are printed from the same
+statements by different printers. Thus a wrong line of C, a wrong compilation or an outdated library is found before
+anything is simulated.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
 
 SHARE = 1e-6  # of the largest value of an array: stored values have seven digits
+# fields of an Evaluation that are compared
 EVALUATED = ("a", "multipliers", "reactions", "torques", "series", "energy", "power")
 
 
@@ -34,12 +35,12 @@ def check_reference(compiled: CompiledModel) -> None:
     for state in reference["states"]:
         values = state["values"]
         for name, found in _library_values(compiled, state, p).items():
-            own = np.ravel(found)[: len(values[name])]  # behind them guides with play, whose corners are added up
+            own = np.ravel(found)[: len(values[name])]  # guides with play follow, with the sums of their corners
             _compare(compiled, name, values[name], own, float(state["t"]))
 
 
 def _parameters(compiled: CompiledModel, given: Mapping[int, float]) -> Array:
-    """Parameters by C's `prepare` where these slots are given."""
+    """Return the parameter values by C's `prepare` for given parameters, by index."""
     values, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=np.uint8)
     for k, value in given.items():
         values[k], is_given[k] = value, 1
@@ -47,7 +48,7 @@ def _parameters(compiled: CompiledModel, given: Mapping[int, float]) -> Array:
 
 
 def _compare_each(compiled: CompiledModel, stored: Sequence[float | None], p: Array) -> None:
-    """The same of parameters, each by its own size."""
+    """Compare parameter values, each relative to its own size. Raise AuditError."""
     expected = np.array(stored, dtype=float)
     known = np.isfinite(expected)
     if not (np.abs(p - expected)[known] <= SHARE * np.abs(expected[known]) + 1e-300).all():
@@ -56,7 +57,7 @@ def _compare_each(compiled: CompiledModel, stored: Sequence[float | None], p: Ar
 
 
 def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
-    """The same functions of the library at a state."""
+    """Return the values of the library's functions at a stored state, by name."""
     t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])
     memory = np.array([np.nan if x is None else x for x in state["memory"]], dtype=float)
     row = compiled.evaluate([t], [q], [v], memory[None, :], p, lambda: None)
@@ -68,7 +69,7 @@ def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) ->
 
 
 def _compare(compiled: CompiledModel, name: str, stored: Sequence[float | None], found: Array, t: float) -> None:
-    """AuditError where values differ by more than their digits; what is not known on either side is left out."""
+    """Raise AuditError if values differ by more than their stored digits; unknown values are not compared."""
     expected = np.array(stored, dtype=float)  # None is NaN
     known = np.isfinite(expected) & (
         np.isfinite(found) if compiled.source.massless or compiled.source.indeterminate else True

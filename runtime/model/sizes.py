@@ -1,4 +1,4 @@
-"""How large a mechanism is, and which clearances are too small for doubles at that size."""
+"""Measure the size of a mechanism, and find clearances too small for doubles at that size."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.contours import contour_of, narrowest
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
-SMALL_INERTIA = 1e-9  # of m size^2: a moment of inertia below it counts as much in a measure of changes
-LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # times the size: from ten roundings down contacts are seen twice
+SMALL_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
+LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # of the size: from ten roundings down contacts are detected twice
 
 
 def mechanism_sizes(source: KernelSource, p: Array) -> Array:
-    """The largest distance of a point from its body's centre of mass or the ground's origin, or length of a joint, m.
+    """Return the size (m) of the mechanism: the largest distance of a point from its body's origin.
 
-    It scales lengths wherever angles and lengths are compared, so it must not depend on the directions of axes.
-    (...,) from parameters (..., n_slots + n_derived) of any number of runs.
+    The origin is the centre of mass, or that of the ground; lengths of joints count too. It scales lengths against
+    angles, and so does not depend on the directions of axes. The shape is (...,) for p (..., n_slots + n_derived).
     """
     x, y, has_y = _size_columns(source)
     if not len(x):
@@ -31,9 +31,9 @@ def mechanism_sizes(source: KernelSource, p: Array) -> Array:
 
 
 def metric(source: KernelSource, p: Array, mass: Array) -> Array:
-    """What changes of the coordinates are measured by, (n,): the diagonal `mass` of M, its inertias not too small.
+    """Return the norm's weights of coordinates, (n,): the diagonal `mass` of M, with a lower limit for inertias.
 
-    A point mass on a link has no moment of inertia: its motion is regular, M alone is no measure of it.
+    A point mass on a link has no moment of inertia. Its motion is regular, but M alone is not a norm for it.
     """
     measure = np.array(mass)
     least = SMALL_INERTIA * measure[1::3] * mechanism_sizes(source, p) ** 2
@@ -42,7 +42,7 @@ def metric(source: KernelSource, p: Array, mass: Array) -> Array:
 
 
 def size_places(source: KernelSource) -> list[tuple[int, int]]:
-    """Indices into p of x and y of these points, and of these lengths as x; -1 stands for 0."""
+    """Return the indices into p of x and y of the points, and of joint lengths as x; −1 stands for 0."""
     pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
     lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
     pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
@@ -50,7 +50,7 @@ def size_places(source: KernelSource) -> list[tuple[int, int]]:
 
 
 def _size_columns(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """The same as columns, an index of x for -1, and whether there is a y, 1 or 0."""
+    """Return arrays of these indices, with x for a missing y, and 1 or 0 for whether there is a y."""
     kept: dict[str, tuple[NDArray[np.intp], NDArray[np.intp], Array]] = source.__dict__  # as cached properties
     if "size_columns" not in kept:
         x, y = np.array(size_places(source), dtype=np.intp).reshape(-1, 2).T.copy()
@@ -59,15 +59,15 @@ def _size_columns(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.in
 
 
 def far_clearances(source: KernelSource, p: Array) -> Array:
-    """Which clearances doubles do not tell apart from none, (..., n_clearances) of p (..., n_slots + n_derived).
+    """Return a mask (..., n_clearances) of clearances too small for doubles, from p (..., n_slots + n_derived).
 
-    Where a journal lies in its bearing is a difference of coordinates, each of which is rounded to a share 2^-52.
+    The eccentricity is a difference of coordinates, each of which is rounded to 2^-52 of its value.
     """
     return np.asarray(narrowest(source, p) < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
 
 
 def far_clearance(source: KernelSource, p: Array) -> str:
-    """What is said of the first of them in one run; "" where there is none."""
+    """Return a message on the first clearance too small for doubles in one run; "" if there is none."""
     for joint, is_far in zip(source.clearances, far_clearances(source, p).tolist(), strict=True):
         if is_far:
             size, own = float(mechanism_sizes(source, p)), contour_of(source, p, joint.name)
@@ -82,7 +82,7 @@ def far_clearance(source: KernelSource, p: Array) -> str:
 
 
 def zero_inertia(value: Mapping[str, float], derived: str) -> str:
-    """What is said of a derived number that is not finite because a moment of inertia is 0; "" where none is."""
+    """Return a message on a derived value that is not finite because a moment of inertia is 0; else ""."""
     zero = next((a for a in value if a.startswith("bodies.") and a.endswith(".inertia") and value[a] == 0.0), "")
     hint = "expected > 0, or 0 in the file, from which equations without it are derived"
     return f"{zero} is 0, by which the equations divide ({derived})\n  {hint}" if zero else ""

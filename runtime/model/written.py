@@ -1,12 +1,10 @@
-"""What a file's own expressions are worth at a state: which one is not a number there, and why.
+"""Explain why a file's expression is not a number at a state, by walking its tree again after C found the failure.
 
-C computes with them and finds out that something is not finite; here their trees are walked again to say what.
-
-- Why an expression is not a number: the smallest part of it that is none, and which of its names has it.
-- Which force has no finite slope at a state, and which drive no bounded second rate at a time. Methods that need the
-  Jacobian cannot go on from a force without a slope, others can.
+- Why an expression is not a number: its smallest part that is not, and the names in it.
+- Which force has no finite slope at a state, and which drive has no bounded second rate at a time. Methods that use
+  the Jacobian cannot continue at a force without a slope.
 - Numbers that are undefined as the file writes them, where simplified formulas have a value: C has d for
-  cos(acos(d)). The file's own numbers were checked when the file was read; here those of a run are.
+  cos(acos(d)). The file's own values were checked when it was read; here those of a run are.
 """
 
 from __future__ import annotations
@@ -42,23 +40,24 @@ from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-_REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
-MOST_CORNERS = 64  # of a where, that are looked at one after the other
-Values = Callable[[str], float]
-_SHORT = (1e-8, 1e-10, 1e-12)  # ways over which a rise is looked at, of a size of 1
-_STEEPER, _ROUNDING = 3.0, 1e-13  # how much each shorter way is steeper at least; what is no rise
-_JUMP = 0.9  # of the rise over the longest way, that one over the shortest has where it is a jump: of that methods know
+_REACH = tuple(10.0**k for k in range(-13, -8))  # s, or of the time: how far after a state a reason is searched
+MOST_CORNERS = 64  # largest number of switching points of a where that are examined
+Values = Callable[[str], float]  # function that returns the value of a name
+_SHORT = (1e-8, 1e-10, 1e-12)  # distances over which a rise is measured, for a size of 1
+_STEEPER, _ROUNDING = 3.0, 1e-13  # smallest growth of the slope per shorter distance; largest rise that is rounding
+_JUMP = 0.9  # of the rise over the longest distance: if the shortest has more, it is a jump, which methods handle
 REMEDY = "expected finite numbers: is there a division by zero, or a root of a negative number?"
 
 
 def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
-    """Value of a name: t, a parameter, a coordinate or velocity of a body, or of a point."""
+    """Return a function from names to values at a state: t, parameters, coordinates and velocities."""
     place = {name: k for k, name in enumerate(source.coordinates)}
     slots = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
     points = {point.name: point for point in source.points}
     position = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
 
     def value(path: str) -> float:
+        """Return the value of a name at the state."""
         if path == "t":
             return t
         if (address := f"parameters.{path}") in slots:
@@ -83,38 +82,38 @@ def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> V
 
 
 def of_time(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
-    """Values of an expression of t and parameters, (N,)."""
+    """Return the values (N,) of an expression of t and parameters at times t (N,)."""
     slots = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
     return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else slots[f"parameters.{path}"]), t.shape)
 
 
 def trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
-    """The file's expressions of t and motion of some sections: drives, forces, events."""
+    """Return the file's expressions of t and motion in some sections (drives, forces, events), with their trees."""
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
 
 
 def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array, ahead: float = 0.0) -> str:
-    """Which drive or force is no number at a state, just after it or at most `ahead` s later, where and why; or ""."""
+    """Return why a drive or force is not a number at a state, or within `ahead` s after it; "" if all are."""
     found = trees(source, ("drives", "forces"))
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         found = [(info, tree) for info, tree in found if all("." not in name.path for name in names(tree))]
     later = (*(reach * max(1.0, abs(t)) for reach in _REACH), *(ahead * share for share in (0.01, 0.1, 0.5, 1.0)))
     for h in (0.0, *later):
         with np.errstate(invalid="ignore"):  # a velocity may be infinite
-            told = _told(source, found, p, t + h, q + h * v, v)
+            told = _message_at(source, found, p, t + h, q + h * v, v)
         if told:
             return told
     return ""
 
 
 def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array, ahead: float = 0.0) -> str:
-    """Which drive or force is no number at a state itself, or in a branch of a `where` that changes near it; or "".
+    """Return why a drive or force is not a number at a state, or in a where-branch near it; else "".
 
-    The step that leads to such a corner, or begins there, computes with either branch, whichever is picked there.
+    A step that ends or begins at a switching point evaluates both branches.
     """
     found = trees(source, ("drives", "forces"))
     for h in (0.0, float(np.spacing(t))):
-        if told := _told(source, found, p, t + h, q, v):
+        if told := _message_at(source, found, p, t + h, q, v):
             return told
     reach = max(ahead, 1e-6 * max(1.0, abs(t)))
     for info, tree in found:
@@ -123,12 +122,13 @@ def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array,
             gap = Binary("-", left, right)
 
             def ahead_of_zero(h: float, gap: Expr = gap) -> bool:
+                """Return whether the compared difference is negative h s after the state."""
                 return bool(evaluate(gap, values_at(source, p, t + h, q + h * v, v)) < 0.0)
 
             for low, high in pairwise(np.linspace(-reach, reach, 33).tolist()):
                 if ahead_of_zero(low) != ahead_of_zero(high):
                     ends = _neighbours(ahead_of_zero, low, high)
-                    words = (_of_branches(source, p, info, call, t + h, q + h * v, v) for h in ends)
+                    words = (_branch_message(source, p, info, call, t + h, q + h * v, v) for h in ends)
                     if told := next(filter(None, words), ""):
                         return told
     return ""
@@ -137,7 +137,7 @@ def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array,
 def undefined_at_a_corner(
     source: KernelSource, p: Array, info: WrittenInfo, tree: Expr, t: Array
 ) -> tuple[str, float] | None:
-    """What of a drive is no number where one of its wheres changes over between the times t, and when; None: all is."""
+    """Return what of a drive is not a number where one of its wheres switches, and when; None if all is."""
     none = np.zeros(0)
     found = []
     for call in calls(tree, "where"):
@@ -145,6 +145,7 @@ def undefined_at_a_corner(
         gap = Binary("-", left, right)
 
         def ahead_of_zero(time: float, gap: Expr = gap) -> bool:
+            """Return whether the compared difference is negative at a time."""
             return bool(of_time(source, p, gap, np.array([time]))[0] < 0.0)
 
         before = of_time(source, p, gap, t) < 0.0
@@ -152,21 +153,21 @@ def undefined_at_a_corner(
             for end in _neighbours(ahead_of_zero, float(t[k]), float(t[k + 1])):
                 values = values_at(source, p, end, none, none)
                 if any(other is call for other in reached(tree, "where", values)):
-                    told = _of_branches(source, p, info, call, end, none, none)
+                    told = _branch_message(source, p, info, call, end, none, none)
                     found += [(told, end)] if told else []
     return min(found, key=lambda one: one[1], default=None)
 
 
 def _neighbours(answer: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
-    """Two numbers, next to each other, between which an answer changes."""
+    """Return two adjacent numbers between `low` and `high` between which the answer changes, by bisection."""
     first = answer(low)
     while low < (middle := 0.5 * (low + high)) < high and high - low > 1e-18:
         low, high = (middle, high) if answer(middle) == first else (low, middle)
     return low, high
 
 
-def _of_branches(source: KernelSource, p: Array, info: WrittenInfo, call: Call, t: float, q: Array, v: Array) -> str:
-    """What is no number in the branch of a where that is picked, at its corner itself in both, in words; or ""."""
+def _branch_message(source: KernelSource, p: Array, info: WrittenInfo, call: Call, t: float, q: Array, v: Array) -> str:
+    """Return a text on an active branch of a where that is not a number, at its switching point; else ""."""
     values = values_at(source, p, t, q, v)
     left, right, then, otherwise = (evaluate(part, values) for part in call.arguments)
     for k, (value, meant) in enumerate(((then, left <= right), (otherwise, left >= right))):
@@ -179,10 +180,10 @@ def _of_branches(source: KernelSource, p: Array, info: WrittenInfo, call: Call, 
 
 
 def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
-    """Which drive ceases to be a number on the way from t0 to t1 (s), and when; ("", t1) where none does."""
+    """Return why a drive ceases to be a number between t0 and t1 (s), and when; ("", t1) if none does."""
     none, first, told = np.zeros(0), t1, ""
     for info, tree in trees(source, ("drives",)):
-        times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just behind the end
+        times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just after the end
         wrong = np.flatnonzero(~np.isfinite(of_time(source, p, tree, times)))
         if not len(wrong):
             continue
@@ -195,12 +196,12 @@ def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tupl
             else:
                 high = middle
         if not told or high < first:
-            first, told = high, _told(source, [(info, tree)], p, high, none, none)
+            first, told = high, _message_at(source, [(info, tree)], p, high, none, none)
     return told, first
 
 
 def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tuple[str, float]:
-    """Which drive's rate or second rate is none first at some times (s), and when; ("", the last) where all are."""
+    """Return which drive's rate or second rate is not a number first, and when; ("", last time) if all are."""
     drives = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive"]
     v = np.zeros(compiled.n)
     for t in times.tolist() if drives else ():
@@ -213,26 +214,26 @@ def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tu
 
 
 def with_undefined(run: Result, evaluation: Evaluation) -> Result:
-    """The run, its notes with outputs that are no number at a sample at which all that they are made of is one.
+    """Return the run with notes on outputs that are not numbers although all their inputs are.
 
-    And with drives and forces by a `where` that compares what is no number: C picks one of its branches.
+    Drives and forces by a `where` that compares values that are not numbers are noted too: C takes one branch.
     """
-    compared = _compared(run.source)
+    compared = _comparing_expressions(run.source)
     if not run.source.outputs and not compared:
         return run
-    probe = replace(run, stored={})  # of many samples nothing is kept that nobody asked for
+    probe = replace(run, stored={})  # without cached series of many samples
     probe.__dict__["evaluation"] = evaluation
     outputs = {f"output {name}": from_json(tree) for name, tree in run.source.outputs.items() if name in probe}
     for address, tree in compared.items():
         if all(used.path in probe.parameters or used.path in probe for used in names(tree)):
             outputs[address] = tree
-    odd = [told for name, tree in outputs.items() if (told := _odd(probe, name, tree))]
+    odd = [told for name, tree in outputs.items() if (told := _message_if_undefined(probe, name, tree))]
     notes = (*run.diagnostics.notes, *odd)
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if odd else run
 
 
-def _compared(source: KernelSource) -> dict[str, Expr]:
-    """Drives and forces, by address, with a `where` that may compare what is no number."""
+def _comparing_expressions(source: KernelSource) -> dict[str, Expr]:
+    """Return the drives and forces, by address, with a `where` that may compare values that are not numbers."""
     kept = vars(source)
     if "compared" not in kept:
         found = {info.address: tree for info, tree in trees(source, ("drives", "forces"))}
@@ -244,8 +245,8 @@ def _compared(source: KernelSource) -> dict[str, Expr]:
     return dict(kept["compared"])
 
 
-def _odd(run: Result, name: str, tree: Expr) -> str:
-    """When an expression is no number first, and why; "" where it is one, or only what it is made of is none."""
+def _message_if_undefined(run: Result, name: str, tree: Expr) -> str:
+    """Return when an expression is first not a number, and why; "" if it always is, or only if its inputs are not."""
     parts = {used.path: np.broadcast_to(run.value_of(used.path), run.t.shape) for used in names(tree)}
     values = np.broadcast_to(evaluate(tree, parts.__getitem__), run.t.shape)
     wrong = ~np.isfinite(values)
@@ -259,9 +260,10 @@ def _odd(run: Result, name: str, tree: Expr) -> str:
     return f"{name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
 
 
-def _told(
+def _message_at(
     source: KernelSource, found: Iterable[tuple[WrittenInfo, Expr]], p: Array, t: float, q: Array, v: Array
 ) -> str:
+    """Return a message on the first expression that is not a number at a state; "" if all are."""
     values = values_at(source, p, t, q, v)
     for info, tree in found:
         value = float(evaluate(tree, values))
@@ -272,20 +274,21 @@ def _told(
 
 
 def culprit(source: KernelSource, tree: Expr, values: Values) -> str:
-    """The smallest part of an expression that is not finite while what it is made of is, in words."""
-    way = _way(tree, values)
-    called = _written_out(source)
+    """Return a text on the smallest part of an expression that is not finite although its inputs are."""
+    way = _path_to_culprit(tree, values)
+    called = _expanded_expressions(source)
     within = next((one for part in way[::-1] for one, whole in called if whole == part), None)
     place = f"in {within.address} (line {within.line}, column {within.column}), " if within else ""
-    return place + _words(way[-1], values)
+    return place + _describe_part(way[-1], values)
 
 
-def _written_out(source: KernelSource) -> list[tuple[WrittenInfo, Expr]]:
-    """The file's expressions by name, with the trees of others in place of their names."""
+def _expanded_expressions(source: KernelSource) -> list[tuple[WrittenInfo, Expr]]:
+    """Return the file's named expressions with the trees of others in place of their names."""
     written = {one.address.partition(".")[2]: from_json(json.loads(one.tree)) for one in source.expressions}
     known: dict[str, Expr] = {}
 
     def whole(name: str) -> Expr:
+        """Return the tree of a named expression with all others put in."""
         if name not in known:
             used = {used.path for used in names(written[name])} & written.keys()
             known[name] = replaced(written[name], {other: whole(other) for other in used})
@@ -294,16 +297,16 @@ def _written_out(source: KernelSource) -> list[tuple[WrittenInfo, Expr]]:
     return [(one, whole(name)) for name, one in zip(written, source.expressions, strict=True)]
 
 
-def _way(tree: Expr, values: Values) -> list[Expr]:
-    """From an expression to that part."""
+def _path_to_culprit(tree: Expr, values: Values) -> list[Expr]:
+    """Return the path of parts from an expression to the smallest one that is not finite."""
     for part in _parts(tree, values):
         if not isinstance(part, Number) and not math.isfinite(evaluate(part, values)):
-            return [tree, *_way(part, values)]
+            return [tree, *_path_to_culprit(part, values)]
     return [tree]
 
 
 def _parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
-    """What the value of an expression is made of."""
+    """Return the parts on which the value of an expression depends."""
     match tree:
         case Unary(operand=operand):
             return (operand,)
@@ -316,7 +319,8 @@ def _parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
     return ()
 
 
-def _words(tree: Expr, values: Values) -> str:
+def _describe_part(tree: Expr, values: Values) -> str:
+    """Return a description of an expression with the values of its parts: "1 divided by 0"."""
     numbers = [float(evaluate(part, values)) for part in _parts(tree, values)]
     told = [f"{number:.12g}" for number in numbers]
     match tree:
@@ -334,7 +338,7 @@ def _words(tree: Expr, values: Values) -> str:
 
 
 def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
-    """The drive whose second rate is far larger at a time than beside it; "": none."""
+    """Return the drive whose second rate is far larger at a time than near it; "" if there is none."""
     zero = np.zeros(compiled.n)
     beside = 1e-4 * max(abs(t), 1e-9)
     near = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
@@ -347,25 +351,25 @@ def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
 
 
 def steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
-    """Which force rises without bound beside a state, or is no number there, and by what; "" where none does."""
+    """Return which force has an unbounded slope at a state, or is not a number, and by which name; else ""."""
     values, constant = values_at(source, p, t, q, v), {slot.address for slot in source.slots}
     for info, tree in trees(source, ("forces",)):
         for path in sorted({name.path for name in names(tree)}):
             here = float(values(path))
-            if f"parameters.{path}" not in constant and _is_steep(_by(tree, path, values), here):
+            if f"parameters.{path}" not in constant and _is_steep(_function_of(tree, path, values), here):
                 where = f"{info.address} (line {info.line}, column {info.column})"
                 beside = "" if path == "t" else f", {path} = {here:.9g}"
                 return f"the slope of {where} by {path} is not finite at t = {t:.9g} s{beside}"
     return ""
 
 
-def _by(tree: Expr, path: str, values: Values) -> Callable[[float], float]:
-    """An expression as a function of one of its names."""
+def _function_of(tree: Expr, path: str, values: Values) -> Callable[[float], float]:
+    """Return an expression as a function of one of its names."""
     return lambda x: float(evaluate(tree, lambda name: x if name == path else values(name)))
 
 
 def _is_steep(at: Callable[[float], float], here: float) -> bool:
-    """Whether a function is finite at a place, and its slope is not."""
+    """Return whether a function is finite at a point, but its slope is not."""
     value, size = at(here), 1.0 + abs(here)
     for side in (-size, size):
         rises = [abs(at(here + side * way) - value) for way in _SHORT]
@@ -380,7 +384,7 @@ def _is_steep(at: Callable[[float], float], here: float) -> bool:
 
 @dataclass(frozen=True)
 class Partial:
-    """An expression that may be undefined: its own slot, -1 of one that has none, and those of the names in it."""
+    """Hold an expression that may be undefined: its own parameter index (−1: none) and those of its names."""
 
     address: str
     tree: Expr
@@ -389,9 +393,12 @@ class Partial:
 
 
 def undefined_rows(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> NDArray[np.bool_]:
-    """Which runs, (n,) of p (n, n_slots + n_derived), may have an undefined number; undefined_number is exact."""
+    """Return a mask (n,) of runs with p (n, n_slots + n_derived) that may have an undefined value.
+
+    undefined_number decides exactly.
+    """
     found = np.zeros(len(p), dtype=np.bool_)
-    for one in _concerned(source, p):
+    for one in _affected_partials(source, p):
         known = {name: p[:, k] for name, k in one.slots.items()}
         undefined = may_be_undefined(one.tree, known)
         found |= undefined & ~is_given[:, one.slot].astype(bool) if one.slot >= 0 else undefined
@@ -399,8 +406,8 @@ def undefined_rows(source: KernelSource, p: Array, is_given: NDArray[np.generic]
 
 
 def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
-    """What is said of the first undefined number of one run; "" where there is none."""
-    for one in _concerned(source, p[np.newaxis]):
+    """Return a message on the first undefined value of one run; "" if there is none."""
+    for one in _affected_partials(source, p[np.newaxis]):
         known = {name: float(p[k]) for name, k in one.slots.items()}
         if one.slot >= 0 and is_given[one.slot]:
             continue
@@ -410,8 +417,8 @@ def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generi
     return ""
 
 
-def _concerned(source: KernelSource, p: Array) -> list[Partial]:
-    """The expressions that name a slot which differs in some run from the file's."""
+def _affected_partials(source: KernelSource, p: Array) -> list[Partial]:
+    """Return the expressions that name a parameter which differs from the file's in some run."""
     kept = vars(source)
     if "partial_slots" not in kept:
         kept["partial_slots"] = sorted({k for one in partials(source) for k in one.slots.values()})
@@ -436,6 +443,7 @@ def partials(source: KernelSource) -> list[Partial]:
 
 
 def _read_partials(source: KernelSource) -> list[Partial]:
+    """Read the expressions of parameters, drives and forces that may be undefined."""
     place, found = source.place, []
     trees = [(slot.address, slot.tree, k) for k, slot in enumerate(source.slots) if slot.tree]
     for address, tree, k in [*trees, *((one.address, one.tree, -1) for one in source.written)]:

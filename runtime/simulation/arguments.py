@@ -62,8 +62,9 @@ def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float |
 def output_times(
     source: KernelSource, p: Array, t0: float, t_end: float | str | None, output: int | ArrayLike | None
 ) -> tuple[Array, bool]:
-    """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample. The times
-    are a new array that begins with t0. `p` are the parameter values of the run. Raises BadValueError.
+    """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample.
+
+    The times are a new array that begins with t0. `p` are the parameter values of the run. Raises BadValueError.
     """
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
@@ -87,7 +88,8 @@ def output_times(
 
 
 def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
-    """Check the sample times that the user gave as an array. Return them from t0 on, and whether t0 is one of them.
+    """Return the checked sample times of the user from t0 on, and whether t0 is one of them.
+
     Raises BadValueError for booleans, times that do not increase, and times before t0.
     """
     times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
@@ -137,8 +139,8 @@ def derived_for(source: KernelSource, method: str) -> str:
 
 def method_of(source: KernelSource, method: str, fixed: bool) -> str:
     """Return the name of the method that integrates the scene, "adaptive" where auto switches between methods.
-    `fixed` says that a step is given. Raises BadValueError for a method that does not fit, AssemblyError if dof <
-    0.
+
+    `fixed` says that a step is given. Raises BadValueError for a method that does not fit, AssemblyError if dof < 0.
     """
     dof = source.degrees_of_freedom
     if dof < 0:

@@ -166,7 +166,7 @@ class Path:
         """Evaluate the equations at states; return NaN where they cannot be solved, and a mask of the others."""
         good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
         t = x.t
-        if self.compiled.beyond and not self.exact:  # an end of a step has the rates in front of a corner, not behind
+        if self.compiled.beyond and not self.exact:  # step ends have the rates before a jump
             since = t - np.maximum.accumulate(np.where(x.jumped, t, -np.inf))
             t = np.where(since > 4.0 * around(t), t - 2.0 * around(t), t)
         while True:

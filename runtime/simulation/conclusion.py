@@ -89,16 +89,17 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
 
 
 def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
-    """Return the largest residual of energies (N, 2) and works (N, 3), and the energy throughput; both in J. Both are
-    NaN without samples. An impact at the very start has done its work before the first sample. `look` polls for
-    cancellation between blocks; its exceptions are passed on.
+    """Return the largest residual of energies (N, 2) and works (N, 3), and the energy throughput; both in J.
+
+    Both are NaN without samples. An impact at the very start has done its work before the first sample. `look` polls
+    for cancellation between blocks; its exceptions are passed on.
     """
     if not len(energy):  # not even the start has accelerations
         return math.nan, math.nan
     worst = turned = 0.0
     for first in range(0, len(energy), BLOCK):
         rows = slice(first, first + BLOCK)
-        with np.errstate(invalid="ignore", over="ignore"):  # infinities: told by `unbalanced`
+        with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `unbalanced`
             residual = energy[rows].sum(axis=1) - energy[0].sum() - (work[rows].sum(axis=1) - work[0].sum())
         worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
         turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
@@ -283,7 +284,7 @@ def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: A
     except (
         _TimeLimitReached,
         MemoryError,
-    ):  # the samples are there; what follows from them is evaluated when asked for
+    ):  # the samples are there; what follows from them is evaluated on request
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
@@ -316,7 +317,7 @@ def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: A
     if evaluation is not None:
         told = unbalanced(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
         result = result if compiled.source.massless else _with_notes(result, told)
-        result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+        result.__dict__["evaluation"] = evaluation  # a cached property: not computed again
     result = result if problem.start_is_sample else without_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
@@ -370,6 +371,7 @@ def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], 
     begun = told = monotonic()
 
     def look() -> None:
+        """Poll for Ctrl-C and report progress. Raise _TimeLimitReached if an interrupted run takes too long."""
         nonlocal told
         problem.take()
         now = monotonic()

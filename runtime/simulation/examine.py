@@ -47,8 +47,9 @@ ANOTHER = "the run could not be repeated bit for bit: where the work of its join
 def examine(
     simulation: Simulation, run: Result, ideal: Simulation | Result | None = None, progress: Progress | None = None
 ) -> Result:
-    """Return the run with `diagnostics.examined`. `ideal`: the ideal scene, or its run at the run's times. Raises
-    BadValueError for a run of another scene, or of a file without the scene. Ctrl-C is passed on.
+    """Return the run with `diagnostics.examined`. `ideal`: the ideal scene, or its run at the run's times.
+
+    Raises BadValueError for a run of another scene, or of a file without the scene. Ctrl-C is passed on.
     """
     check_own(simulation, run, "examine")
     notes: list[str] = []
@@ -168,7 +169,9 @@ def _examine_joint(
             angle = np.arctan2(other[f"{name}.ey"][at], other[f"{name}.ex"][at]) - theta
             along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
         normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
-    rigid = name in run.source.rigid  # closed by its latch, at δ = 0, where its force does no work along the normal
+    rigid = (
+        name in run.source.rigid
+    )  # closed at δ = 0, where its force does no work along the normal
     touching = (other.state[at, k] > 0) if rigid else joint.dry & (other[f"{name}.delta"][at] > 0.0)
     slip = (solid[f"{name}.Ft"] * other[f"{name}.vt"])[at]
     in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
@@ -294,7 +297,7 @@ def _estimate_errors(
     Times after the predictability horizon are not compared.
     """
     if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
-        return (), ""  # Newton's method at each sample: there is no step
+        return (), ""  # Newton's method at each sample, without steps
     usual, tighter = settings_of(run)
     fixed = "step" in usual
     told = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"

@@ -89,6 +89,7 @@ def first_jumps(
     source: KernelSource, p: Array, t0: float, ends: Sequence[float], left_out: Container[int] = ()
 ) -> dict[int, Jump]:
     """Return the first jump of each run between t0 and its end (s), by index; parameter values p (runs, values).
+
     Drives with equal parameter values are searched once. Runs in `left_out` are skipped.
     """
     first, known = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
@@ -204,7 +205,7 @@ def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0
         jump = _classify_jump(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
         if jump and jump.kind == "value":
             near = of_time(source, p, tree, np.array([at - h, at, at + h]))
-            if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else the corner of a rate, so near an end
+            if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else a jump of the rate, so near an end
                 return [replace(jump, breaks=True)]
     return [Jump(drive, t1, "no number", np.nan, breaks=True, told=undefined[0])] if undefined else []
 
@@ -265,7 +266,7 @@ def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: fl
     last = float(powers[-4:].mean())
     if last > 1.4:
         return None
-    # at the end of what is looked at a corner stands out by its distance from there, until that is wider
+    # near an end of the interval, a jump of the rate shows by its distance from there, until that is wider
     power = max(float(np.median(powers[: len(powers) // 2 + 1])), last)
     kind = "rate" if power > 0.8 else "infinite rate" if power > 0.2 else "value"
     return Jump(drive, 0.5 * (a + b), kind, sizes[min(3, len(sizes) - 1)] if kind == "rate" else value)

@@ -86,7 +86,7 @@ class Neighbours:
     def drawn(self, t: float, y: Array) -> Array:
         """Return a neighbour of y at distance NEAR on the constraints, in a fixed random direction."""
         ahead = self.weights * np.random.default_rng(DRAW).standard_normal(len(y))
-        for _ in range(2):  # what is left of it by the constraints, then as long as is wanted
+        for _ in range(2):  # project onto the constraints, then scale to the length
             ahead *= NEAR / self.apart(ahead)
             ahead = self.onto(t, y + ahead) - self.onto(t, y)
         return y + ahead

@@ -67,6 +67,7 @@ class Simulation(Shown):
         self._variants: dict[str, Simulation] = {}
 
     def __repr__(self) -> str:
+        """Return a short description: mechanism, scene, number of bodies, joints with play."""
         joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
         return f"<Simulation {of}: {self.compiled.n // 3} bodies{f', play in {joints}' if joints else ''}>"
 

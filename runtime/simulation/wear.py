@@ -125,6 +125,7 @@ def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
     """Return the wear rate k/H (1/Pa) from the arguments of `wear`."""
 
     def number(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
+        """Return a positive number from a text with a unit or a number."""
         return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
 
     if hardness is None:
@@ -195,7 +196,10 @@ class Rubs:
         F_n, F_t, e_x, e_y, e, v_t, delta = (
             columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")
         )
-        w, touching = h * WEIGHTS, self.rigid | (delta > 0.0)  # a rigid contact is closed by its latch, at δ = 0
+        w, touching = (
+            h * WEIGHTS,
+            self.rigid | (delta > 0.0),
+        )  # a rigid contact is closed at δ = 0
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
         self.slip += float(slip.sum())

@@ -1,10 +1,10 @@
-"""Whether a run is still wanted: Ctrl-C and progress while its loop is in C (engine/run/cancellation.c).
+"""Poll for cancellation and progress while a run is in C (engine/run/cancellation.c), and run long calls in
+threads.
 
-C asks each EVERY seconds, wherever it is, and gives up what it is at when told so.
-
-- `Asker`: what C calls while it runs.
+C calls Python every EVERY seconds, and stops its work if requested.
+- `Asker`: the callback of C.
 - `apart` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
-- `working` reports that deriving or compiling is under way, before anything runs.
+- `working` reports that deriving or compiling is under way.
 """
 
 from __future__ import annotations
@@ -20,30 +20,31 @@ if TYPE_CHECKING:
 
     from gudgeon.model.compiled import CompiledModel
 
-EVERY = 0.05  # s between two questions
-_functions: dict[int, tuple[Any, Any]] = {}  # by the id of what cffi knows, which is kept: no other gets the same
+EVERY = 0.05  # s between two polls
+# callbacks by the id of cffi's interface, which is stored too, so that ids stay unique
+_functions: dict[int, tuple[Any, Any]] = {}
 Result = TypeVar("Result")
-Teller = Callable[[str], AbstractContextManager[None]]  # what is done -> what surrounds it
+Teller = Callable[[str], AbstractContextManager[None]]  # what is done → context around it
 
 _teller: ContextVar[Teller | None] = ContextVar("teller", default=None)
 
 
 class Asker:
-    """Whom C asks: `look` is called, and what it raises is kept until Python is back from C (`check`)."""
+    """Receive the polls of C: `look` is called, and its exception is stored until Python is back from C (`check`)."""
 
     def __init__(self, compiled: CompiledModel, look: Callable[[], object]) -> None:
         self.look = look
         self.raised: BaseException | None = None
-        self.function = _function(compiled)
+        self.function = _callback(compiled)
         self.handle = compiled.ffi.new_handle(self)
 
     @property
     def arguments(self) -> tuple[Any, Any, float]:
-        """As C takes them: function, whom, seconds."""
+        """Return the arguments for C: function, handle, seconds."""
         return self.function, self.handle, EVERY
 
     def answer(self) -> int:
-        """1: stop."""
+        """Return 1 if C shall stop, else 0."""
         try:
             self.look()
         except BaseException as error:  # nothing may pass through C
@@ -52,7 +53,7 @@ class Asker:
         return 0
 
     def check(self, stopped: bool) -> None:
-        """Raises what was raised while C asked; `stopped`: C has given up."""
+        """Raise the exception that occurred in a poll; KeyboardInterrupt if C has `stopped`."""
         raised, self.raised = self.raised, None
         if raised is not None:
             raise raised
@@ -60,27 +61,27 @@ class Asker:
             raise KeyboardInterrupt
 
 
-def _function(compiled: CompiledModel) -> Any:
-    """The function that leads from C back to Python; an exception on the way there stops the run too."""
+def _callback(compiled: CompiledModel) -> Any:
+    """Return the callback from C to Python; an exception on the way there stops the run too."""
     ffi = compiled.ffi
     if id(ffi) not in _functions:
 
-        def keep(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-            """What a signal's handler raised just before or behind `answer` is of the one who was asked."""
+        def store_error(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
+            """Store an exception that a signal handler raised just before or after `answer` in its Asker."""
             whom = trace.tb_frame.f_locals.get("whom") if trace else None
             if whom is not None and error is not None:
                 ffi.from_handle(whom).raised = error
 
-        asked = ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=keep)
+        asked = ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=store_error)
         _functions[id(ffi)] = ffi, asked
     return _functions[id(ffi)][1]
 
 
 def apart(work: Callable[[], Result]) -> Result:
-    """What `work` returns or raises, called in another thread; it holds nothing but memory, and lets others run.
+    """Call `work` in another thread, and return its result or raise its exception; Ctrl-C is raised at once.
 
-    Ctrl-C is raised here at once and the thread ends on its own; a process that ends meanwhile waits for it. Not by
-    Thread.join: one that a signal interrupts may leave its lock taken, and the next never returns.
+    The thread then ends on its own; a process that ends meanwhile waits for it. Thread.join is not used: if a signal
+    interrupts it, its lock may stay taken. `work` must hold no resources but memory.
     """
     results: list[Result] = []
     errors: list[BaseException] = []
@@ -88,6 +89,7 @@ def apart(work: Callable[[], Result]) -> Result:
     gate.acquire()
 
     def call() -> None:
+        """Call `work`, and store its result or exception."""
         try:
             results.append(work())
         except BaseException as error:
@@ -103,14 +105,14 @@ def apart(work: Callable[[], Result]) -> Result:
 
 
 def working(text: str) -> AbstractContextManager[None]:
-    """Surrounds what takes a while; nothing where nobody listens."""
+    """Return a context for something that takes a while, which reports `text` if someone listens."""
     teller = _teller.get()
     return teller(text) if teller else nullcontext()
 
 
 @contextmanager
 def told_to(teller: Teller) -> Iterator[None]:
-    """While the block runs `teller` surrounds what takes a while in it, in this thread."""
+    """Report through `teller` what takes a while within the with block, in this thread."""
     token = _teller.set(teller)
     try:
         yield

@@ -1,6 +1,6 @@
-"""Ctrl-C is raised only where it is asked for: none falls between what was computed and the note of it.
+"""Delay Ctrl-C to safe points, so that it never falls between a result and its storage; end interrupted programs.
 
-`last_word` is the last message of a program that is interrupted, INTERRUPTED its exit code.
+`last_word` prints the last message of an interrupted program, INTERRUPTED is its exit code.
 """
 
 from __future__ import annotations
@@ -13,36 +13,40 @@ from time import monotonic
 from types import FrameType
 from typing import Any
 
+# signals that end a program
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
-PATIENCE = 1.0  # s after a first Ctrl-C, from which on another one is raised wherever Python is
-INTERRUPTED = 130
-_whole: list[bool] = []  # not empty where the process is the command `gudgeon` and nothing else
+PATIENCE = 1.0  # s after a first Ctrl-C, after which another one is raised at once
+INTERRUPTED = 130  # exit code of an interrupted program
+_whole: list[bool] = []  # not empty if the process is the command `gudgeon` only
 
 
 class CtrlC:
-    """While this context is open SIGINT only waits for `take`, which hands it to the handler that was there before.
+    """Delay SIGINT within a with block until `take`, which calls the handler that was there before.
 
-    In another thread than the first one there is nothing to do: Python raises there no signal's exception. A handler
-    that is not a function of Python (SIG_DFL, SIG_IGN) stays as it is.
+    In other threads than the main one nothing is done, because Python raises no signals there. Handlers that are not
+    Python functions (SIG_DFL, SIG_IGN) stay as they are.
     """
 
     def __init__(self) -> None:
-        self.since, self.frame = 0.0, None  # s, when it came; 0: none waits
+        self.since, self.frame = 0.0, None  # s, when Ctrl-C came; 0: none waits
         self._handler: Callable[[int, FrameType | None], Any] | None = None
 
     def __enter__(self) -> CtrlC:
+        """Install the delaying handler."""
         if threading.current_thread() is threading.main_thread():
             handler = signal.getsignal(signal.SIGINT)
             if callable(handler):
                 self._handler = handler
-                signal.signal(signal.SIGINT, self._note)
+                signal.signal(signal.SIGINT, self._record)
         return self
 
     def __exit__(self, *_: object) -> None:
+        """Restore the handler that was there before."""
         if self._handler is not None:
             signal.signal(signal.SIGINT, self._handler)
 
-    def _note(self, number: int, frame: FrameType | None) -> None:
+    def _record(self, number: int, frame: FrameType | None) -> None:
+        """Record a Ctrl-C; pass on a second one that comes later than PATIENCE."""
         now = monotonic()
         if not self.since:
             self.since = now
@@ -50,20 +54,21 @@ class CtrlC:
             self._handler(number, frame)
 
     def take(self) -> None:
-        """Raises what the handler raises, KeyboardInterrupt as a rule, if a signal waits."""
+        """Call the former handler if Ctrl-C waits; it usually raises KeyboardInterrupt."""
         if self.since and self._handler is not None:
             self.since = 0.0
             self._handler(signal.SIGINT, None)
 
 
 class EndingSignals:
-    """While this context is open SIGTERM and SIGHUP interrupt as Ctrl-C does, and end the process when it closes.
+    """Treat SIGTERM and SIGHUP as Ctrl-C within a with block, and end the process when it closes.
 
-    So no compiler and no temporary folder outlives a program that is ended while it loads a scene. A program that
-    handles these signals itself, or Ctrl-C in its own way, is left alone; so is every thread but the first one.
+    So no compiler and no temporary folder outlives a program that is ended while it loads a scene. Programs that handle
+    these signals or Ctrl-C themselves are left alone; so are other threads than the main one.
     """
 
     def __enter__(self) -> None:
+        """Install handlers for the signals that have none."""
         self._ended: list[int] = []
         self._replaced: list[int] = []
         if threading.current_thread() is not threading.main_thread():
@@ -76,28 +81,30 @@ class EndingSignals:
                 signal.signal(number, self._interrupt)
 
     def __exit__(self, *_: object) -> None:
+        """Restore the handlers, and raise the signal that came."""
         for number in self._replaced:
             signal.signal(number, signal.SIG_DFL)
         for number in self._ended[:1]:
             signal.raise_signal(number)
 
     def _interrupt(self, number: int, _: FrameType | None) -> None:
+        """Record a signal and raise SIGINT in its place."""
         self._ended.append(number)
         signal.raise_signal(signal.SIGINT)
 
 
 def is_the_program() -> None:
-    """The process is the command and nothing else: its last word is the last thing that it does."""
+    """Declare that the process is the command `gudgeon` only, so that it may ignore Ctrl-C at its end."""
     _whole.append(True)
 
 
 def nothing_more() -> None:
-    """A second Ctrl-C would find nothing but the end, and make another one of it: Python, as it ends, lets it kill."""
+    """Ignore Ctrl-C from now on, if the process is the command only: it ends anyway."""
     if _whole:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def last_word() -> None:
-    """That it was interrupted."""
+    """Print that the program was interrupted."""
     nothing_more()
     print("interrupted", file=sys.stderr)

@@ -1,9 +1,7 @@
-"""Packages that are imported late, each wholly: one that Ctrl-C left half imported would fail until Python ends.
+"""Import large packages late and completely: a module that Ctrl-C left half imported could not be imported again.
 
-They take a second and more, so they are imported in a thread of their own: Ctrl-C is raised at once in the main thread,
-and what is being imported comes to its end beside it.
-
-`at_rest` stops the collector of garbage meanwhile: what is made there stays.
+They take a second or more, and are imported in a thread of their own. Ctrl-C is raised at once in the main thread,
+while the import is completed. `at_rest` stops the garbage collector meanwhile.
 """
 
 from __future__ import annotations
@@ -19,13 +17,13 @@ RUNTIME = ("numpy", "gudgeon.simulation.simulation")
 READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reader.read")
 GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
 CFFI = ("cffi", "pycparser", "cffi.cparser")
-LOOK = 0.05  # s, after which a signal is looked for
+LOOK = 0.05  # s between two checks for signals
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
-_frozen = False  # whether somebody's objects are known to be: to count a million of them takes ten milliseconds
+_frozen = False  # whether other code froze objects; counting them takes ten milliseconds
 
 
 def whole(*names: str) -> None:
-    """Import modules; Ctrl-C is raised while they are, and leaves none half imported."""
+    """Import modules completely; Ctrl-C is raised meanwhile, but leaves no module half imported."""
     if all(map(_is_imported, names)):
         return
     failed: list[BaseException] = []
@@ -38,6 +36,7 @@ def whole(*names: str) -> None:
 
 
 def _import(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
+    """Import modules in this thread; store an error and signal the end."""
     try:
         with at_rest():  # what modules make stays: to look through it again and again takes a tenth of their time
             for name in names:
@@ -49,16 +48,16 @@ def _import(names: tuple[str, ...], failed: list[BaseException], done: threading
 
 
 def _is_imported(name: str) -> bool:
-    """To its end: not while another thread is still at it."""
+    """Return whether a module is completely imported, not just by another thread in progress."""
     module = sys.modules.get(name)
     return module is not None and not getattr(getattr(module, "__spec__", None), "_initializing", False)
 
 
 @contextmanager
 def at_rest() -> Iterator[None]:
-    """Nothing is looked for within; what is garbage meanwhile is found when all objects are looked through next.
+    """Stop the garbage collector within a with block, and count new objects as old ones afterwards.
 
-    All that was made is as old as can be when this ends: as new objects, they would be looked through at once.
+    As new objects they would be searched at once.
     """
     global _frozen
     collects = gc.isenabled()
@@ -68,7 +67,7 @@ def at_rest() -> Iterator[None]:
     finally:
         if collects:
             _frozen = _frozen or gc.get_freeze_count() > 0
-            if not _frozen:  # somebody's frozen objects stay so
+            if not _frozen:  # objects frozen by others stay frozen
                 gc.freeze()
                 gc.unfreeze()
             gc.enable()

@@ -1,4 +1,4 @@
-"""Programs that run for gudgeon, each in a process group of its own: what is given up ends with all it started."""
+"""Run other programs, each in its own process group, so that all its processes end when it is no longer needed."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ from gudgeon.waiting.ctrl_c import CtrlC
 if TYPE_CHECKING:
     import subprocess
 
+# function that returns whether waiting shall end
 _given_up: ContextVar[Callable[[], bool] | None] = ContextVar("whether nobody waits any more", default=None)
 
 
 @contextmanager
 def until(given_up: Callable[[], bool]) -> Iterator[None]:
-    """Waiting for programs in this thread ends by KeyboardInterrupt once `given_up()` is true.
+    """Let waiting for programs in this thread end by KeyboardInterrupt once `given_up()` is true.
 
-    Python raises no signal's exception in another thread than the first one: it is told there by whoever took it.
+    Python raises no signals in other threads than the main one; the thread that received Ctrl-C tells them.
     """
     token = _given_up.set(given_up)
     try:
@@ -33,16 +34,17 @@ def until(given_up: Callable[[], bool]) -> Iterator[None]:
 
 
 class Programs:
-    """A context that no program survives: what is still under way at its end (Ctrl-C, an error) is killed."""
+    """Run programs within a with block; those still running at its end are killed."""
 
     def __init__(self) -> None:
         self._begun: list[subprocess.Popen[str]] = []
 
     def __enter__(self) -> Programs:
+        """Return the context."""
         return self
 
     def begin(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
-        """A program under way in a folder (None: this one). OSError if it cannot be run."""
+        """Start a program in a folder (None: the current one). Raise OSError if it cannot be run."""
         import subprocess
 
         with CtrlC() as ctrl_c:  # not between the start of a process and the note of it
@@ -62,7 +64,7 @@ class Programs:
         return process
 
     def wait(self, process: subprocess.Popen[str]) -> tuple[str, str]:
-        """Its output and errors, when it is over. KeyboardInterrupt within EVERY seconds of Ctrl-C, or of `until`."""
+        """Return output and errors of a program after its end. Raise KeyboardInterrupt soon after Ctrl-C or `until`."""
         import subprocess
 
         told: tuple[str, str] | None = None
@@ -79,7 +81,7 @@ class Programs:
         return told
 
     def stop(self, *given_up: subprocess.Popen[str]) -> None:
-        """What is still under way of these ends now."""
+        """Kill those of these programs that are still running."""
         left = [process for process in given_up if process.returncode is None]
         for process in left:
             try:
@@ -90,4 +92,5 @@ class Programs:
             process.communicate()
 
     def __exit__(self, *_: object) -> None:
+        """Kill the programs that are still running."""
         self.stop(*self._begun)

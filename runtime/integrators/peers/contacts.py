@@ -216,6 +216,7 @@ class Contacts:
         from scipy.optimize import brentq
 
         def value(t: float) -> float:
+            """Return the projected event function, or its rate, at t."""
             view = self._view_at(piece.projected, t)
             number = view.deltadot[0, k] if rate else view.delta[0, k]
             return float(number if self.closed[k] else -number)
