@@ -1,8 +1,9 @@
-"""Figures of a study, `study.plot`: bands of an ensemble, curves over a parameter, sections, maps over two parameters.
+"""Own the figures of a study, `study.plot`: bands of an ensemble, curves over a parameter, sections, maps over two
+parameters.
 
-Each method draws one Axes, made or given, of the runs that `at` picks: {"scene": "dry", "c": 3e-4}, the nearest of a
-number's values. NaN, of runs that failed, is in no statistic.
-At places of an axis are drawn medians with quartiles and extremes, words, and what others found.
+Each method draws one Axes, new or given, of the runs that `at` selects: {"scene": "dry", "c": 3e-4}, the nearest value
+for a number. Statistics leave out NaN of failed runs. On axes of texts the figures show medians with quartiles and
+extremes, and published values.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ class StudyPlot:
     """Figures of one study; every method returns its Axes, `axes.figure.savefig("x.svg")` stores them."""
 
     def __init__(self, study: Study) -> None:
+        """Read the data of a study."""
         self.data = StudyData(study)
 
     def measure(
@@ -53,11 +55,11 @@ class StudyPlot:
         published: Mapping[Any, float] | bool = False,
         ax: Axes | None = None,
     ) -> Axes:
-        """A measure over what was varied (the first number), a line for each value of `by` (scenes).
+        """Plot a measure over a varied coordinate (the first number), with a line for each value of `by` (scenes).
 
-        Lines are medians of all other runs, bands their quartiles and extremes; over words, zips and starts dots and
-        bars. published: marks of what others found, {coordinate: value, SI}; True: the numbers that the study's file
-        claims of these runs, in the lines' colours, none of those that are about a part of what a median is of.
+        Lines are medians over all other runs, bands their quartiles and extremes; over texts, zips and starts dots and
+        bars. published: marks of published values, {coordinate: value, SI}; True: the numbers that the study's file
+        claims of these runs, in the lines' colours, except those about a part of the runs of a median.
         """
         found = self.data.measure(name, at)
         axis = self.data.first(found) if over is None else over
@@ -98,10 +100,10 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
+        """Plot a stored series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
-        share: over each run's own length, 0 to 1, at the shares of the run with the most samples; runs with others
-        lie on straight lines between theirs. BadValueError for runs with other times than each other, without share.
+        share: over fractions of each run's duration, 0 to 1, at the samples of the longest run; other runs are
+        interpolated linearly. Raises BadValueError for runs with different times without share.
         """
         t, found = self.data.series(series, at)
         if flag(share, "share"):
@@ -122,7 +124,7 @@ class StudyPlot:
         return ax
 
     def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """A kept series over time, every run a curve, in the colour of its value of `by`."""
+        """Plot a stored series over time with a curve for every run, in the colour of its value of `by`."""
         t, found = self.data.series(series, at)
         return self._curves([(t, found)], "t [s]", series, by, at, ax)
 
@@ -135,10 +137,10 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Amplitudes of a kept series over frequency (Hz), as `run.plot.spectrum` has them, for each value of `by`.
+        """Plot amplitudes of a stored series over frequency (Hz), as in `run.plot.spectrum`, for each value of `by`.
 
-        Median, quartiles and extremes of all its runs. BadValueError for samples that are not even, or for runs of one
-        value that have other times than each other.
+        Median, quartiles and extremes over its runs. Raises BadValueError for uneven samples, or for runs of one value
+        with different times.
         """
         t, found = self.data.series(series, at)
         by = self.data.dimension(found, by) if by is not None else None
@@ -164,9 +166,10 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """A kept series as an accelerometer shows it, behind a low-pass of Butterworth with −3 dB at `cutoff` (Hz).
+        """Plot a stored series as an accelerometer shows it, after a Butterworth low-pass with −3 dB at `cutoff` (Hz).
 
-        Every run a curve, in the colour of its value of `by`; `order`, `causal`: as in `run.plot.low_pass`.
+        There is a curve for every run, in the colour of its value of `by`; `order`, `causal`: as in
+        `run.plot.low_pass`.
         """
         t, found = self.data.series(series, at)
         cutoff = positive(cutoff, "cutoff")
@@ -177,7 +180,7 @@ class StudyPlot:
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """One kept series over another, every run a curve, in the colour of its value of `by`."""
+        """Plot one stored series over another with a curve for every run, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
         factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
         return self._curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
@@ -191,6 +194,7 @@ class StudyPlot:
         at: Coords | None,
         ax: Axes | None,
     ) -> Axes:
+        """Plot a curve for every run over x values, in the colour of its value of `by`."""
         ((x, found),) = pairs
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
@@ -220,9 +224,10 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Poincaré's section: kept series x and y where a third one rises (falls) through a level (SI), after a time.
+        """Plot a Poincaré section: series x and y where a third one rises (or falls) through a level (SI), after a
+        time.
 
-        Between samples all lie on monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
+        Between samples all series are monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
         """
         own = self.data.sections(section, [x, y], level, falling, after, at)
         xs, ys = (np.concatenate([pair[k] for _, pair in own]) if own else np.zeros(0) for k in range(2))
@@ -248,7 +253,7 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Values of a kept series in the section (see `section`), a dot each, over a parameter."""
+        """Plot the values of a stored series in a section (see `section`) as dots over a parameter."""
         _, found = self.data.series(series, at)
         place = found.dims.index(self.data.dimension(found, over))
         x, x_label, ticks = self.data.axis(over)
@@ -265,7 +270,7 @@ class StudyPlot:
         return ax
 
     def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """A measure over two dimensions, of all other runs their median; a cell without a number stays empty."""
+        """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty."""
         found = self.data.measure(name, at)
         x, y = self.data.dimension(found, x), self.data.dimension(found, y)
         if x == y:
@@ -288,6 +293,7 @@ class StudyPlot:
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
+        """Set title and legend."""
         picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend and ax.get_legend_handles_labels()[0]:
@@ -295,7 +301,7 @@ class StudyPlot:
 
 
 def _pairs(published: Any) -> dict[Any, Any]:
-    """Coordinates and numbers. BadValueError for anything else."""
+    """Return published values as a dict. Raises BadValueError for anything else."""
     try:
         return dict(published or {})
     except (TypeError, ValueError):
@@ -303,14 +309,14 @@ def _pairs(published: Any) -> dict[Any, Any]:
 
 
 def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
-    """(len(which), …) over the first axis, NaN left out; NaN where there is nothing else."""
+    """Return quantiles (len(which), …) over the first axis without NaN; NaN where there is no number."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # all NaN: that is what it says
         return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
 
 
 def band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0) -> None:
-    """Extremes, quartiles and the median; where there is one run alone its line."""
+    """Draw extremes, quartiles and the median over x; for a single run only its line."""
     low, q1, middle, q3, high = five
     order = np.argsort(x, kind="stable")
     if not np.array_equal(low, high, equal_nan=True):
@@ -320,7 +326,7 @@ def band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0)
 
 
 def bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
-    """The same where no line goes from one to the next: the median a dot, bars of quartiles and of extremes."""
+    """Draw medians as dots, with bars of quartiles and of extremes, for coordinates that no line connects."""
     low, q1, middle, q3, high = five
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
@@ -328,17 +334,17 @@ def bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
 
 
 def known(values: Any, told: str) -> str | None:
-    """What a legend calls it; nothing where there is no number to be seen."""
+    """Return the label of a curve for the legend; None if it has no number."""
     return told if np.isfinite(values).any() else None
 
 
 def evenly(n: int, most: int) -> range:
-    """Every k-th of n places, so that there are no more than `most`: those that have words at an axis."""
+    """Return every k-th of n indices, at most `most` of them, for labels at an axis."""
     return range(0, n, -(-n // most))
 
 
 def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
-    """Words at an axis, long ones on lines, aslant where they would not fit."""
+    """Set texts at an axis, wrapped, and slanted if they would not fit."""
     if ticks is None:
         return
     lines = [in_figure(word, LINE) for word in ticks]
@@ -350,7 +356,7 @@ def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
 
 
 def marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
-    """What others found: place, value and line of each; −1: of no line."""
+    """Draw published values: position, value and index of the line of each; −1: no line."""
     for k, (place, value, line) in enumerate(claimed):
         own = IDEAL if line < 0 else colours[line]
         told = "published" if k == 0 else None
@@ -358,7 +364,7 @@ def marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colo
 
 
 def numbers(ax: Axes, values: Any, image: Any) -> None:
-    """In each cell, dark on what is bright."""
+    """Write the number into each cell of a map, dark on bright colours."""
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
