@@ -46,7 +46,7 @@ def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pict
     for k, heading in enumerate(_order_headings(own + judged)):
         under = [rows for rows, name in zip(numbers, own, strict=True) if name == heading]
         theirs = [rows for rows in under if _is_published(rows[0])]
-        drawn = gallery(_figures(theirs, told), f"claims{k or ''}", pictures)
+        drawn = gallery(_claim_figures(theirs, told), f"claims{k or ''}", pictures)
         alone = _unpublished_table([rows for rows in under if not _is_published(rows[0])], told)
         said = _trend_table([rows for rows, name in zip(trends, judged, strict=True) if name == heading], told)
         shown.append(
@@ -115,7 +115,7 @@ def _number_table(claims: list[list[Row]], told: _ClaimNames) -> str:
     ours = (f"ours, {told.shown(name)}" if name else "ours" for name in names)
     head = ["", "figure", "what", "printed", *ours, "off by", "note"]
     below = ["ours: median (quartiles); off by: of the medians from what is printed"]
-    every = (_number(rows, names, told, *_unit(_same_measure(claims, rows))) for rows in claims)
+    every = (_number_cells(rows, names, told, *_unit(_same_measure(claims, rows))) for rows in claims)
     return _table_without_empty(head, every) + lines(below * bool(claims), "g-quiet")
 
 
@@ -129,7 +129,7 @@ def _unit(claims: list[list[Row]]) -> tuple[float, str]:
     return drawn(max(map(_largest_magnitude, claims)), str(claims[0][0]["unit"]))
 
 
-def _number(rows: list[Row], names: list[str], words: _ClaimNames, factor: float, unit: str) -> list[str]:
+def _number_cells(rows: list[Row], names: list[str], words: _ClaimNames, factor: float, unit: str) -> list[str]:
     """Return the cells of a published number."""
     first, own = rows[0], {str(row["ensemble"]): row for row in rows}
     printed = "–" if _is_missing(first["printed"]) else _with_unit(first["printed"] * factor, unit)
@@ -231,7 +231,7 @@ def _join_distinct(values: Iterable[str]) -> str:
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
-def _figures(claims: list[list[Row]], words: _ClaimNames) -> Iterator[Draw]:
+def _claim_figures(claims: list[list[Row]], words: _ClaimNames) -> Iterator[Draw]:
     """Yield caption and drawing function for each figure and measure of the source, in its order."""
     groups: dict[tuple[str, str], list[list[Row]]] = {}
     for rows in claims:

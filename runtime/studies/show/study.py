@@ -42,7 +42,7 @@ def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> N
         _show_estimate(plan, found[name])
     if plans.named:
         size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
-        print(f"all parts: {counted(plans.runs, 'run')}, about {in_bytes(size)} on disk, {_format_duration(spent)}")
+        print(f"all parts: {counted(plans.runs, 'run')}, about {in_bytes(size)} on disk, {_time_text(spent)}")
 
 
 def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
@@ -63,7 +63,7 @@ def _show_estimate(plan: Plan, found: Estimate) -> None:
     """Print an estimate."""
     print(f"{runs_text(plan, found.runs)} in {counted(found.blocks, 'block')}")
     print(
-        f"about {in_bytes(found.bytes)} on disk, {_format_duration(found.seconds)} by {counted(found.tried, 'run')} on trial"
+        f"about {in_bytes(found.bytes)} on disk, {_time_text(found.seconds)} by {counted(found.tried, 'run')} on trial"
     )
     if found.failed:
         print(f"{found.failed} of {counted(found.tried, 'run')} on trial failed: {visible(found.reasons[0])}")
@@ -149,7 +149,7 @@ def _measure_spreads(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[
         yield name, plan.units[name], row | {"nan": int(values.size - own.size)}
 
 
-def _format_duration(value: float) -> str:
+def _time_text(value: float) -> str:
     """Return a duration in a suitable unit."""
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if value >= 2 * factor:
