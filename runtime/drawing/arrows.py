@@ -44,9 +44,9 @@ def arrows(role: str, vectors: Mapping[str, tuple[Array, Array]], unit: str, pen
             shapes += arrow(
                 f"{role} {name}", role, place, place + metres * vector, min(0.85 * HEAD * pen, 0.6 * length)
             )
-    told = round_number(largest)
-    factor, text = scale(told, unit)
-    return Arrows(role, tuple(shapes), metres * told, f"{told * factor:g} {text}")
+    reference = round_number(largest)
+    factor, text = scale(reference, unit)
+    return Arrows(role, tuple(shapes), metres * reference, f"{reference * factor:g} {text}")
 
 
 def round_number(most: float) -> float:

@@ -91,7 +91,7 @@ def _point_marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator
             yield Disc(f"point {name}", "mark", posture.place(name), 0.22 * plan.unit, tint)
 
 
-def names_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
+def labels_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
     """Yield the labels of bodies at the middle of their points, and of marked points."""
     for body in posture.bodies:
         places = distinct(anchors(posture, body).values())

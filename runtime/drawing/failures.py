@@ -45,8 +45,8 @@ def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
                 place = type_of(part).symbol.place(JointAt(posture, part))
             else:
                 place = pivot(posture, part)
-            told = [lengths_text(length) for length in lengths] + [f"{np.degrees(angle):.3g}°" for angle in angles]
-            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(told)}", place, way=90.0))
+            texts = [lengths_text(length) for length in lengths] + [f"{np.degrees(angle):.3g}°" for angle in angles]
+            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(texts)}", place, way=90.0))
     return shapes, labels
 
 
@@ -81,12 +81,12 @@ def freedoms(
     return shapes, labels
 
 
-def _motion_arrows(own: Array, centre: Array, body: str, unit: float, least: float, size: float) -> Iterator[Shape]:
+def _motion_arrows(motions: Array, centre: Array, body: str, unit: float, least: float, size: float) -> Iterator[Shape]:
     """Yield double arrows along each direction in which the centre of a body is free, and around it if the body can
     rotate.
     """
     part, head = f"free {body}", HEAD * unit
-    directions, values, _ = np.linalg.svd(own[:2], full_matrices=False)
+    directions, values, _ = np.linalg.svd(motions[:2], full_matrices=False)
     moving = [way for way, value in zip(directions.T, values, strict=True) if value > least]
     if len(moving) > 1:
         moving = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
@@ -94,5 +94,5 @@ def _motion_arrows(own: Array, centre: Array, body: str, unit: float, least: flo
         for sign in (1.0, -1.0):
             yield from arrow(part, "free", centre + sign * unit * way, centre + sign * REACH * unit * way, head)
     alone = not moving or len(moving) > 1
-    if alone and float(np.abs(own[2]).max(initial=0.0)) * size > least:
+    if alone and float(np.abs(motions[2]).max(initial=0.0)) * size > least:
         yield from round_arrow(part, "free", centre, 3.4 * unit, True, head)

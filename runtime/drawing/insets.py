@@ -58,14 +58,14 @@ def insets(
     shown = [name for name in played if not is_wide(posture, name, unit)]
     for joint, centre in zip(shown, _place_insets(len(shown), radius, low, high), strict=True):
         c, times = posture.play(joint), magnification(posture, joint, unit)
-        one = _draw_slider if joint in posture.guides else _draw_journal
-        shapes, ratio, below = one(posture, joint, centre, radius, touching, touched - touching)
-        told = f"{joint} ×{times:g}, e/c = {ratio:.2f}"
+        draw_inset = _draw_slider if joint in posture.guides else _draw_journal
+        shapes, ratio, below = draw_inset(posture, joint, centre, radius, touching, touched - touching)
+        text_of_name = f"{joint} ×{times:g}, e/c = {ratio:.2f}"
         factor, text = scale(c, "m")
         what, each = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
         note = f"{joint}: {what} {c * factor:.4g} {text}{each}, drawn ×{times:g}"
         dashed = DASHED * (joint == next((name for name in shown if name in posture.clearances), ""))
-        yield shapes, Label(f"inset {joint}", "inset", told, centre - [0.0, below], 0.0, 270.0), note + dashed
+        yield shapes, Label(f"inset {joint}", "inset", text_of_name, centre - [0.0, below], 0.0, 270.0), note + dashed
 
 
 def _draw_journal(

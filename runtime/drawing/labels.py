@@ -98,7 +98,7 @@ class Names(Artist):
             text.set_position((0.0, 0.0))
             extent = text.get_window_extent(renderer)
             halves[label.part] = 0.5 * np.array([extent.width, extent.height])
-        self.beside = settled(self.sketch, halves, self.held, to_pixels, metre, point, room)
+        self.beside = place_names(self.sketch, halves, self.held, to_pixels, metre, point, room)
         self.leads, self.boxes = [], {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_visible(label.part in self.beside)
@@ -108,27 +108,27 @@ class Names(Artist):
             middle = at + self.beside[label.part]
             text.set_position((float(middle[0]), float(middle[1])))
             self.boxes[label.part] = tuple([*(middle - half), *(middle + half)])
-            if is_led(at, middle, half, clear, point):
+            if needs_leader(at, middle, half, clear, point):
                 self.leads.append(self._lead_line(at, middle, half, clear))
 
-    def _omission_note(self, left: int) -> Text:
+    def _omission_note(self, count: int) -> Text:
         """Return a text for the upper right corner that names were left out."""
         axes: Any = self.axes
-        told = f"{left} name{'' if left == 1 else 's'} left out: there is no room"
-        text = Text(1.0, 1.0, told, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
+        message = f"{count} name{'' if count == 1 else 's'} left out: there is no room"
+        text = Text(1.0, 1.0, message, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
         text.set_figure(axes.get_figure(root=True))
         return text
 
     def _lead_line(self, at: Array, middle: Array, half: Array, clear: float) -> Line2D:
         """Return the leader line of a name."""
         axes: Any = self.axes
-        ends = lead(at, middle, half, clear).reshape(2, 2)
+        ends = leader_line(at, middle, half, clear).reshape(2, 2)
         line = Line2D(*ends.T, color="#999999", lw=0.5, transform=None)
         line.set_figure(axes.get_figure(root=True))
         return line
 
 
-def settled(
+def place_names(
     sketch: Sketch,
     halves: Mapping[str, Array],
     held: Mapping[str, tuple[float, float]],
@@ -142,34 +142,34 @@ def settled(
     halves: half of each name's width and height. held: offsets of the previous picture, which a name keeps while it
     overlaps no other name and is within the `room`. metre, point: their size in pixels.
     """
-    beside, taken, leads = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
+    offsets, boxes_so_far, leads = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
     lines: Array | None = None
     for label in sketch.labels:
         at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
         middle = at + held.get(label.part, (0.0, 0.0))
         box = np.array([[*(middle - half), *(middle + half)]])
-        if label.part not in held or overlapping(box, taken).any() or not _is_within(box, room)[0]:
+        if label.part not in held or overlapping(box, boxes_so_far).any() or not _is_within(box, room)[0]:
             lines = obstacles(sketch.shapes, to_pixels) if lines is None else lines
-            found = best_place(at, half, label.way, clear, point, lines, taken, room, leads)
+            found = best_place(at, half, label.way, clear, point, lines, boxes_so_far, room, leads)
             if found is None:
                 continue
             middle = found
             box = np.array([[*(middle - half), *(middle + half)]])
-            if is_led(at, middle, half, clear, point):
-                leads = np.vstack([leads, lead(at, middle, half, clear)])  # which the names behind it leave free
-        beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
-        taken = np.vstack([taken, box])
-    return beside
+            if needs_leader(at, middle, half, clear, point):
+                leads = np.vstack([leads, leader_line(at, middle, half, clear)])  # which the names behind it leave free
+        offsets[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
+        boxes_so_far = np.vstack([boxes_so_far, box])
+    return offsets
 
 
-def lead(at: Array, middle: Array, half: Array, clear: float) -> Array:
+def leader_line(at: Array, middle: Array, half: Array, clear: float) -> Array:
     """Return the leader line from the edge of a part to that of its name, a segment (1, 4)."""
     edge = np.clip(at, middle - half, middle + half)
     begin = at + clear * (edge - at) / max(float(np.hypot(*(edge - at))), clear, 1e-300)
     return np.array([[*begin, *edge]])
 
 
-def is_led(at: Array, middle: Array, half: Array, clear: float, point: float) -> bool:
+def needs_leader(at: Array, middle: Array, half: Array, clear: float, point: float) -> bool:
     """Return whether a name is so far from its part that it needs a leader line."""
     edge = np.clip(at, middle - half, middle + half)
     return float(np.hypot(*(edge - at))) - clear > LED * point
@@ -198,11 +198,11 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 def best_place(
     at: Array,
     half: Array,
-    way: float,
+    direction: float,
     clear: float,
     point: float,
     lines: Array,
-    taken: Array,
+    boxes_so_far: Array,
     room: Array,
     leads: Array,
 ) -> Array | None:
@@ -212,7 +212,7 @@ def best_place(
     otherwise the one with the fewest crossings. `half` is half the name's size, `room` the picture's box, `leads` the
     leader lines so far.
     """
-    angles = np.radians([way, *ORDER])
+    angles = np.radians([direction, *ORDER])
     ways = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = at, np.inf
     for ring in RINGS:
@@ -221,7 +221,7 @@ def best_place(
         if ring == RINGS[0] and clear * point > 0.0:
             middles = np.vstack([at, middles])
         boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
-        free = ~overlapping(boxes, taken).any(axis=1) & _is_within(boxes, room)
+        free = ~overlapping(boxes, boxes_so_far).any(axis=1) & _is_within(boxes, room)
         hits = np.array(
             [
                 crossing(box, lines) + CROSSED * crossing(box, leads) if ok else np.inf
@@ -229,9 +229,9 @@ def best_place(
             ]
         )
         for j in np.flatnonzero(free):
-            if len(taken) and is_led(at, middles[j], half, clear, point):
-                back = lead(at, middles[j], half, clear)
-                under = sum(crossing(box, back) for box in taken + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
+            if len(boxes_so_far) and needs_leader(at, middles[j], half, clear, point):
+                back = leader_line(at, middles[j], half, clear)
+                under = sum(crossing(box, back) for box in boxes_so_far + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
                 hits[j] += CROSSED * (under + sum(_segments_cross(back[0], one) for one in leads))
         costs = hits + 0.02 * ring
         k = int(np.argmin(costs))
@@ -242,9 +242,9 @@ def best_place(
     return fallback if np.isfinite(fewest) else None
 
 
-def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:
+def overlapping(boxes: Array, others: Array) -> NDArray[np.bool_]:
     """Return which boxes (B, 4) overlap which others (T, 4), (B, T)."""
-    a, b = boxes[:, None], taken[None]
+    a, b = boxes[:, None], others[None]
     across = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
     return np.asarray(across & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
 

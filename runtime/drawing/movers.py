@@ -21,7 +21,7 @@ RADII = {"angle": DRIVEN, "coordinate": DRIVEN, "torque": LOADED, "rotational_sp
 ALONG = 0.5  # cosine above which a guide counts as parallel to a coordinate
 
 
-def movers(posture: Posture, plan: Plan) -> Iterator[Shape]:
+def draw_drives_and_forces(posture: Posture, plan: Plan) -> Iterator[Shape]:
     """Yield the shapes of drives, then of force elements."""
     for part in posture.parts("drives"):
         yield from _DRIVES[part.kind](posture, plan, part)
@@ -29,7 +29,7 @@ def movers(posture: Posture, plan: Plan) -> Iterator[Shape]:
         yield from _FORCES.get(part.kind, _draw_unknown)(posture, plan, part)
 
 
-def names_of_movers(posture: Posture, plan: Plan, still: bool) -> Iterator[Label]:
+def labels_of_drives_and_forces(posture: Posture, plan: Plan, still: bool) -> Iterator[Label]:
     """Yield the label of each drive and force element; in a `still` picture a zero load says so."""
     for part in (*posture.parts("drives"), *posture.parts("forces")):
         kind = part.section[:-1]

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.drawing.labels import gid, settled
+from gudgeon.drawing.labels import gid, place_names
 from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, colour_of
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.model.compiled import Array
@@ -47,8 +47,8 @@ def page(
     frames = [_make_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
     names = [label for label in first.labels if label.part in beside]
     parts = [label.part for label in names]
-    followed = _followed(sketches, beside, halves, scale)
-    places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, followed, strict=True)]
+    offsets_by_picture = _followed(sketches, beside, halves, scale)
+    places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, offsets_by_picture, strict=True)]
     data = {
         "times": [round(t, 9) for t in times],
         "seconds": seconds,
@@ -59,7 +59,7 @@ def page(
     texts = "".join(_name_element(label.text, label.role, label.part, first) for label in names)
     paths = "".join(f'<path id="{name}"/>' for name in kinds)
     note = "<br>".join(escape(note) for note in first.notes)
-    told = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    encoded = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     slots = {
         "TITLE": escape(title),
         "NOTE": note,
@@ -67,7 +67,7 @@ def page(
         "HEIGHT": f"{height:.0f}",
         "PATHS": paths,
         "NAMES": texts,
-        "DATA": told,
+        "DATA": encoded,
     }
     return re.sub(
         f"@({'|'.join(slots)})@", lambda found: slots[found[1]], PAGE
@@ -131,18 +131,18 @@ def _followed(
     low, room = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
     for sketch in sketches:
         named = replace(sketch, labels=tuple(label for label in sketch.labels if label.part in beside))
-        found = settled(named, halves, beside, lambda x: scale * (np.asarray(x) - low), scale, PIXELS / 72.0, room)
+        found = place_names(named, halves, beside, lambda x: scale * (np.asarray(x) - low), scale, PIXELS / 72.0, room)
         beside = {**beside, **found}
         yield beside
 
 
 def _name_places(
-    sketch: Sketch, parts: Sequence[str], at: Any, beside: Mapping[str, tuple[float, float]]
+    sketch: Sketch, parts: Sequence[str], at: Any, offsets: Mapping[str, tuple[float, float]]
 ) -> list[list[Any]]:
     """Return the middles of names in pixels, and texts that change."""
     labels, found = {label.part: label for label in sketch.labels}, list[list[Any]]()
     for part in parts:
-        x, y = np.round(at(labels[part].place) + np.array(beside[part]) * [1.0, -1.0], 1)
+        x, y = np.round(at(labels[part].place) + np.array(offsets[part]) * [1.0, -1.0], 1)
         found.append([float(x), float(y), *([labels[part].text] if labels[part].role == "inset" else [])])
     return found
 

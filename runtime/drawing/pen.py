@@ -136,8 +136,8 @@ def ground_wall(part: str, place: Array, into: Array, u: float, half: float = 1.
     yield from (Line(part, "hatch", stroke) for stroke in hatching(a, b, into, 0.95 * u))
 
 
-def _draw_stand(part: str, place: Array, way: Array, u: float) -> Iterator[Shape]:
+def _draw_stand(part: str, place: Array, direction: Array, u: float) -> Iterator[Shape]:
     """Yield the triangle and the ground under a pin."""
-    foot, across = place + STAND * u * way, turned(way)
+    foot, across = place + STAND * u * direction, turned(direction)
     yield Line(part, "stand", np.array([place, foot - 1.25 * u * across, foot + 1.25 * u * across]), True)
-    yield from ground_wall(part, foot, way, u, 1.9)
+    yield from ground_wall(part, foot, direction, u, 1.9)

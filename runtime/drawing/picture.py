@@ -102,7 +102,7 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
 
 
 @contextmanager
-def one_word_on_signs() -> Iterator[None]:
+def report_missing_glyphs() -> Iterator[None]:
     """Report characters that the font lacks once for a picture, instead of once for each layout."""
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
@@ -126,6 +126,6 @@ def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
         "png": {"Software": None},
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
     }[kind]
-    with matplotlib.rc_context(STYLE), one_word_on_signs():
+    with matplotlib.rc_context(STYLE), report_missing_glyphs():
         picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
     return out.getvalue()

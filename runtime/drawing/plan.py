@@ -148,6 +148,6 @@ def _element_ground_direction(postures: Sequence[Posture], part: PartInfo) -> Ar
     return unit_vector(mean if float(np.hypot(*mean)) > ASIDE[0] * len(spans) else spans[0])
 
 
-def _angular_distance(angles: Array, way: float) -> Array:
+def _angular_distance(angles: Array, direction: float) -> Array:
     """Return the absolute difference of angles from a direction, within π."""
-    return np.asarray(np.abs((angles - way + np.pi) % (2.0 * np.pi) - np.pi))
+    return np.asarray(np.abs((angles - direction + np.pi) % (2.0 * np.pi) - np.pi))

@@ -168,9 +168,9 @@ class Result(Shown):
     @cached_property
     def states_at_events(self) -> Result:
         """The result whose samples are the start and then all events, by time."""
-        from gudgeon.results.samples import everything
+        from gudgeon.results.samples import result_at_events
 
-        return everything(self)
+        return result_at_events(self)
 
     @property
     def final(self) -> State:

@@ -32,7 +32,7 @@ Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
 
-def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
+def open_result_file(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
     """Return `make(file, size)` for an open HDF5 file and its size in bytes. Raises InputError for every fault of the
     file.
     """

@@ -81,7 +81,7 @@ def executor_of(given: Any) -> Executor | None:
     return None if given is None else instance(given, "executor", Executor)
 
 
-def room(executor: Executor) -> int:
+def max_submitted(executor: Executor) -> int:
     """Return the number of blocks to submit at once, so that no worker waits and memory stays bounded."""
     count = getattr(executor, "count", None) or getattr(executor, "_max_workers", None)
     if count is None and (client := getattr(executor, "_connect", None)) is not None:

@@ -149,13 +149,13 @@ def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
     if math.isinf(a.motion):
         lines[1] = "one of them fails: nothing confirms the errors"
     orders = _name_measures(*(scene.order(m) for m in ("motion", "path", "force")))
-    if told := ", ".join(f"{name} {order:.2f}" for name, order in orders):
-        lines.append(f"observed order of rk4: {told}")
+    if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
+        lines.append(f"observed order of rk4: {text}")
     if scene.of("rk4"):
         good = [row for row in scene.of("rk4") if not row.failure and row.error.force < GOOD_FORCE]
         bad = [row.setting.value for row in scene.of("rk4") if row.failure]
-        told = str(good[0].setting) if good else "none"
-        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {told}"
+        text = str(good[0].setting) if good else "none"
+        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {text}"
         lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
     if mark_step is not None:
         lines.append(f"rk4 at {seconds(mark_step)}: {_describe_step(scene, mark_step)}")

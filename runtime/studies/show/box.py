@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.shown import path_text, print_json
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, partial, tell_failures
+from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, interruption_text, print_failures
 from gudgeon.studies.show.tables import console, new_table, seconds, share, write_files
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
 
@@ -57,7 +57,7 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
     for box in found:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
         title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
-        out.print(title + partial(box), style="bold")
+        out.print(title + interruption_text(box), style="bold")
         if box.full:
             out.print(f"  {FULL}")
         out.print(f"  {count(box.cells)}")
@@ -65,7 +65,7 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
         out.print(_verdict_table(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
-            tell_failures(out, file, box, worst)
+            print_failures(out, file, box, worst)
     for path in written:
         out.print(f"wrote {path_text(path)}")
 

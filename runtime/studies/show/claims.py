@@ -37,7 +37,7 @@ def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pict
         found = study.claims
     except GudgeonError:  # its file makes no claims
         return []
-    told = _ClaimNames(parts)
+    names_of = _ClaimNames(parts)
     numbers, trends = (list(_group_by_claim(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
     own = [_heading(rows[0], NUMBERS if _is_published(rows[0]) else ALONE) for rows in numbers]
@@ -46,11 +46,11 @@ def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pict
     for k, heading in enumerate(_order_headings(own + judged)):
         under = [rows for rows, name in zip(numbers, own, strict=True) if name == heading]
         theirs = [rows for rows in under if _is_published(rows[0])]
-        drawn = gallery(_claim_figures(theirs, told), f"claims{k or ''}", pictures)
-        alone = _unpublished_table([rows for rows in under if not _is_published(rows[0])], told)
-        said = _trend_table([rows for rows, name in zip(trends, judged, strict=True) if name == heading], told)
+        drawn = gallery(_claim_figures(theirs, names_of), f"claims{k or ''}", pictures)
+        alone = _unpublished_table([rows for rows in under if not _is_published(rows[0])], names_of)
+        said = _trend_table([rows for rows, name in zip(trends, judged, strict=True) if name == heading], names_of)
         shown.append(
-            (heading, source * (heading in (NUMBERS, TRENDS)) + _number_table(theirs, told) + drawn + alone + said)
+            (heading, source * (heading in (NUMBERS, TRENDS)) + _number_table(theirs, names_of) + drawn + alone + said)
         )
     return shown
 
@@ -109,19 +109,19 @@ def _ensemble_names(claims: list[list[Row]]) -> list[str]:
     return list(dict.fromkeys(str(row["ensemble"]) for rows in claims for row in rows if row["ensemble"]))
 
 
-def _number_table(claims: list[list[Row]], told: _ClaimNames) -> str:
+def _number_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
     """Return the table of published numbers: median and quartiles of each ensemble, or of all runs."""
     names = _ensemble_names(claims) or [""]
-    ours = (f"ours, {told.shown(name)}" if name else "ours" for name in names)
+    ours = (f"ours, {names_of.shown(name)}" if name else "ours" for name in names)
     head = ["", "figure", "what", "printed", *ours, "off by", "note"]
-    below = ["ours: median (quartiles); off by: of the medians from what is printed"]
-    every = (_number_cells(rows, names, told, *_unit(_same_measure(claims, rows))) for rows in claims)
-    return _table_without_empty(head, every) + lines(below * bool(claims), "g-quiet")
+    footnote = ["ours: median (quartiles); off by: of the medians from what is printed"]
+    every = (_number_cells(rows, names, names_of, *_unit(_same_measure(claims, rows))) for rows in claims)
+    return _table_without_empty(head, every) + lines(footnote * bool(claims), "g-quiet")
 
 
-def _same_measure(claims: list[list[Row]], one: list[Row]) -> list[list[Row]]:
+def _same_measure(claims: list[list[Row]], rows_of_claim: list[Row]) -> list[list[Row]]:
     """Return the claims with the same measure in the same figure as `one`; they share a unit."""
-    return [rows for rows in claims if all(rows[0][key] == one[0][key] for key in ("figure", "measure"))]
+    return [rows for rows in claims if all(rows[0][key] == rows_of_claim[0][key] for key in ("figure", "measure"))]
 
 
 def _unit(claims: list[list[Row]]) -> tuple[float, str]:
@@ -129,7 +129,7 @@ def _unit(claims: list[list[Row]]) -> tuple[float, str]:
     return drawn(max(map(_largest_magnitude, claims)), str(claims[0][0]["unit"]))
 
 
-def _number_cells(rows: list[Row], names: list[str], words: _ClaimNames, factor: float, unit: str) -> list[str]:
+def _number_cells(rows: list[Row], names: list[str], names_of: _ClaimNames, factor: float, unit: str) -> list[str]:
     """Return the cells of a published number."""
     first, own = rows[0], {str(row["ensemble"]): row for row in rows}
     printed = "–" if _is_missing(first["printed"]) else _with_unit(first["printed"] * factor, unit)
@@ -140,10 +140,10 @@ def _number_cells(rows: list[Row], names: list[str], words: _ClaimNames, factor:
     off = sorted(row["deviation"] for row in rows if not _is_missing(row["deviation"]))
     ends = list(dict.fromkeys(f"{value:+.1f}".replace("-", "−") for value in (*off[:1], *off[-1:])))
     told = f"{' … '.join(ends)} %" if off else ""
-    return [str(first["claim"]), str(first["figure"]), words.what(first), printed, *cells, told, str(first["note"])]
+    return [str(first["claim"]), str(first["figure"]), names_of.what(first), printed, *cells, told, str(first["note"])]
 
 
-def _unpublished_table(claims: list[list[Row]], words: _ClaimNames) -> str:
+def _unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
     """Return the table of unpublished numbers: a row for each cell with all its measures, and deviations from
     `beside`.
     """
@@ -154,14 +154,14 @@ def _unpublished_table(claims: list[list[Row]], words: _ClaimNames) -> str:
         first = rows[0]
         factor, unit = units[str(first["measure"])]
         off = "" if _is_missing(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
-        what = str(first["says"]) or words.at(first), words.shown(first["part"])
+        what = str(first["says"]) or names_of.at(first), names_of.shown(first["part"])
         own = each.setdefault(what, {})
         own[str(first["measure"])] = _median_cell(first, factor, unit) + off
         own[NOTE] = "; ".join(filter(None, (own.get(NOTE), str(first.get("note") or ""))))
-    told = ["median (quartiles), and how far it is off from the row that it stands beside"]
+    footnote = ["median (quartiles), and how far it is off from the row that it stands beside"]
     cells = ([*what, *(own.get(name, "") for name in (*measures, NOTE))] for what, own in each.items())
-    return _table_without_empty(["what", "part", *map(words.shown, measures), NOTE], cells) + lines(
-        told * bool(claims), "g-quiet"
+    return _table_without_empty(["what", "part", *map(names_of.shown, measures), NOTE], cells) + lines(
+        footnote * bool(claims), "g-quiet"
     )
 
 
@@ -187,23 +187,23 @@ def _table_without_empty(head: list[str], rows: Iterable[list[str]]) -> str:
     return table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
 
 
-def _trend_table(claims: list[list[Row]], words: _ClaimNames) -> str:
+def _trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
     """Return the table of trends: the verdict of all ensembles, or that of each if they contradict each other."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
-    told = [
+    footnote = [
         "probability: that the next run shows it, the least of all that the trend says, with the interval in which"
         " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
         " 0.8 or above, fails: at 1/3 or below, undecided: neither"
     ]
-    return _table_without_empty(head, (_trend_cells(rows, words) for rows in claims)) + lines(
-        told * bool(claims), "g-quiet"
+    return _table_without_empty(head, (_trend_cells(rows, names_of) for rows in claims)) + lines(
+        footnote * bool(claims), "g-quiet"
     )
 
 
-def _trend_cells(rows: list[Row], words: _ClaimNames) -> list[str]:
+def _trend_cells(rows: list[Row], names_of: _ClaimNames) -> list[str]:
     """Return the cells of a trend."""
     first = rows[0]
-    each = ", ".join(f"{words.shown(row['ensemble'])} {row['alone']}" for row in rows)
+    each = ", ".join(f"{names_of.shown(row['ensemble'])} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
     odds = (
         _join_distinct(map(_probability_cell, rows)),
@@ -231,7 +231,7 @@ def _join_distinct(values: Iterable[str]) -> str:
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
-def _claim_figures(claims: list[list[Row]], words: _ClaimNames) -> Iterator[Draw]:
+def _claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> Iterator[Draw]:
     """Yield caption and drawing function for each figure and measure of the source, in its order."""
     groups: dict[tuple[str, str], list[list[Row]]] = {}
     for rows in claims:
@@ -239,10 +239,10 @@ def _claim_figures(claims: list[list[Row]], words: _ClaimNames) -> Iterator[Draw
             groups.setdefault((str(rows[0]["figure"]), str(rows[0]["measure"])), []).append(rows)
     for (figure, measure), own in groups.items():
         printed = "ours alone" if all(_is_missing(rows[0]["printed"]) for rows in own) else "printed and ours"
-        yield f"{figure}: {words.shown(measure)}, {printed}", partial(_draw_claims, own, words)
+        yield f"{figure}: {names_of.shown(measure)}, {printed}", partial(_draw_claims, own, names_of)
 
 
-def _draw_claims(claims: list[list[Row]], words: _ClaimNames) -> Axes:
+def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
     """Draw the medians with quartiles of each ensemble, and printed values as black marks."""
     import matplotlib
 
@@ -250,7 +250,7 @@ def _draw_claims(claims: list[list[Row]], words: _ClaimNames) -> Axes:
     from gudgeon.results.figures.run_plots import new_axes
 
     factor, unit = _unit(claims)
-    measure = words.shown(claims[0][0]["measure"])
+    measure = names_of.shown(claims[0][0]["measure"])
     names = _ensemble_names(claims) or [""]
     with matplotlib.rc_context(STYLE):
         ax = new_axes(5.6, 3.2)
@@ -275,13 +275,13 @@ def _draw_claims(claims: list[list[Row]], words: _ClaimNames) -> Axes:
                 ms=3.5,
                 capsize=2.0,
                 lw=1.0,
-                label=words.shown(name) if name else "ours" if names == [""] else "ours, one run",
+                label=names_of.shown(name) if name else "ours" if names == [""] else "ours, one run",
             )
         printed = [rows[0]["printed"] * factor for rows in claims if not _is_missing(rows[0]["printed"])]
         places = [k for k, rows in enumerate(claims) if not _is_missing(rows[0]["printed"])]
         ax.plot(places, printed, "k_", ms=16, mew=1.6, label="printed" if printed else None)
         scenes = len({str(rows[0]["part"]) for rows in claims}) > 1
-        ax.set_xticks(range(len(claims)), [_tick_label(rows[0], words, scenes) for rows in claims], fontsize=7)
+        ax.set_xticks(range(len(claims)), [_tick_label(rows[0], names_of, scenes) for rows in claims], fontsize=7)
         ax.set_xlim(-0.6, len(claims) - 0.4)
         ax.grid(False, axis="x")
         ours = (row["median"] * factor for rows in claims for row in rows if not _is_missing(row["median"]))
@@ -295,11 +295,11 @@ def _draw_claims(claims: list[list[Row]], words: _ClaimNames) -> Axes:
     return ax
 
 
-def _tick_label(row: Row, words: _ClaimNames, scenes: bool) -> str:
+def _tick_label(row: Row, names_of: _ClaimNames, scenes: bool) -> str:
     """Return the label of a claim at the axis: name, scene if there are several, and coordinates, on several lines."""
-    at = words.at(row).split(", ")
+    at = names_of.at(row).split(", ")
     told = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
-    return "\n".join(filter(None, (str(row["claim"]), words.scene(row) if scenes else "", *told)))
+    return "\n".join(filter(None, (str(row["claim"]), names_of.scene(row) if scenes else "", *told)))
 
 
 def _largest_magnitude(rows: list[Row]) -> float:

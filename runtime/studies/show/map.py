@@ -96,7 +96,7 @@ def _show(
     out = console()
     for scene in found:
         title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, {compared(scene)}"
-        out.print(title + partial(scene), style="bold")
+        out.print(title + interruption_text(scene), style="bold")
         if scene.full:
             out.print(f"  {FULL}")
         if scene.columns.ratios:
@@ -106,9 +106,9 @@ def _show(
             out.print(_boundary_table(scene))
         elif failures := [cell for cell in scene.cells if cell.failed]:
             out.print("  what failed, and what runs it again")
-            tell_failures(out, file, scene, failures)
+            print_failures(out, file, scene, failures)
     out.print(legend(found))
-    for line in explain(found).splitlines():
+    for line in explain_labels(found).splitlines():
         out.print(f"  {line}")
     for line in verdict(found, mark_step):
         out.print(line)
@@ -142,7 +142,7 @@ def _boundary_table(scene: VerdictMap) -> Table:
     return table
 
 
-def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
+def print_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
     """Print the reasons of failed cells and the command that repeats each, on one line so that it can be copied."""
     laws = files_of_laws()
     for cell in cells:
@@ -152,7 +152,7 @@ def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
-def partial(found: VerdictMap | VerdictBox) -> str:
+def interruption_text(found: VerdictMap | VerdictBox) -> str:
     """Return the part of a title that says how many runs Ctrl-C left; "" if it did not."""
     return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
 
@@ -233,7 +233,7 @@ def value(axis: Axis, x: float) -> str:
     return seconds(x) if axis.unit == "s" else quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
 
 
-def explain(found: Sequence[VerdictMap]) -> str:
+def explain_labels(found: Sequence[VerdictMap]) -> str:
     """Return the meaning of the labels that occur in cells, two a line."""
     used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
     told = dict.fromkeys(text for word, text in LABELS.items() if word in used)

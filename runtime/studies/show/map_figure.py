@@ -13,7 +13,7 @@ from matplotlib.patches import Patch, Rectangle
 from gudgeon.language.shown import in_figure
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
-from gudgeon.studies.show.map import compared, explain, value
+from gudgeon.studies.show.map import compared, explain_labels, value
 from gudgeon.studies.show.tables import seconds
 from gudgeon.studies.verdicts import Cell, Status
 
@@ -50,7 +50,7 @@ def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None 
         head = in_figure(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in found)
-        told = "\n".join([explain(found), *over])
+        told = "\n".join([explain_labels(found), *over])
         picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=told, title_fontsize=8)
     return picture
 

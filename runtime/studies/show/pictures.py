@@ -50,10 +50,10 @@ class Pictures:
         return _PLACE.sub(lambda place: drawn[int(place[1])], page)
 
 
-def gallery(drawn: Iterable[Draw], kind: str, pictures: Pictures) -> str:
+def gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
     """Return figures with captions in a grid; of very many only the first MOST_FIGURES."""
     parts, left = [], 0
-    for k, (caption, draw) in enumerate(drawn):
+    for k, (caption, draw) in enumerate(figures):
         if k >= MOST_FIGURES:
             left += 1
             continue
@@ -63,14 +63,14 @@ def gallery(drawn: Iterable[Draw], kind: str, pictures: Pictures) -> str:
     return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
 
 
-def _draw_in_processes(wanted: list[tuple[str, Callable[[], Any]]]) -> list[str]:
+def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:
     """Return the SVG of all figures, drawn by forked processes if this process has no other threads."""
-    forks = sys.platform == "linux" and threading.active_count() == 1 and len(wanted) >= MANY
-    count = min(available_threads(), len(wanted) // FEW) if forks else 1
-    others = [_DrawingProcess(wanted[k::count]) for k in range(1, count)]
-    drawn = [""] * len(wanted)
+    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MANY
+    count = min(available_threads(), len(figures) // FEW) if forks else 1
+    others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
+    drawn = [""] * len(figures)
     try:
-        drawn[::count] = [_draw_figure(*one) for one in wanted[::count]]
+        drawn[::count] = [_draw_figure(*one) for one in figures[::count]]
         for k, other in enumerate(others, 1):
             drawn[k::count] = other.drawn()
     finally:
@@ -102,19 +102,19 @@ class _DrawingProcess:
         return found
 
 
-def _draw_all(end: Connection, wanted: list[tuple[str, Callable[[], Any]]]) -> None:
+def _draw_all(end: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
     """Draw figures in the other process and send them."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
     with suppress(Exception):  # what is no picture is told where it is drawn again
-        end.send([_draw_figure(*one) for one in wanted])
+        end.send([_draw_figure(*one) for one in figures])
 
 
 def _draw_figure(name: str, draw: Callable[[], Axes]) -> str:
     """Return a figure as SVG, or a text if it cannot be drawn."""
-    from gudgeon.results.figures.run_plots import of_a_page
+    from gudgeon.results.figures.run_plots import figures_for_page
 
     try:
-        with of_a_page():
+        with figures_for_page():
             return _svg(draw(), name)
     except (GudgeonError, ValueError, ArithmeticError) as error:
         return lines([f"not drawn: {error}"], "g-quiet")

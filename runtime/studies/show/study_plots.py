@@ -19,9 +19,9 @@ from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
-from gudgeon.results.figures.run_plots import new_axes, plain
+from gudgeon.results.figures.run_plots import check_axes, new_axes
 from gudgeon.studies.show.study_data import Coords, StudyData
-from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
+from gudgeon.studies.show.study_signals import low_pass_runs, over_shares, spectra
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 
@@ -73,7 +73,7 @@ class StudyPlot:
             stars = {key: number_of(value, "published") for key, value in _pairs(published).items()}
             claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
+            ax = new_axes(5.6, 3.6) if ax is None else check_axes(ax)
             x, x_label, ticks = self.data.axis(axis)
             most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = drawn(max(most), found.attrs.get("units", ""))
@@ -81,13 +81,13 @@ class StudyPlot:
             for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 five = quantiles(self.data.rows(own, over)) * factor
                 if course:
-                    band(ax, x, five, colour, told)
+                    draw_band(ax, x, five, colour, told)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
-            marks(ax, claimed, factor, cycle(len(parts)))
+                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
+            draw_published(ax, claimed, factor, cycle(len(parts)))
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
-            ticks_at(ax, x, ticks)
+            set_ticks(ax, x, ticks)
             self._finish(ax, at, len(parts) > 1 or bool(claimed))
         return ax
 
@@ -115,10 +115,10 @@ class StudyPlot:
             raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
+                draw_band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
             ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
@@ -146,11 +146,11 @@ class StudyPlot:
         by = self.data.dimension(found, by) if by is not None else None
         own = spectra(t, found, by, series, window)
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(max(peak_of(rows) for _, rows in own), found.attrs.get("units", ""))
             told = [word for word, _ in self.data.split(found, by)]
             for word, (f, rows), colour in zip(told, own, cycle(len(told)), strict=True):
-                band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
+                draw_band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(told) > 1)
         return ax
@@ -173,7 +173,7 @@ class StudyPlot:
         """
         t, found = self.data.series(series, at)
         cutoff = positive(cutoff, "cutoff")
-        left = filtered(t, found, cutoff, order, flag(causal, "causal"))
+        left = low_pass_runs(t, found, cutoff, order, flag(causal, "causal"))
         ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
         told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(in_figure(f"{ax.get_title()}: {told}", TITLE))
@@ -198,14 +198,14 @@ class StudyPlot:
         ((x, found),) = pairs
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             x = np.broadcast_to(x, found.shape)
             parts = self.data.split(found, by)
             for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
-                called = known(own.values, told)
+                called = legend_label(own.values, told)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
@@ -232,7 +232,7 @@ class StudyPlot:
         own = self.data.sections(section, [x, y], level, falling, after, at)
         xs, ys = (np.concatenate([pair[k] for _, pair in own]) if own else np.zeros(0) for k in range(2))
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.2, 4.4) if ax is None else plain(ax)
+            ax = new_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (of_x, x_unit), (of_y, y_unit) = (
                 drawn(peak_of(values), self.data.unit(name)) for name, values in ((x, xs), (y, ys))
             )
@@ -261,11 +261,11 @@ class StudyPlot:
         xs = np.concatenate([np.full(len(values), x[where[place]]) for where, (values,) in own] or [np.zeros(0)])
         ys = np.concatenate([values for _, (values,) in own] or [np.zeros(0)])
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(6.4, 4.0) if ax is None else plain(ax)
+            ax = new_axes(6.4, 4.0) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
-            ticks_at(ax, x, ticks)
+            set_ticks(ax, x, ticks)
             self._finish(ax, at, False)
         return ax
 
@@ -277,18 +277,18 @@ class StudyPlot:
             raise BadValueError(f"heat_map: {x} is both x and y")
         middle = quantiles(self.data.rows(found, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.8, 4.2) if ax is None else plain(ax)
+            ax = new_axes(5.8, 4.2) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
             (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
-            below, beside = evenly(len(words), COLUMNS), evenly(len(others), ROWS)
-            ticks_at(ax, below, [words[k] for k in below])
+            below, beside = thin_out(len(words), COLUMNS), thin_out(len(others), ROWS)
+            set_ticks(ax, below, [words[k] for k in below])
             ax.set_yticks(beside, [in_figure(others[k], LINE) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
             if middle.size <= SMALL:
-                numbers(ax, middle * factor, image)
+                write_numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
         return ax
 
@@ -315,35 +315,37 @@ def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
         return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
 
 
-def band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0) -> None:
+def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float = 4.0) -> None:
     """Draw extremes, quartiles and the median over x; for a single run only its line."""
     low, q1, middle, q3, high = five
     order = np.argsort(x, kind="stable")
     if not np.array_equal(low, high, equal_nan=True):
         ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
         ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
-    ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=known(middle, told))
+    ax.plot(
+        x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=legend_label(middle, text)
+    )
 
 
-def bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
+def draw_bars(ax: Axes, x: Any, five: Any, colour: str, text: str) -> None:
     """Draw medians as dots, with bars of quartiles and of extremes, for coordinates that no line connects."""
     low, q1, middle, q3, high = five
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
-    ax.plot(x, middle, "o", ms=5.0, color=colour, label=known(middle, told))
+    ax.plot(x, middle, "o", ms=5.0, color=colour, label=legend_label(middle, text))
 
 
-def known(values: Any, told: str) -> str | None:
+def legend_label(values: Any, text: str) -> str | None:
     """Return the label of a curve for the legend; None if it has no number."""
-    return told if np.isfinite(values).any() else None
+    return text if np.isfinite(values).any() else None
 
 
-def evenly(n: int, most: int) -> range:
+def thin_out(n: int, most: int) -> range:
     """Return every k-th of n indices, at most `most` of them, for labels at an axis."""
     return range(0, n, -(-n // most))
 
 
-def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
+def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
     """Set texts at an axis, wrapped, and slanted if they would not fit."""
     if ticks is None:
         return
@@ -355,7 +357,7 @@ def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
             word.set(ha="right", rotation_mode="anchor")
 
 
-def marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
+def draw_published(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
     """Draw published values: position, value and index of the line of each; −1: no line."""
     for k, (place, value, line) in enumerate(claimed):
         own = IDEAL if line < 0 else colours[line]
@@ -363,7 +365,7 @@ def marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colo
         ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=told)
 
 
-def numbers(ax: Axes, values: Any, image: Any) -> None:
+def write_numbers(ax: Axes, values: Any, image: Any) -> None:
     """Write the number into each cell of a map, dark on bright colours."""
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):

@@ -75,7 +75,7 @@ def _spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[
     return each[0][0], np.array([amplitudes for _, amplitudes in each])
 
 
-def filtered(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any:
+def low_pass_runs(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any:
     """Return the series after a low-pass; NaN where they have no samples."""
     left = np.full(found.shape, np.nan)
     for own, out in zip(_rows(np.broadcast_to(t, found.shape), found.values), _rows(left), strict=True):
