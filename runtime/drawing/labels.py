@@ -156,7 +156,7 @@ def place_names(
             middle = found
             box = np.array([[*(middle - half), *(middle + half)]])
             if needs_leader(at, middle, half, clear, point):
-                leads = np.vstack([leads, leader_line(at, middle, half, clear)])  # which the names behind it leave free
+                leads = np.vstack([leads, leader_line(at, middle, half, clear)])  # which later names avoid
         offsets[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
         boxes_so_far = np.vstack([boxes_so_far, box])
     return offsets

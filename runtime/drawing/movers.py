@@ -164,7 +164,7 @@ def _draw_spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterato
     springs, damps = (posture.number(f"forces.{part.name}.{what}") != 0.0 for what in ("stiffness", "damping"))
     aside = 1.15 * u * turned(unit_vector(b - a)) if springs and damps else np.zeros(2)
     ground = _ground_side(posture, plan, part, a, b)
-    if springs and damps and ground is not None:  # both beside the rail
+    if springs and damps and ground is not None:  # both next to the rail
         aside = -1.15 * u * ground
         a, b, ends = a + aside, b + aside, (a, b)
     else:

@@ -20,7 +20,7 @@ ASIDE = (
     0.1,
 )  # fraction of the size from which the ground's points, or all points, count as on one side of a guide
 WIDE = 3.0  # units: a clearance that needs no magnification
-# half a bar's width as a share of the whole, the least, and as the most of the shortest link
+# half a bar's width as a fraction of the whole, its minimum, and its maximum as a fraction of the shortest link
 SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
 
 

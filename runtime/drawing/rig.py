@@ -1,10 +1,10 @@
-"""A drawing that moves without being drawn again: what carries each of its points, found from drawings of postures.
+"""Own `Rig`, a drawing that moves without being drawn again: a carrier for each point, found from drawings of postures.
 
-A point is carried by another one, by an angle about that, and with it by a length:
+A point moves with another point, with an angle about that, and with a length:
 
     x = r_P(p, q) + A(φ) (c₀ + s c₁)
 
-r_P: a point of the mechanism, or the origin; φ: 0, a body's angle, the way from P to Q, that of a part's axis or
+r_P: a point of the mechanism, or the origin; φ: 0, a body's angle, the direction from P to Q, that of a part's axis or
 gravity, or of a load; s: the distance of P and Q, or a number of the file (a gear's radius). Bars, plates, pins, blocks
 on their guides, springs, cylinders and pitch circles are that, whatever symbol they have; so symbols are drawn by
 Python alone, and a page moves them (drawing.js).
@@ -26,8 +26,8 @@ from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.model.compiled import Array
 
-EXACT = 1e-9  # share of the drawing's size to which a carried point is where it is drawn
-TRIED = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # postures beside real ones: how far q and p are moved, and how many
+EXACT = 1e-9  # tolerance of a carried point as a fraction of the drawing's size
+TRIED = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # additional postures: changes of q and p, and their number
 SEED = 20261123
 FEW = 5  # postures that show the same shape, at least
 

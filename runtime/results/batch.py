@@ -123,7 +123,7 @@ class Batch:
     interrupted: bool
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
-    extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, where `peaks` asked for them
+    extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, of the series in `peaks`
     rubbed: tuple[tuple[Rubbed, ...], ...] = ()  # loads of the surfaces for wear, where a study needs them; not saved
 
     def __len__(self) -> int:

@@ -1,4 +1,4 @@
-"""Every name that a result has: its unit, what it means and how it is computed.
+"""Own the catalogue of series: every name that a result has, its unit, its meaning and how it is computed.
 
     S9.x .y .theta   .vx .vy .omega   .ax .ay .alpha       of a body's centre of mass
     L1.head.x .y     .vx .vy          .ax .ay              of a point
@@ -9,10 +9,10 @@
     Phi.max   Phi_dot.max                                  how far the constraints are violated
     lift                                                   an output of the mechanism file
 
-Where a body has no mass, what follows from masses is left out: reactions, torques, multipliers, energies and works.
-The names depend on the scene alone; nothing is computed before somebody asks (`Series.compute`).
+If a body has no mass, series that depend on masses are left out: reactions, torques, multipliers, energies and works.
+The names depend on the scene alone; a series is computed on first access (`Series.compute`).
 
-At the end: the spectrum of a series at even times, and what an accelerometer's filter leaves of a series.
+Also the spectrum of a series at even times, and the low-pass filter of an accelerometer.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ class Cell:
     setting: Setting
     parameters: Parameters  # what to give to `simulate` to see the same
     status: Status
-    reason: str  # for people, "" where there is nothing to say
+    reason: str  # a sentence, "" for a stable run
     label: str  # the same in a few characters, for the map
     error: Error  # over [0, compared]
     energy: float = NAN  # residual over turned over

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from gudgeon.results.results import Result
 
-# Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
+# Okabe and Ito's palette: distinguished by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
 ACROSS, BESIDE = 4, 6  # orbits in a row; entries of a legend that fits next to the title

@@ -22,7 +22,7 @@ from gudgeon.language.wanted import path as named
 from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
 
-OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
+OLD_FORMAT = "gudgeon-result/1"  # impacts, events, parameters at the root, over other dimensions
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
 LOADERS = {
     "gudgeon-result": ("a single run", "gudgeon.Result.load"),

@@ -22,8 +22,8 @@ from gudgeon.results.series import MOTION_UNITS, drive_series, rates, rigid_guid
 if TYPE_CHECKING:
     from rich.table import Table
 
-NOISE, ZERO = 1e-9, "≈ 0"  # a number below this share of what the run has of its kind is shown as none
-COLUMNS = 4  # scenes beside each other in one table
+NOISE, ZERO = 1e-9, "≈ 0"  # a value below this fraction of the run's largest of its unit is shown as ≈ 0
+COLUMNS = 4  # scenes in one table
 # of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
 AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Array, Result
 
-SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not slow beside turning
-OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
+SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean rate that counts as slow squeezing
+OFF = 0.02  # fraction of the joints' work; a quadrature that misses more is reported
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
     r"(?P<title>.*?)\. Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\.(?: Options: (?P<options>.*?)\.)?(?: |$)"
@@ -100,7 +100,7 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     examined, deepest = _joint_statistics(run, joint.name), peak.e_max - c
     between = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
-        deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
+        deepest = float(run[f"{joint.name}.delta"].max())  # at the samples, since the depth depends on the angle
     found = {
         "c": c,
         "corner": joint.at_wall,
@@ -304,7 +304,7 @@ def _validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[s
         )
     found += beyond(run)
     energy = _energy_balance(run) or {}
-    known = not run.source.rigid  # what blows take is told nowhere else
+    known = not run.source.rigid  # the energy loss of rigid impacts is in no other term
     if known and abs(energy.get("not_told_apart", 0.0)) > OFF * max(abs(energy.get("clearances", 0.0)), 1e-300):
         found.append(
             f"{energy['not_told_apart']:.3g} J of the joints' work is of neither contact, friction nor the film's"

@@ -112,7 +112,7 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
         try:
             if len(good):
                 found.take(good, _run_batch(simulation, job, table, good, progress), failures)
-        except InputError:  # of one run, as a rule; alone it says which
+        except InputError:  # usually of one run; run by run it is found
             for i in good:
                 try:
                     found.take(np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures)

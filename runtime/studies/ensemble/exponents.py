@@ -118,7 +118,9 @@ class _NeighbourComputation:
         """Return the measures of run i by name, or the reason why there are none."""
         followed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
-        with collect_guess_notes(self.simulation.source, self.job.first):  # of the run itself they are told already
+        with collect_guess_notes(
+            self.simulation.source, self.job.first
+        ):  # notes of the run itself are reported already
             try:
                 for one in measures:
                     key = (str(one.of), one.window)

@@ -75,7 +75,7 @@ def _common_times(folder: StudyFolder) -> tuple[Array, bool]:
     alike, most = True, 0
     for block in _blocks(folder) if folder.plan.wanted.keep else ():
         most = max(most, block.t.shape[-1])
-        if not block.t.size:  # nobody began
+        if not block.t.size:  # no run began
             continue
         alike = alike and block.t.ndim == 1 and (common is None or np.array_equal(common, block.t))
         common = block.t if common is None else common

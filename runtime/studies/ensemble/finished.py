@@ -1,4 +1,4 @@
-"""A finished study in its folder: datasets and tables, read as they are asked for."""
+"""Own `Study`, a finished study in its folder, from which datasets and tables are read on request."""
 
 from __future__ import annotations
 
@@ -58,7 +58,9 @@ class Study:
         h5py_module()
         with convert_read_errors(path := self.folder / DATASET):
             found = xarray.open_dataset(path, engine="h5netcdf", decode_times=False, decode_timedelta=False)
-        return found if self._keeps is None else found.load()  # a temporary folder goes before what was asked of it
+        return (
+            found if self._keeps is None else found.load()
+        )  # a temporary folder may be deleted before the dataset is used
 
     @property
     def parts(self) -> Mapping[str, Study]:

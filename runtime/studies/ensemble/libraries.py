@@ -81,7 +81,7 @@ def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
     for study in studies:
         try:
             mechanism = mechanism_of(study)
-        except InputError:  # told where it is resolved
+        except InputError:  # reported when it is resolved
             continue
         for scene, _, overrides in structures(study):
             for name in (*origins(study), scene):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 # not the digits of a name or of a unit: S9, m/s^2, 1/s
 _NUMBER = re.compile(r"(?<![\w.^])(?<!\^-)(?!1/[^\W\d_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _WITH = re.compile(r" with [\w.]+ = [^:]*(?=:)")  # the numbers of one run
-MOST = 50  # kinds that are told
+MOST = 50  # kinds that are reported
 
 
 @dataclass(frozen=True)

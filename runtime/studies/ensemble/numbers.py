@@ -48,7 +48,7 @@ def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
             return found
     every = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
     try:
-        given_slots(sources[0], {str(name): 0.0})  # says more, of an expression of t for example
+        given_slots(sources[0], {str(name): 0.0})  # its message is more specific, for example for an expression of t
     except InputError as error:
         if "has the address" not in error.message:
             raise type(error)(error.message, name.where, error.hint) from None

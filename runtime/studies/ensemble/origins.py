@@ -195,7 +195,7 @@ def _followed(
             none = np.zeros((len(t), 0))
             run = bare(source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts)
             found = {name: np.array(run[name]) for name in wanted} if np.isfinite(q).all() and t[0] == 0.0 else {}
-        except GudgeonError:  # the whole run says what it is
+        except GudgeonError:  # a simulation reports the reason
             return None
         return found if found and all(np.isfinite(values).all() for values in found.values()) else None
 

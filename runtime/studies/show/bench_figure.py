@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARKERS = {method.name: method.marker for method in METHODS} | {"auto": "x", KINEMATIC: "D"}
-# cross-checks are in the background: thin, dashed, grey or light blue, told apart by their markers
+# cross-checks are in the background: thin, dashed, grey or light blue, distinguished by their markers
 CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
 GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.table import Table
 
-WORST = 8  # points that are told with what runs them again; the rest is in the table on disk
+WORST = 8  # points that are printed with their command; the others are in the table on disk
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 

@@ -25,7 +25,7 @@ Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
 LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
 SHORT, MOST_LINES = 22, 4  # characters of a line of where a number was taken, and lines, that stand under it
 NOTE = "note"
-NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of what says none
+NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of claims without one
 
 
 def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:

@@ -34,7 +34,7 @@ COLOURS = {
 FULL = "integrated in the full formulation (absolute coordinates): the gains act there alone"
 SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗", Status.MISSING: "·"}
 PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
-# what a cell's label may begin with, and what that says; told where a cell has it
+# meaning of the first word of a cell's label; printed if a cell has it
 LABELS = {
     "at": "at: when the run failed",
     "energy": "energy: residual, or it comes from nowhere",

@@ -105,7 +105,7 @@ class _DrawingProcess:
 def _draw_all(end: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
     """Draw figures in the other process and send them."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
-    with suppress(Exception):  # what is no picture is told where it is drawn again
+    with suppress(Exception):  # errors are reported when the figure is drawn again
         end.send([_draw_figure(*one) for one in figures])
 
 

@@ -20,7 +20,7 @@ from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import console, new_table, seconds
 
 MOST_KINDS = 8
-MOST_TRENDS = 16  # that are told one by one
+MOST_TRENDS = 16  # trends that are printed one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"
-MOST_TICKS, MOST_LETTERS = 8, 40  # values that stand at an axis; what is told of a place in a zip
-MANY_COLUMNS, MOST_SAID = 4, 60  # numbers of a zip of which differences are told in place of all; their letters
+MOST_TICKS, MOST_LETTERS = 8, 40  # values at an axis; letters of the text of a zip's index
+MANY_COLUMNS, MOST_SAID = 4, 60  # parameters of a zip from which on only differences are shown; their letters
 MANY = ("start", "draw", "ensemble")  # dimensions over which statistics are computed
 
 

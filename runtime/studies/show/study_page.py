@@ -221,7 +221,7 @@ def _series_figures(data: StudyData) -> Iterator[Draw]:
         runs = found.size // found.shape[-1]
         by = "scene" if "scene" in found.dims else None
         shares = t.ndim > 1
-        if shares and not (np.nan_to_num(t) > 0.0).any():  # nobody began
+        if shares and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
         told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}{', over shares' * shares}"
         yield told, partial(plot.bands, name, by, share=shares)

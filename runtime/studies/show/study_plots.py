@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
     from gudgeon.studies.ensemble.finished import Study
 
-SMALL = 80  # cells of a map beside which numbers can be read
+SMALL = 80  # largest number of cells of a map with legible numbers
 COLUMNS, ROWS = 14, 24  # of a heat map, that have words at its axes
-BESIDE = 0.5  # share of the room of a word in which its dots stand side by side
+BESIDE = 0.5  # fraction of the width of a tick in which its dots are side by side
 QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 AXIS, LINE = 60, 22  # letters that fit side by side under a figure; letters of a line there
 
@@ -311,7 +311,7 @@ def _pairs(published: Any) -> dict[Any, Any]:
 def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
     """Return quantiles (len(which), …) over the first axis without NaN; NaN where there is no number."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # all NaN: that is what it says
+        warnings.simplefilter("ignore", RuntimeWarning)  # all values are NaN, and so is the result
         return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
 
 

@@ -14,7 +14,7 @@ from gudgeon.language.shown import one_line
 from gudgeon.results.series import low_pass, spectrum
 
 NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
-SAME = 1e-9  # of a run: so far apart, samples are at the same share of it
+SAME = 1e-9  # tolerance of fractions of a run that count as equal
 
 
 def alike(rows: Any) -> bool:
