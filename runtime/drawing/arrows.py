@@ -1,4 +1,4 @@
-"""Velocities of points and forces at joints as arrows to one scale, which is told by an arrow of a round number."""
+"""Draw velocities of points and forces at joints as arrows to one scale, with a reference arrow of a round value."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ LONGEST = 9.0  # units
 
 @dataclass(frozen=True, eq=False)
 class Arrows:
-    """`shapes`, and what an arrow of `length` (m of the drawing) stands for: "1 m/s"; `on`: on which body it acts."""
+    """Arrows of one quantity; an arrow of `length` (m of the drawing) represents `text`: "1 m/s".
+
+    `on`: the body on which the quantity acts.
+    """
 
     role: str
     shapes: tuple[Shape, ...]
@@ -29,7 +32,9 @@ class Arrows:
 
 
 def arrows(role: str, vectors: Mapping[str, tuple[Array, Array]], unit: str, pen: float, largest: float) -> Arrows:
-    """By name a place and a vector in SI; the `largest` that there is is as long as LONGEST of the pen's units."""
+    """Return the arrows of vectors (SI) by name, each a position and a vector; the magnitude `largest` has the length
+    LONGEST.
+    """
     if not largest > 0.0:
         return Arrows(role, (), 0.0, "")
     metres, shapes = LONGEST * pen / largest, list[Shape]()
@@ -39,19 +44,19 @@ def arrows(role: str, vectors: Mapping[str, tuple[Array, Array]], unit: str, pen
             shapes += arrow(
                 f"{role} {name}", role, place, place + metres * vector, min(0.85 * HEAD * pen, 0.6 * length)
             )
-    told = round_number(largest)
-    factor, text = scale(told, unit)
-    return Arrows(role, tuple(shapes), metres * told, f"{told * factor:g} {text}")
+    reference = round_number(largest)
+    factor, text = scale(reference, unit)
+    return Arrows(role, tuple(shapes), metres * reference, f"{reference * factor:g} {text}")
 
 
 def round_number(most: float) -> float:
-    """The largest of 1, 2 or 5 times a power of ten that is not above it."""
+    """Return the largest of 1, 2 or 5 times a power of ten that does not exceed `most`."""
     power = 10.0 ** np.floor(np.log10(most))
     return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= most * (1.0 + 1e-12)) * power)
 
 
 def velocities_of(posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
-    """Of every point that a body's outline goes through, and of its centre of mass, m/s."""
+    """Yield name, position and velocity (m/s) of each point on a body's outline and of its centre of mass."""
     if posture.v is None:
         return
     for body, info in posture.bodies.items():

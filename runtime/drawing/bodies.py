@@ -1,4 +1,4 @@
-"""Bodies: links between two pins, plates through more, blocks on their guides."""
+"""Draw bodies: links between two pins, plates through more, blocks on their guides."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 
 
 def bodies(posture: Posture, plan: Plan, loose: frozenset[str] = frozenset()) -> Iterator[Shape]:
-    """Every body of a scene; `loose` ones in their own colour."""
+    """Yield the shapes of every body of a scene; `loose` bodies have a different colour."""
     for tint, body in enumerate(posture.bodies):
         for role, outline in _outlines(posture, plan, body):
             yield Line(f"body {body}", "loose" if body in loose and role == "body" else role, outline, True, tint)
-        yield from _marks(posture, plan, body, tint)
+        yield from _point_marks(posture, plan, body, tint)
 
 
 def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Array]]:
-    """The link or plate, what guides others, blocks; each closed, with its role."""
+    """Yield role and closed outline of a body: its link or plate, its guides for other bodies, its blocks."""
     u, places = plan.unit, distinct(anchors(posture, body).values())
     guided, blocks = [], []
     for part in sliding(posture):
@@ -49,26 +49,28 @@ def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Ar
 
 
 def _is_held_once(posture: Posture, body: str) -> bool:
-    """Whether there is nothing but the centre of mass away from the one place where it is held."""
+    """Return whether a body has joints and named points at one place only."""
     names = [name for name in anchors(posture, body) if not name.endswith(".com")]
     return len(distinct(posture.place(name) for name in names)) < 2
 
 
 def guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
-    """Both ends of a slot or of a bar that guides, as far as the slider goes; from the body's own point where that is
-    not within reach."""
+    """Return both ends of a slot or guide bar, as far as the slider travels.
+
+    A bar extends to the body's own point, as does a slot that is not on one of the body's links.
+    """
     on, along, _ = axis_of(posture, part)
     low, high = plan.travel[part.name]
     more = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * plan.unit
     low, high = low - more, high + more
     guide = body_of(guide_and_slider(part)[0])
-    if is_block(part) or not _reaches(posture, guide, on + low * along, on + high * along):
+    if is_block(part) or not _lies_on_link(posture, guide, on + low * along, on + high * along):
         low, high = min(low, 0.0), max(high, 0.0)
     return [on + low * along, on + high * along]
 
 
-def _reaches(posture: Posture, body: str, *ends: Array) -> bool:
-    """Whether a slot lies on the link between two points of its body."""
+def _lies_on_link(posture: Posture, body: str, *ends: Array) -> bool:
+    """Return whether a slot lies on the link between two points of its body."""
     places = distinct(anchors(posture, body).values())
     for k, a in enumerate(places):
         for b in places[:k]:
@@ -80,8 +82,8 @@ def _reaches(posture: Posture, body: str, *ends: Array) -> bool:
     return False
 
 
-def _marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
-    """Points that are named and nothing is joined there: a small dot each."""
+def _point_marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
+    """Yield a small dot for each named point that no joint or element uses."""
     held = {end for part in posture.source.parts for end in part.ends}
     for name in posture.points:
         owner, _, point = name.partition(".")
@@ -89,11 +91,11 @@ def _marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape
             yield Disc(f"point {name}", "mark", posture.place(name), 0.22 * plan.unit, tint)
 
 
-def names_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
-    """At the middle of what each joins, points that are marked too."""
+def labels_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
+    """Yield the labels of bodies at the middle of their points, and of marked points."""
     for body in posture.bodies:
         places = distinct(anchors(posture, body).values())
         middle = np.mean(places, axis=0)
         yield Label(f"body {body}", "body", body, middle, 1.2 * plan.unit)
-    for shape in (shape for body in posture.bodies for shape in _marks(posture, plan, body, 0)):
+    for shape in (shape for body in posture.bodies for shape in _point_marks(posture, plan, body, 0)):
         yield Label(shape.part, "point", shape.part.rpartition(".")[2], shape.centre, 0.4 * plan.unit)  # type: ignore[union-attr]

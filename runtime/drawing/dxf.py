@@ -1,4 +1,6 @@
-"""Sketches as a DXF file for CAD: lines and circles in millimetres, a layer for each body, joint, drive and force."""
+"""Write sketches as a DXF file for CAD: lines and circles in millimetres, with a layer for each body, joint, drive and
+force.
+"""
 
 from __future__ import annotations
 
@@ -32,10 +34,10 @@ APART = 0.1  # of the widest sketch, between two
 
 
 def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
-    """A DXF file (ASCII, R2010, $INSUNITS millimetres), the same bytes for the same sketches.
+    """Return a DXF file (ASCII, R2010, $INSUNITS millimetres), always the same bytes for the same sketches.
 
-    The first sketch has the ground's axes; others stand to its right with their titles. Errors: GudgeonError where
-    ezdxf is missing, ValueError where a coordinate is not finite.
+    The first sketch has the ground's axes; others are to its right with their titles. Raises GudgeonError without
+    ezdxf, ValueError for a coordinate that is not finite.
     """
     with _no_dates():
         document = ezdxf.new(VERSION, units=MILLIMETRES)
@@ -47,7 +49,7 @@ def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
             _draw(space, layers, sketch, moved)
             if title:
                 at = moved + [sketch.low[0], sketch.high[1] + 2.0 * sketch.unit]
-                _text(space, title, at, sketch.unit, {"layer": layers("titles", 0)})
+                _draw_text(space, title, at, sketch.unit, {"layer": layers("titles", 0)})
         known = document.classes
         known.add_required_classes(document.dxfversion)
         known.classes = dict(sorted(known.classes.items()))  # ezdxf takes them from sets, in an order by hash
@@ -58,7 +60,7 @@ def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
 
 @contextmanager
 def _no_dates() -> Iterator[None]:
-    """Without times and random identifiers."""
+    """Make ezdxf write no times and random identifiers within this context."""
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
     try:
@@ -68,12 +70,14 @@ def _no_dates() -> Iterator[None]:
 
 
 class _Layers:
-    """Names of layers by part: legal ones, and different ones for names that differ in capitals alone."""
+    """Names of layers by part: valid, and different also without regard to case."""
 
     def __init__(self, document: Drawing) -> None:
+        """Start with the layers of a document."""
         self._table, self._names = document.layers, dict[str, str]()
 
     def __call__(self, part: str, tint: int) -> str:
+        """Return the layer of a part, created on first use."""
         if part not in self._names:
             wanted = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
             name, count = wanted, 1
@@ -81,49 +85,52 @@ class _Layers:
                 count += 1
                 name = f"{wanted} {count}"
             colour = EDGES[tint % len(EDGES)] if part.startswith("body ") else "#222222"
-            self._table.add(name, true_color=_colour(colour))
+            self._table.add(name, true_color=_as_dxf_colour(colour))
             self._names[part] = name
         return self._names[part]
 
 
-def _colour(code: str) -> int:
+def _as_dxf_colour(code: str) -> int:
+    """Return the DXF colour of a code "#rrggbb"."""
     return rgb2int((int(code[1:3], 16), int(code[3:5], 16), int(code[5:7], 16)))
 
 
 def _draw(space: Modelspace, layers: _Layers, sketch: Sketch, moved: Array) -> None:
-    """Outlines in the order of painting; faces are left empty."""
+    """Draw the outlines of a sketch in the order of painting, without fill, and its names."""
     for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
         look: dict[str, str | int] = {"layer": layers(shape.part, shape.tint)}
         edge = colour_of(ROLES[shape.role].edge, shape.tint)
         if edge.startswith("#"):
-            look |= {"true_color": _colour(edge)}
+            look |= {"true_color": _as_dxf_colour(edge)}
         if isinstance(shape, Disc):
-            centre, (radius, _) = _finite(shape.centre + moved, np.array([shape.radius, 0.0]))
+            centre, (radius, _) = _in_millimetres(shape.centre + moved, np.array([shape.radius, 0.0]))
             space.add_circle(centre, radius, dxfattribs=look)
         else:
-            _line(space, shape, moved, look)
+            _draw_line(space, shape, moved, look)
     for label in sketch.labels:
         way = np.radians(label.way)
         at = label.place + moved + (label.clear + sketch.unit) * np.array([np.cos(way), np.sin(way)])
         colour = NAMES[label.role][0]
         look = {"layer": layers(label.part, 0)}
         if colour.startswith("#"):
-            look |= {"true_color": _colour(colour)}
-        _text(space, label.text, at, sketch.unit, look)
+            look |= {"true_color": _as_dxf_colour(colour)}
+        _draw_text(space, label.text, at, sketch.unit, look)
 
 
-def _line(space: Modelspace, shape: Line, moved: Array, look: dict[str, str | int]) -> None:
-    space.add_lwpolyline(_finite(*(shape.points + moved)), close=shape.closed, dxfattribs=look)
+def _draw_line(space: Modelspace, shape: Line, moved: Array, look: dict[str, str | int]) -> None:
+    """Draw a polyline."""
+    space.add_lwpolyline(_in_millimetres(*(shape.points + moved)), close=shape.closed, dxfattribs=look)
 
 
-def _text(space: Modelspace, text: str, at: Array, height: float, look: dict[str, str | int]) -> None:
-    ((x, y),) = _finite(at)
+def _draw_text(space: Modelspace, text: str, at: Array, height: float, look: dict[str, str | int]) -> None:
+    """Draw a text with its left middle at a position."""
+    ((x, y),) = _in_millimetres(at)
     made = space.add_text(one_line(text), height=SCALE * height, dxfattribs=look)
     made.set_placement((x, y), align=TextEntityAlignment.MIDDLE_LEFT)
 
 
-def _finite(*points: Array) -> list[tuple[float, float]]:
-    """Millimetres."""
+def _in_millimetres(*points: Array) -> list[tuple[float, float]]:
+    """Return positions in millimetres. Raises ValueError unless they are finite."""
     if not np.isfinite(points).all():
         raise ValueError("a coordinate is not finite")
     return [(SCALE * float(x), SCALE * float(y)) for x, y in points]

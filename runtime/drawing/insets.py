@@ -1,4 +1,4 @@
-"""Joints with play, magnified beside the mechanism: journal in bearing, slider in guide, where the run has them."""
+"""Draw insets that magnify joints with play next to the mechanism: journal in bearing, slider in guide."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from gudgeon.language.plot_units import scale
 from gudgeon.model.compiled import Array
 
 DASHED = " (dashed: as far as the journal's centre may go)"
-RADIUS, JOURNAL = 5.0, 0.4  # of an inset's hole in units, and of the journal as a share of that
+RADIUS, JOURNAL = 5.0, 0.4  # radius of an inset's hole in units; of the journal as a fraction of that
 LONG, HIGH, APART, WALL, DOT = 0.9, 0.34, 0.26, 0.06, 0.06  # halves of slider, gap, half a wall, a corner: the same
 
 
 def eccentricity(posture: Posture, joint: str) -> Array:
-    """From the bearing's centre to the journal's, (2,), m, ground axes."""
+    """Return the vector from the bearing's centre to the journal's, (2,), m, ground axes."""
     first, second = next(posture.parts_named(joint)).ends
     return posture.place(second) - posture.place(first)
 
 
 def in_contact(posture: Posture) -> frozenset[str]:
-    """Joints with play, and corners, whose surfaces overlap, e ≥ c; those that have nothing but a film never touch."""
+    """Return the joints with play and the corners whose surfaces overlap, e ≥ c; joints with a film only never do."""
     reach = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
     found = (name for name, c in reach.items() if float(np.hypot(*eccentricity(posture, name))) >= c)
     return frozenset(found) | in_walls(posture)
 
 
 def magnification(posture: Posture, joint: str, unit: float) -> float:
-    """How many times larger than the drawing an inset is: two digits, so that clearance circle or gap fits."""
+    """Return the magnification of an inset over the drawing, with two digits, so that its clearance or gap fits."""
     share = APART if joint in posture.guides else 1.0 - JOURNAL
     wanted = RADIUS * share * unit / posture.play(joint)
     step = 10.0 ** (np.floor(np.log10(wanted)) - 1.0)
@@ -47,32 +47,31 @@ def insets(
     touching: frozenset[str] = frozenset(),
     touched: frozenset[str] = frozenset(),
 ) -> Iterator[tuple[list[Shape], Label, str]]:
-    """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box, or where
-    that is too low for it in rows below.
+    """Yield shapes, label and note of the inset of each joint with play.
 
-    To scale are the gap and the eccentricity, not the radii, nor a slider's lengths. `touching`: joints and corners
-    whose surfaces are in contact, red; `touched`: those that are not any more, but were since the picture before: a
-    red bearing or wall.
+    Insets are in columns to the right of the box, or in rows below a box that is too low. Gap and eccentricity are to
+    scale; radii and a slider's lengths are not. `touching`: joints and corners in contact, drawn red; `touched`: those
+    that were in contact since the previous picture, with a red bearing or wall.
     """
     radius = RADIUS * unit
     played = dict.fromkeys(joint.joint for joint in posture.source.clearances)
     shown = [name for name in played if not is_wide(posture, name, unit)]
-    for joint, centre in zip(shown, _centres(len(shown), radius, low, high), strict=True):
+    for joint, centre in zip(shown, _place_insets(len(shown), radius, low, high), strict=True):
         c, times = posture.play(joint), magnification(posture, joint, unit)
-        one = _slider if joint in posture.guides else _journal
-        shapes, ratio, below = one(posture, joint, centre, radius, touching, touched - touching)
-        told = f"{joint} ×{times:g}, e/c = {ratio:.2f}"
+        draw_inset = _draw_slider if joint in posture.guides else _draw_journal
+        shapes, ratio, below = draw_inset(posture, joint, centre, radius, touching, touched - touching)
+        text_of_name = f"{joint} ×{times:g}, e/c = {ratio:.2f}"
         factor, text = scale(c, "m")
         what, each = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
         note = f"{joint}: {what} {c * factor:.4g} {text}{each}, drawn ×{times:g}"
         dashed = DASHED * (joint == next((name for name in shown if name in posture.clearances), ""))
-        yield shapes, Label(f"inset {joint}", "inset", told, centre - [0.0, below], 0.0, 270.0), note + dashed
+        yield shapes, Label(f"inset {joint}", "inset", text_of_name, centre - [0.0, below], 0.0, 270.0), note + dashed
 
 
-def _journal(
+def _draw_journal(
     posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
 ) -> tuple[list[Shape], float, float]:
-    """Shapes, e/c, and how far below its name stands."""
+    """Return shapes of a journal in its bearing, e/c, and the distance of the name below the centre."""
     c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
     e = eccentricity(posture, joint)
     part, hole = f"inset {joint}", c * times + JOURNAL * radius
@@ -87,11 +86,14 @@ def _journal(
     return shapes, float(np.hypot(*e)) / c, 1.2 * hole
 
 
-def _slider(
+def _draw_slider(
     posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
 ) -> tuple[list[Shape], float, float]:
-    """The same of a guide, along its axis: two walls, and the slider by its corners, as far from the walls as they are,
-    e/c of the one that is furthest out."""
+    """Return shapes of a slider in its guide, largest e/c of its corners, and the distance of the name below the
+    centre.
+
+    Two walls are along the axis. The corners are as far from them as in the mechanism, magnified.
+    """
     c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
     _, along, _ = axis_of(posture, next(posture.parts_named(joint)))
     part, across, found = f"inset {joint}", turned(along), corners(posture, joint)
@@ -115,7 +117,8 @@ def _slider(
     return shapes, max(found.values()) / c, float(below)
 
 
-def _centres(n: int, radius: float, low: Array, high: Array) -> Iterator[Array]:
+def _place_insets(n: int, radius: float, low: Array, high: Array) -> Iterator[Array]:
+    """Yield the centres of n insets."""
     count = max(1, int((high[1] - low[1]) / (3.1 * radius)))
     width = float(high[0] - low[0])
     pitch = max(3.6 * radius, min(5.5 * radius, width / max(n, 1)))

@@ -1,7 +1,7 @@
-"""Names beside what they belong to, so that none lies on another one and as few as can be on lines.
+"""Place names next to the parts of a sketch, without overlap and with as few crossings of lines as possible.
 
-Places are sought when the picture is drawn, in its own pixels: greedily, in the order of the names, on rings around
-each. The same picture gives the same places.
+Positions are searched when the figure is drawn, in pixels: greedily, in the order of the names, on rings around each
+part. The same figure gives the same positions.
 """
 
 from __future__ import annotations
@@ -25,31 +25,33 @@ try:  # here, because everything that draws imports this module before matplotli
 except ModuleNotFoundError as error:
     raise GudgeonError("figures need matplotlib: pip install 'gudgeon[plot]'") from error
 
-RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from what is named
+RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from the named part
 ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
-LED = 15.0  # points; further off than that a thin line leads back
+LED = 15.0  # points from its part, beyond which a name has a leader line
 GAP = 1.2  # points between names
-CROSSED = 2.0  # lines that a crossing of two thin lines, or of one and a name, counts for beside its own
-LEFT_FREE = 3.0  # points between a name and what leads to another one
+CROSSED = 2.0  # cost of a crossing of a leader line, in crossings of other lines
+LEFT_FREE = 3.0  # points between a name and the leader line of another one
 
 
 class Names(Artist):
-    """All names of a sketch; `boxes` are where they are after drawing, (left, low, right, high) in pixels by part.
+    """All names of a sketch; `boxes` are their boxes after drawing, (left, low, right, high) in pixels by part.
 
-    `beside` is then how far the middle of each is from what it names; `held`, the same of the picture before of a
-    motion, keeps them there while there is room.
+    `beside` is then the offset of each name's middle from its part. `held` has the offsets of the previous picture of a
+    motion, which are kept while there is room.
     """
 
     def __init__(self, sketch: Sketch, size: float) -> None:
+        """Create the texts of a sketch with a font size."""
         super().__init__()
         self.set_zorder(6.0)
         self.set_in_layout(False)
         self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
         self.beside, self.held = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
         self.order = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
-        self.texts = [self._text(label, size) for label in sketch.labels]
+        self.texts = [self._make_text(label, size) for label in sketch.labels]
 
-    def _text(self, label: Label, size: float) -> Text:
+    def _make_text(self, label: Label, size: float) -> Text:
+        """Return the text artist of a label."""
         word, weight = NAMES[label.role]
         colour = colour_of(word, self.order.get(label.part, 0)) if word in ("edge",) else word
         text = Text(
@@ -69,7 +71,7 @@ class Names(Artist):
         return text
 
     def draw(self, renderer: Any) -> None:
-        """Place and paint."""
+        """Place and paint the names."""
         if not self.get_visible() or self.axes is None:
             return
         self.place(renderer)
@@ -79,12 +81,12 @@ class Names(Artist):
         for text in self.texts:
             text.draw(renderer)
         if left := sum(not text.get_visible() for text in self.texts):
-            self._told(left).draw(renderer)
+            self._omission_note(left).draw(renderer)
         renderer.close_group("names")
         self.stale = False
 
     def place(self, renderer: Any) -> None:
-        """Find a place for each."""
+        """Find a position for each name, and a leader line for distant ones."""
         axes: Any = self.axes
         figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
         point = figure.dpi / 72.0
@@ -96,7 +98,7 @@ class Names(Artist):
             text.set_position((0.0, 0.0))
             extent = text.get_window_extent(renderer)
             halves[label.part] = 0.5 * np.array([extent.width, extent.height])
-        self.beside = settled(self.sketch, halves, self.held, to_pixels, metre, point, room)
+        self.beside = place_names(self.sketch, halves, self.held, to_pixels, metre, point, room)
         self.leads, self.boxes = [], {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_visible(label.part in self.beside)
@@ -106,26 +108,27 @@ class Names(Artist):
             middle = at + self.beside[label.part]
             text.set_position((float(middle[0]), float(middle[1])))
             self.boxes[label.part] = tuple([*(middle - half), *(middle + half)])
-            if is_led(at, middle, half, clear, point):
-                self.leads.append(self._lead(at, middle, half, clear))
+            if needs_leader(at, middle, half, clear, point):
+                self.leads.append(self._lead_line(at, middle, half, clear))
 
-    def _told(self, left: int) -> Text:
-        """That names are missing, in the upper right corner."""
+    def _omission_note(self, count: int) -> Text:
+        """Return a text for the upper right corner that names were left out."""
         axes: Any = self.axes
-        told = f"{left} name{'' if left == 1 else 's'} left out: there is no room"
-        text = Text(1.0, 1.0, told, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
+        message = f"{count} name{'' if count == 1 else 's'} left out: there is no room"
+        text = Text(1.0, 1.0, message, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
         text.set_figure(axes.get_figure(root=True))
         return text
 
-    def _lead(self, at: Array, middle: Array, half: Array, clear: float) -> Line2D:
+    def _lead_line(self, at: Array, middle: Array, half: Array, clear: float) -> Line2D:
+        """Return the leader line of a name."""
         axes: Any = self.axes
-        ends = lead(at, middle, half, clear).reshape(2, 2)
+        ends = leader_line(at, middle, half, clear).reshape(2, 2)
         line = Line2D(*ends.T, color="#999999", lw=0.5, transform=None)
         line.set_figure(axes.get_figure(root=True))
         return line
 
 
-def settled(
+def place_names(
     sketch: Sketch,
     halves: Mapping[str, Array],
     held: Mapping[str, tuple[float, float]],
@@ -134,56 +137,57 @@ def settled(
     point: float,
     room: Array,
 ) -> dict[str, tuple[float, float]]:
-    """How far the middle of each name is from what it names, by part, pixels; without those that have no place.
+    """Return the offset of the middle of each name from its part, in pixels; without names that find no position.
 
-    halves: half of each name's width and height. held: the same of the picture before, which a name keeps while it
-    lies on no other name and within the `room`. metre, point: their pixels.
+    halves: half of each name's width and height. held: offsets of the previous picture, which a name keeps while it
+    overlaps no other name and is within the `room`. metre, point: their size in pixels.
     """
-    beside, taken, leads = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
+    offsets, boxes_so_far, leads = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
     lines: Array | None = None
     for label in sketch.labels:
         at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
         middle = at + held.get(label.part, (0.0, 0.0))
         box = np.array([[*(middle - half), *(middle + half)]])
-        if label.part not in held or overlapping(box, taken).any() or not _inside(box, room)[0]:
+        if label.part not in held or overlapping(box, boxes_so_far).any() or not _is_within(box, room)[0]:
             lines = obstacles(sketch.shapes, to_pixels) if lines is None else lines
-            found = best_place(at, half, label.way, clear, point, lines, taken, room, leads)
+            found = best_place(at, half, label.way, clear, point, lines, boxes_so_far, room, leads)
             if found is None:
                 continue
             middle = found
             box = np.array([[*(middle - half), *(middle + half)]])
-            if is_led(at, middle, half, clear, point):
-                leads = np.vstack([leads, lead(at, middle, half, clear)])  # which the names behind it leave free
-        beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
-        taken = np.vstack([taken, box])
-    return beside
+            if needs_leader(at, middle, half, clear, point):
+                leads = np.vstack([leads, leader_line(at, middle, half, clear)])  # which later names avoid
+        offsets[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
+        boxes_so_far = np.vstack([boxes_so_far, box])
+    return offsets
 
 
-def lead(at: Array, middle: Array, half: Array, clear: float) -> Array:
-    """From the edge of what is named to that of its name, a segment (1, 4)."""
+def leader_line(at: Array, middle: Array, half: Array, clear: float) -> Array:
+    """Return the leader line from the edge of a part to that of its name, a segment (1, 4)."""
     edge = np.clip(at, middle - half, middle + half)
     begin = at + clear * (edge - at) / max(float(np.hypot(*(edge - at))), clear, 1e-300)
     return np.array([[*begin, *edge]])
 
 
-def is_led(at: Array, middle: Array, half: Array, clear: float, point: float) -> bool:
-    """Whether a name is so far from what it names that a line leads back."""
+def needs_leader(at: Array, middle: Array, half: Array, clear: float, point: float) -> bool:
+    """Return whether a name is so far from its part that it needs a leader line."""
     edge = np.clip(at, middle - half, middle + half)
     return float(np.hypot(*(edge - at))) - clear > LED * point
 
 
 def gid(kind: str, part: str) -> str:
-    """An identifier of a part in a picture: "joint A" is "joint-A", its name "name-joint-A"."""
+    """Return the identifier of a part in a picture: "joint A" is "joint-A", its name "name-joint-A"."""
     return "-".join([*([kind] if kind else []), *part.split()])
 
 
 def obstacles(shapes: Sequence[Shape], to_pixels: Any) -> Array:
-    """All lines as segments in pixels, (S, 4)."""
+    """Return all lines of shapes as segments in pixels, (S, 4)."""
     found = [to_pixels(points) for points in _outlines(shapes)]
     return np.vstack([np.hstack([points[:-1], points[1:]]) for points in found]) if found else np.zeros((0, 4))
 
 
 def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
+    """Yield the outline of each shape as points."""
     for shape in shapes:
         if isinstance(shape, Disc):
             yield arc(shape.centre, shape.radius, 0.0, 2.0 * np.pi, 17)
@@ -194,18 +198,21 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 def best_place(
     at: Array,
     half: Array,
-    way: float,
+    direction: float,
     clear: float,
     point: float,
     lines: Array,
-    taken: Array,
+    boxes_so_far: Array,
     room: Array,
     leads: Array,
 ) -> Array | None:
-    """The middle of a name: the nearest place on no line and no other name, to which no line leads under another name
-    or across another such line; where every place has a line, the one with the fewest; None where there is no place.
-    Pixels; `half` its size, `room` the picture's box, `leads` the lines that lead to names."""
-    angles = np.radians([way, *ORDER])
+    """Return the best position of the middle of a name, pixels; None if there is none.
+
+    It is the nearest one on no line and no other name, with a leader line that crosses no name or leader line;
+    otherwise the one with the fewest crossings. `half` is half the name's size, `room` the picture's box, `leads` the
+    leader lines so far.
+    """
+    angles = np.radians([direction, *ORDER])
     ways = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = at, np.inf
     for ring in RINGS:
@@ -214,7 +221,7 @@ def best_place(
         if ring == RINGS[0] and clear * point > 0.0:
             middles = np.vstack([at, middles])
         boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
-        free = ~overlapping(boxes, taken).any(axis=1) & _inside(boxes, room)
+        free = ~overlapping(boxes, boxes_so_far).any(axis=1) & _is_within(boxes, room)
         hits = np.array(
             [
                 crossing(box, lines) + CROSSED * crossing(box, leads) if ok else np.inf
@@ -222,10 +229,10 @@ def best_place(
             ]
         )
         for j in np.flatnonzero(free):
-            if len(taken) and is_led(at, middles[j], half, clear, point):
-                back = lead(at, middles[j], half, clear)
-                under = sum(crossing(box, back) for box in taken + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
-                hits[j] += CROSSED * (under + sum(_cross(back[0], one) for one in leads))
+            if len(boxes_so_far) and needs_leader(at, middles[j], half, clear, point):
+                back = leader_line(at, middles[j], half, clear)
+                under = sum(crossing(box, back) for box in boxes_so_far + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
+                hits[j] += CROSSED * (under + sum(_segments_cross(back[0], one) for one in leads))
         costs = hits + 0.02 * ring
         k = int(np.argmin(costs))
         if hits[k] == 0.0:
@@ -235,21 +242,23 @@ def best_place(
     return fallback if np.isfinite(fewest) else None
 
 
-def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:
-    """Which boxes (B, 4) overlap which others (T, 4), (B, T)."""
-    a, b = boxes[:, None], taken[None]
+def overlapping(boxes: Array, others: Array) -> NDArray[np.bool_]:
+    """Return which boxes (B, 4) overlap which others (T, 4), (B, T)."""
+    a, b = boxes[:, None], others[None]
     across = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
     return np.asarray(across & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
 
 
-def _inside(boxes: Array, room: Array) -> NDArray[np.bool_]:
+def _is_within(boxes: Array, room: Array) -> NDArray[np.bool_]:
+    """Return which boxes (B, 4) are within the room (4,)."""
     return np.asarray((boxes[:, :2] >= room[:2]).all(axis=1) & (boxes[:, 2:] <= room[2:]).all(axis=1), dtype=bool)
 
 
-def _cross(one: Array, other: Array) -> bool:
-    """Whether two segments, (4,), cross."""
+def _segments_cross(one: Array, other: Array) -> bool:
+    """Return whether two segments, (4,), cross."""
 
     def side(line: Array, point: Array) -> float:
+        """Return the signed area that a point and a line span."""
         along, to = line[2:] - line[:2], point - line[:2]
         return float(along[0] * to[1] - along[1] * to[0])
 
@@ -257,7 +266,7 @@ def _cross(one: Array, other: Array) -> bool:
 
 
 def crossing(box: Array, lines: Array) -> float:
-    """How many segments (S, 4) meet a box (Liang and Barsky)."""
+    """Return the number of segments (S, 4) that meet a box (Liang and Barsky)."""
     start, span = lines[:, :2], lines[:, 2:] - lines[:, :2]
     with np.errstate(all="ignore"):
         one, other = (box[:2] - start) / span, (box[2:] - start) / span

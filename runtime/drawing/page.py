@@ -1,4 +1,4 @@
-"""A motion as one page of HTML: drawings as SVG, a button and a slider in plain JavaScript, nothing from elsewhere."""
+"""Write a motion as one HTML page: drawings as SVG, a button and a slider in plain JavaScript, self-contained."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.drawing.labels import gid, settled
+from gudgeon.drawing.labels import gid, place_names
 from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, colour_of
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.model.compiled import Array
@@ -29,33 +29,37 @@ def page(
     beside: Mapping[str, tuple[float, float]],
     halves: Mapping[str, Array],
 ) -> str:
-    """The whole text. `sketches` in one box, at `times` (s) of the run, are shown within `seconds`; `width` in pixels,
-    `beside` how far the middle of each name is from what it names, at first, pixels, y up, `halves` half its size."""
+    """Return the HTML text of an animation.
+
+    `sketches` share one box; those at `times` (s) of the run play within `seconds`. `width` is in pixels, `beside` the
+    first offset of the middle of each name from its part, in pixels, y up, `halves` half the size of each name.
+    """
     first = sketches[0]
     scale = width / float(first.high[0] - first.low[0])
     height = scale * float(first.high[1] - first.low[1])
 
     def at(points: Array) -> Array:
+        """Return points in pixels of the SVG."""
         return (points - first.low) * [scale, -scale] + [0.0, height]
 
     styles: Styles = {}
-    kinds = _kinds(sketches)
-    frames = [_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
+    kinds = _identifiers_in_order(sketches)
+    frames = [_make_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
     names = [label for label in first.labels if label.part in beside]
     parts = [label.part for label in names]
-    followed = _followed(sketches, beside, halves, scale)
-    places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, followed, strict=True)]
+    offsets_by_picture = _followed(sketches, beside, halves, scale)
+    places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, offsets_by_picture, strict=True)]
     data = {
         "times": [round(t, 9) for t in times],
         "seconds": seconds,
-        "styles": [_css(*key) for key in styles],
-        "frames": _changes(frames),
-        "places": _changes(places),
+        "styles": [_style_of(*key) for key in styles],
+        "frames": _encode_changes(frames),
+        "places": _encode_changes(places),
     }
-    texts = "".join(_name(label.text, label.role, label.part, first) for label in names)
+    texts = "".join(_name_element(label.text, label.role, label.part, first) for label in names)
     paths = "".join(f'<path id="{name}"/>' for name in kinds)
     note = "<br>".join(escape(note) for note in first.notes)
-    told = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    encoded = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     slots = {
         "TITLE": escape(title),
         "NOTE": note,
@@ -63,15 +67,15 @@ def page(
         "HEIGHT": f"{height:.0f}",
         "PATHS": paths,
         "NAMES": texts,
-        "DATA": told,
+        "DATA": encoded,
     }
     return re.sub(
         f"@({'|'.join(slots)})@", lambda found: slots[found[1]], PAGE
     )  # in one go: a title may hold such a word
 
 
-def _keys(sketch: Sketch) -> dict[str, Shape]:
-    """Shapes by an identifier that they keep while all moves."""
+def _shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
+    """Return the shapes of a sketch by an identifier that is the same in all pictures."""
     counts, found = dict[str, int](), dict[str, Shape]()
     for shape in sketch.shapes:
         k = counts[shape.part] = counts.get(shape.part, 0) + 1
@@ -79,28 +83,32 @@ def _keys(sketch: Sketch) -> dict[str, Shape]:
     return found
 
 
-def _kinds(sketches: Sequence[Sketch]) -> list[str]:
-    """All identifiers in the order in which they are painted."""
-    order = {name: ROLES[shape.role].order for sketch in reversed(sketches) for name, shape in _keys(sketch).items()}
-    first = [name for name in _keys(sketches[0]) if name in order]
+def _identifiers_in_order(sketches: Sequence[Sketch]) -> list[str]:
+    """Return all identifiers in the order of painting."""
+    order = {
+        name: ROLES[shape.role].order
+        for sketch in reversed(sketches)
+        for name, shape in _shapes_by_identifier(sketch).items()
+    }
+    first = [name for name in _shapes_by_identifier(sketches[0]) if name in order]
     return sorted([*first, *(name for name in order if name not in first)], key=lambda name: order[name])
 
 
-def _frame(sketch: Sketch, kinds: Sequence[str], at: Any, scale: float, styles: Styles) -> list[Any]:
-    """Of each identifier [its line, its style]; "" where it is not there."""
-    shapes, found = _keys(sketch), list[Any]()
+def _make_frame(sketch: Sketch, kinds: Sequence[str], at: Any, scale: float, styles: Styles) -> list[Any]:
+    """Return [path data, style] of each identifier; "" for one that is absent."""
+    shapes, found = _shapes_by_identifier(sketch), list[Any]()
     for name in kinds:
         shape = shapes.get(name)
         if shape is None:
             found.append("")
             continue
         style = styles.setdefault((shape.role, shape.tint % len(TINTS)), len(styles))
-        found.append([_line(shape, at, scale), style])
+        found.append([_path_data(shape, at, scale), style])
     return found
 
 
-def _line(shape: Shape, at: Any, scale: float) -> str:
-    """SVG's path data, to a tenth of a pixel."""
+def _path_data(shape: Shape, at: Any, scale: float) -> str:
+    """Return SVG path data, to a tenth of a pixel."""
     if isinstance(shape, Disc):
         (x, y), r = at(shape.centre), round(shape.radius * scale, 1)  # rounded once: both arcs are half a circle
         return f"M{x - r:.1f} {y:.1f}a{r:.1f} {r:.1f} 0 1 0 {2 * r:.1f} 0a{r:.1f} {r:.1f} 0 1 0 {-2 * r:.1f} 0z"
@@ -108,7 +116,8 @@ def _line(shape: Shape, at: Any, scale: float) -> str:
     return f"M{text}{'z' if shape.closed else ''}"
 
 
-def _css(role: str, tint: int) -> str:
+def _style_of(role: str, tint: int) -> str:
+    """Return the CSS of a role."""
     look = ROLES[role]
     dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in look.dashes)}" if look.dashes else ""
     width = look.width * PIXELS / 72.0
@@ -118,27 +127,28 @@ def _css(role: str, tint: int) -> str:
 def _followed(
     sketches: Sequence[Sketch], beside: Mapping[str, tuple[float, float]], halves: Mapping[str, Array], scale: float
 ) -> Iterator[Mapping[str, tuple[float, float]]]:
-    """Of each picture how far names are from what they name; one for which there is no room stays where it was."""
+    """Yield the offsets of names for each picture; a name without room keeps its previous offset."""
     low, room = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
     for sketch in sketches:
         named = replace(sketch, labels=tuple(label for label in sketch.labels if label.part in beside))
-        found = settled(named, halves, beside, lambda x: scale * (np.asarray(x) - low), scale, PIXELS / 72.0, room)
+        found = place_names(named, halves, beside, lambda x: scale * (np.asarray(x) - low), scale, PIXELS / 72.0, room)
         beside = {**beside, **found}
         yield beside
 
 
 def _name_places(
-    sketch: Sketch, parts: Sequence[str], at: Any, beside: Mapping[str, tuple[float, float]]
+    sketch: Sketch, parts: Sequence[str], at: Any, offsets: Mapping[str, tuple[float, float]]
 ) -> list[list[Any]]:
-    """The middles of names in pixels, and texts that change."""
+    """Return the middles of names in pixels, and texts that change."""
     labels, found = {label.part: label for label in sketch.labels}, list[list[Any]]()
     for part in parts:
-        x, y = np.round(at(labels[part].place) + np.array(beside[part]) * [1.0, -1.0], 1)
+        x, y = np.round(at(labels[part].place) + np.array(offsets[part]) * [1.0, -1.0], 1)
         found.append([float(x), float(y), *([labels[part].text] if labels[part].role == "inset" else [])])
     return found
 
 
-def _name(text: str, role: str, part: str, sketch: Sketch) -> str:
+def _name_element(text: str, role: str, part: str, sketch: Sketch) -> str:
+    """Return the SVG text element of a name."""
     colour, weight = NAMES[role]
     tint = next((shape.tint for shape in sketch.shapes if shape.part == part), 0)
     colour = EDGES[tint % len(EDGES)] if colour == "edge" else colour
@@ -146,8 +156,8 @@ def _name(text: str, role: str, part: str, sketch: Sketch) -> str:
     return f'<text fill="{colour}" font-weight="{weight}" font-style="{style}">{escape(text)}</text>'
 
 
-def _changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:
-    """Each frame as it differs from the one before: 0 where nothing changes."""
+def _encode_changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    """Return each frame as its differences from the previous one: 0 for no change."""
     found = [list(frames[0])]
     for before, now in zip(frames, frames[1:], strict=False):
         found.append([0 if x == y else y for x, y in zip(before, now, strict=True)])

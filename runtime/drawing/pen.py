@@ -1,4 +1,4 @@
-"""What symbols of joints are drawn by: lines and discs, and the parts that several symbols have."""
+"""Own `Pen`, which draws symbols of joints: lines, discs, and components that several symbols share."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STAND = 2.3  # how far below its pin the ground is
 
 @dataclass(frozen=True, eq=False)
 class Pen(JointAt):
-    """Draws one joint: each method adds to `shapes`. Roles are those of roles.py."""
+    """Drawing functions for one joint: each method adds to `shapes`. Roles are those of roles.py."""
 
     plan: Plan
     shapes: list[Shape] = field(default_factory=list)
@@ -31,7 +31,7 @@ class Pen(JointAt):
 
     @property
     def name(self) -> str:
-        """Whose the shapes are."""
+        """Part to which the shapes belong."""
         return f"joint {self.part.name}"
 
     @property
@@ -45,40 +45,40 @@ class Pen(JointAt):
         return self.part.name in self.plan.ways
 
     def axis_of_body(self, k: int) -> Array:
-        """The x axis of the first (0) or second (1) body, a unit vector."""
+        """Return the x axis of the first (0) or second (1) body, a unit vector."""
         angle = self.posture.theta(self.bodies[k])
         return np.array([np.cos(angle), np.sin(angle)])
 
     def line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
-        """A line through points (m)."""
+        """Add a line through points (m)."""
         self.shapes.append(Line(self.name, role, np.array(points), closed, tint))
 
     def disc(self, role: str, centre: Array, radius: float, tint: int = 0) -> None:
-        """A circle; its radius in m."""
+        """Add a circle with a radius in m."""
         self.shapes.append(Disc(self.name, role, centre, radius, tint))
 
     def box(self, role: str, centre: Array, along: Array, length: float, width: float) -> None:
-        """A rectangle; half its length and width in units."""
+        """Add a rectangle with half its length and width in units."""
         self.line(role, list(rectangle(centre, along, length * self.unit, width * self.unit)), True)
 
     def pin(self, place: Array, size: float = 1.0) -> None:
-        """A pin; its size as a share of the usual one."""
+        """Add a pin with a size as a fraction of the usual one."""
         self.disc("pin", place, size * PIN * self.unit)
 
     def stand(self) -> None:
-        """The triangle under the point on the ground, and the ground; nothing where none is the ground's."""
+        """Add the triangle and the ground under a point on the ground; nothing if neither body is the ground."""
         for end in self.part.ends if self.on_ground else ():
             if body_of(end) == GROUND:
                 place, way = self.posture.place(end), self.plan.ways[self.part.name]
-                self.shapes.extend(_stand(self.name, place, way, self.unit))
+                self.shapes.extend(_draw_stand(self.name, place, way, self.unit))
 
     def wall(self, place: Array) -> None:
-        """The ground at a place that is fixed to it; nothing where no body is the ground."""
+        """Add the ground at a fixed point; nothing if neither body is the ground."""
         if self.on_ground:
             self.shapes.extend(ground_wall(self.name, place, self.plan.ways[self.part.name], self.unit, 2.0))
 
     def bearing(self) -> None:
-        """The stand of a pin; with play the hole around it, to scale where that is wide."""
+        """Add the stand of a pin; with play also the hole around it, to scale if that is wide."""
         posture, name = self.posture, self.part.name
         has_play = name in posture.clearances
         if has_play and is_wide(posture, name, self.unit):
@@ -89,8 +89,10 @@ class Pen(JointAt):
             self.disc("worn", self.first, WORN * self.unit)
 
     def rail(self, below: float, side: float = 1.0) -> None:
-        """The ground under what slides on it, `below` its line (m), hatched on the far side, as far as it goes; or
-        above (`side` −1)."""
+        """Add the ground under a slider over its travel, at a distance `below` from the line (m), hatched.
+
+        With `side` −1 the ground is above.
+        """
         on, along, name = self.on_line, self.along, self.part.name
         if name in self.posture.guides:
             along = axes_of(self.posture, self.part)[0]
@@ -102,7 +104,7 @@ class Pen(JointAt):
             self.line("hatch", list(stroke))
 
     def guide(self) -> None:
-        """What a block slides in: the ground's rails, or the axis of the guide, which the block hides."""
+        """Add the guide of a block: the ground's rails, or the axis of the guiding body, which the block hides."""
         if not self.on_ground:
             self.line("axis", guide_ends(self.posture, self.plan, self.part))
             return
@@ -111,11 +113,13 @@ class Pen(JointAt):
             self.rail(BLOCK[1] * self.unit + gap, side)
 
     def slot(self) -> None:
-        """The slot in the body that guides, as long as the travel."""
+        """Add the slot in the guiding body, as long as the travel."""
         self.line("slot", list(rounded(guide_ends(self.posture, self.plan, self.part), SLOT * self.unit)), True)
 
     def wheel(self, k: int, centre: Array, radius: float, is_ring: bool = False) -> None:
-        """A wheel of the first (0) or second (1) body by its pitch circle (m) with a spoke, or a ring with its rim."""
+        """Add a wheel of the first (0) or second (1) body: its pitch circle (m) with a spoke, or a ring with its
+        rim.
+        """
         body, order = self.bodies[k], list(self.posture.bodies)
         tint = order.index(body) if body in order else 0
         if is_ring:
@@ -126,14 +130,14 @@ class Pen(JointAt):
 
 
 def ground_wall(part: str, place: Array, into: Array, u: float, half: float = 1.5) -> Iterator[Shape]:
-    """A hatched line through a place: something is fixed here."""
+    """Yield a hatched line through a point that is fixed to the ground."""
     a, b = place - half * u * turned(into), place + half * u * turned(into)
     yield Line(part, "rail", np.array([a, b]))
     yield from (Line(part, "hatch", stroke) for stroke in hatching(a, b, into, 0.95 * u))
 
 
-def _stand(part: str, place: Array, way: Array, u: float) -> Iterator[Shape]:
-    """The triangle under a pin on the ground, and the ground."""
-    foot, across = place + STAND * u * way, turned(way)
+def _draw_stand(part: str, place: Array, direction: Array, u: float) -> Iterator[Shape]:
+    """Yield the triangle and the ground under a pin."""
+    foot, across = place + STAND * u * direction, turned(direction)
     yield Line(part, "stand", np.array([place, foot - 1.25 * u * across, foot + 1.25 * u * across]), True)
-    yield from ground_wall(part, foot, way, u, 1.9)
+    yield from ground_wall(part, foot, direction, u, 1.9)

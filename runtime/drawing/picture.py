@@ -1,4 +1,4 @@
-"""A sketch as a picture: matplotlib's patches on axes, one scale both ways."""
+"""Draw a sketch with matplotlib: patches on axes with equal scales."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ _LACKS = re.compile(r"Glyph (\d+) .*missing from font")
 
 
 def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
-    """All of a sketch; `faint` in grey, as the background of something else. Sets the limits of the axes."""
+    """Draw a sketch on axes and set their limits; `faint` in grey, as a background."""
     seen = Counter[str]()
     for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
         role = ROLES[shape.role]
         pale = faint and not shape.role.startswith("path")
-        patch = _patch(shape, role, pale)
+        patch = _make_patch(shape, role, pale)
         patch.set_zorder(role.order - (2.0 if pale else 0.0))
         seen[shape.part] += 1
         told = gid("", shape.part)
@@ -50,7 +50,8 @@ def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
     ax.set_axis_off()
 
 
-def _patch(shape: Shape, role: Role, pale: bool) -> Patch:
+def _make_patch(shape: Shape, role: Role, pale: bool) -> Patch:
+    """Return the matplotlib patch of a shape; `pale` in grey."""
     edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
     look: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
@@ -65,14 +66,14 @@ def _patch(shape: Shape, role: Role, pale: bool) -> Patch:
 
 
 def size_of(sketch: Sketch, largest: float = LARGEST) -> tuple[float, float]:
-    """Width and height in inches that fit a sketch."""
+    """Return width and height in inches that suit a sketch."""
     width, height = (float(x) for x in sketch.high - sketch.low)
     scale = max(largest, min(MOST, LEAST_UNIT * max(width, height) / sketch.unit)) / max(width, height)
     return max(SMALLEST, width * scale), max(0.75 * SMALLEST, height * scale)
 
 
 def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -> Figure:
-    """One sketch, or several side by side with a title each."""
+    """Return a figure of one sketch, or of several side by side with titles."""
     columns = min(len(sketches), 3 if len(sketches) != 4 else 2)
     rows = -(-len(sketches) // columns)
     sizes = [size_of(sketch, LARGEST if columns == 1 else 5.0) for sketch in sketches]
@@ -101,8 +102,8 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
 
 
 @contextmanager
-def one_word_on_signs() -> Iterator[None]:
-    """Signs that the font lacks are told once for a picture, and not one by one for each time it is laid out."""
+def report_missing_glyphs() -> Iterator[None]:
+    """Report characters that the font lacks once for a picture, instead of once for each layout."""
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         yield
@@ -117,7 +118,7 @@ def one_word_on_signs() -> Iterator[None]:
 
 
 def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
-    """An SVG, PNG or PDF without date or version: the same picture gives the same bytes."""
+    """Return an SVG, PNG or PDF without date or version, always the same bytes for the same picture."""
     out = io.BytesIO()
     kind = suffix.removeprefix(".")
     metadata = {
@@ -125,6 +126,6 @@ def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
         "png": {"Software": None},
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
     }[kind]
-    with matplotlib.rc_context(STYLE), one_word_on_signs():
+    with matplotlib.rc_context(STYLE), report_missing_glyphs():
         picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
     return out.getvalue()

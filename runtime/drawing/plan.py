@@ -1,5 +1,6 @@
-"""What all drawings of one scene share, so that a motion does not make them jump: size of symbols, sides of the ground,
-how far each slider goes."""
+"""Own the layout that all drawings of a scene share, so that a motion does not make them jump: size of symbols, ground
+sides, travel.
+"""
 
 from __future__ import annotations
 
@@ -14,19 +15,22 @@ from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct,
 from gudgeon.drawing.shapes import turned, unit_vector
 from gudgeon.model.compiled import Array
 
-ASIDE = (0.03, 0.1)  # share of the size, from which on the ground's points and all points lie on one side of a guide
-WIDE = 3.0  # units: a clearance that needs no magnifying
-# half a bar's width as a share of the whole, the least, and as the most of the shortest link
+ASIDE = (
+    0.03,
+    0.1,
+)  # fraction of the size from which the ground's points, or all points, count as on one side of a guide
+WIDE = 3.0  # units: a clearance that needs no magnification
+# half a bar's width as a fraction of the whole, its minimum, and its maximum as a fraction of the shortest link
 SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """`unit`: half a bar's width (m). `ways`: of a joint, cylinder or spring on the ground where that lies, seen from
-    it, (2,).
+    """Layout of the drawings of a scene.
 
-    `travel`: of a joint that slides the least and largest place along its axis (m), over all postures. `newton`: how
-    long an applied force of 1 N is drawn (m); 0: all are of one length.
+    `unit`: half a bar's width (m). `ways`: for a joint, cylinder or spring on the ground the direction of the ground
+    from it, (2,). `travel`: for a sliding joint the smallest and largest position along its axis (m), over all
+    postures. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
     """
 
     unit: float
@@ -36,25 +40,28 @@ class Plan:
 
 
 def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan:
-    """Of one position, or of several of a motion. On which side of a guide the ground lies hangs on the ground's points
-    and on `start`, the first position unless another one is given: one mechanism has one side."""
+    """Return the layout for one posture, or for several of a motion.
+
+    The side of the ground at a guide depends on the ground's points and on `start`, by default the first posture, so
+    that a mechanism has only one.
+    """
     first, start = postures[0], start or postures[0]
-    places = np.array([place for posture in postures for place in _places(posture)])
+    places = np.array([place for posture in postures for place in _drawn_points(posture)])
     ways, travel = dict[str, Array](), dict[str, tuple[float, float]]()
     for part in sliding(first):
-        along = [_slide(posture, part) for posture in postures]
+        along = [_slider_position(posture, part) for posture in postures]
         travel[part.name] = min(along), max(along)
     for part in first.parts("joints"):
         if any(body_of(end) == GROUND for end in part.ends):
-            ways[part.name] = _rail_side(start, part) if has_rail(part) else _below(postures, part)
+            ways[part.name] = _rail_side(start, part) if has_rail(part) else _pin_ground_direction(postures, part)
     for part in (*first.parts("drives", "distance"), *first.parts("forces", "spring_damper")):
         if any(body_of(end) == GROUND for end in part.ends):
-            ways[part.name] = _behind(postures, part)
-    return Plan(_unit(first, places), ways, travel)
+            ways[part.name] = _element_ground_direction(postures, part)
+    return Plan(_symbol_unit(first, places), ways, travel)
 
 
-def _places(posture: Posture) -> list[Array]:
-    """All points that are drawn, rims of wheels, how far journals may go, and how long sliders with play are."""
+def _drawn_points(posture: Posture) -> list[Array]:
+    """Return all drawn points, including rims of wheels, ranges of journals, and sliders with play."""
     found = [place for body in posture.bodies for place in anchors(posture, body).values()]
     found += [posture.place(end) for part in posture.source.parts for end in part.ends if end in posture.points]
     for part in posture.parts("joints"):
@@ -69,8 +76,8 @@ def _places(posture: Posture) -> list[Array]:
     return found
 
 
-def _unit(posture: Posture, places: Array) -> float:
-    """By the size of the whole and the shortest link."""
+def _symbol_unit(posture: Posture, places: Array) -> float:
+    """Return half a bar's width, m, from the size of the whole and the shortest link."""
     size = float(np.ptp(places, axis=0).max())
     if not size > 0.0:  # one point: as large as the file's largest length
         lengths = (abs(posture.number(slot.address)) for slot in posture.source.slots if slot.unit == "m")
@@ -84,22 +91,25 @@ def _unit(posture: Posture, places: Array) -> float:
 
 
 def is_wide(posture: Posture, joint: str, unit: float) -> bool:
-    """Whether a joint's play is large enough to be seen as it is."""
+    """Return whether a joint's play is visible without magnification."""
     return posture.play(joint) > WIDE * unit
 
 
-def _slide(posture: Posture, part: PartInfo) -> float:
+def _slider_position(posture: Posture, part: PartInfo) -> float:
+    """Return the position of a slider along its line, m."""
     on, along, place = axis_of(posture, part)
     return float((place - on) @ along)
 
 
 def _rail_side(start: Posture, part: PartInfo) -> Array:
-    """Across the axis, away from the ground's other points; where those lie along it, away from the mechanism at its
-    start; where that is on both sides, below or to the right."""
+    """Return the side of the ground at a guide, a unit vector across its axis.
+
+    It is away from the ground's other points, else away from the mechanism at its start, else below or to the right.
+    """
     on, along, slider = axis_of(start, part)
     across = turned(along)
     ground = [start.place(name) for name in start.points if body_of(name) == GROUND]
-    for places, place, least in ((ground, on, ASIDE[0]), (_places(start), slider, ASIDE[1])):
+    for places, place, least in ((ground, on, ASIDE[0]), (_drawn_points(start), slider, ASIDE[1])):
         lies = float((np.array(places) - place).mean(axis=0) @ across)
         if abs(lies) > least * float(np.ptp(places, axis=0).max()):
             return across if lies < 0.0 else -across
@@ -107,8 +117,8 @@ def _rail_side(start: Posture, part: PartInfo) -> Array:
     return across if down > 0.0 else -across
 
 
-def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
-    """The direction in which a pin stands on the ground: down, unless links are there more than elsewhere."""
+def _pin_ground_direction(postures: Sequence[Posture], part: PartInfo) -> Array:
+    """Return the direction of the ground at a pin: down, unless more links are there than elsewhere."""
     end = next(end for end in part.ends if body_of(end) == GROUND)
     first, angles = postures[0], []
     here = first.place(end)
@@ -125,18 +135,19 @@ def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
     ways = np.array([[0.0, -1.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     if not angles:
         return ways[0]
-    free = [_nearest(np.array(angles), float(np.arctan2(y, x))) for x, y in ways]
+    free = [_angular_distance(np.array(angles), float(np.arctan2(y, x))) for x, y in ways]
     share = [float((away < np.radians(50.0)).mean()) for away in free]
     return ways[0] if share[0] == 0.0 else ways[int(np.argmin(share))]
 
 
-def _behind(postures: Sequence[Posture], part: PartInfo) -> Array:
-    """The direction in which an element that holds the ground ends there: away from its other end, on the mean."""
+def _element_ground_direction(postures: Sequence[Posture], part: PartInfo) -> Array:
+    """Return the direction of the ground at an element's end: away from its other end, on average."""
     fixed, other = sorted(part.ends, key=lambda end: body_of(end) != GROUND)
     spans = [posture.place(fixed) - posture.place(other) for posture in postures]
     mean = np.sum([unit_vector(span) for span in spans], axis=0)
     return unit_vector(mean if float(np.hypot(*mean)) > ASIDE[0] * len(spans) else spans[0])
 
 
-def _nearest(angles: Array, way: float) -> Array:
-    return np.asarray(np.abs((angles - way + np.pi) % (2.0 * np.pi) - np.pi))
+def _angular_distance(angles: Array, direction: float) -> Array:
+    """Return the absolute difference of angles from a direction, within π."""
+    return np.asarray(np.abs((angles - direction + np.pi) % (2.0 * np.pi) - np.pi))

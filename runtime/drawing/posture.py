@@ -1,4 +1,4 @@
-"""A scene at one position, as a drawing asks for it: where its points are, its numbers by their addresses."""
+"""Own `Posture`, a scene at one position: positions of its points, and its parameters by address."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # of a fi
 
 @dataclass(frozen=True, eq=False)
 class Posture:
-    """q (n,) of a scene with the numbers p (as `prepare` gives them), at t (s).
+    """A scene at the position q (n,) and time t (s), with parameters p as returned by `prepare`.
 
-    `v` (n,) turns arrows of drives the right way round; `loads` are the values of the elements `force` (N, ground axes)
-    and `torque` (N·m, 0), by name. Raises GudgeonError where the scene does not say what it joins.
+    `v` (n,) decides the directions of drives' arrows; `loads` are the values of the elements `force` (N, ground axes)
+    and `torque` (N·m, 0), by name. Raises GudgeonError for a scene whose file lacks the ends of its parts.
     """
 
     source: KernelSource
@@ -40,6 +40,7 @@ class Posture:
     loads: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        """Raise GudgeonError for a scene whose file lacks the ends of its parts."""
         if self.source.start_rows and not self.source.parts:
             raise GudgeonError(
                 "this result does not say what its joints, drives and forces join: an earlier version of gudgeon wrote"
@@ -48,17 +49,17 @@ class Posture:
 
     @cached_property
     def points(self) -> Mapping[str, PointInfo]:
-        """By name."""
+        """Points of the scene by name."""
         return {point.name: point for point in self.source.points}
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:
-        """By name."""
+        """Bodies of the scene by name."""
         return {body.name: body for body in self.source.bodies}
 
     @cached_property
     def held(self) -> Mapping[str, tuple[str, ...]]:
-        """Of each body the points that are held or named, in this order."""
+        """Names of the points of each body that joints or elements use or the file names, in this order."""
         used = [end for part in self.source.parts if _joins_points(part) for end in part.ends]
         used += [name for name in self.points if name.partition(".")[2] not in ("origin", "com")]
         found = dict[str, list[str]]()
@@ -68,73 +69,77 @@ class Posture:
 
     @cached_property
     def _slots(self) -> Mapping[str, int]:
+        """Index of each parameter by address."""
         return {slot.address: k for k, slot in enumerate(self.source.slots)}
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
-        """Joints with play by name: journals, whose play is a circle."""
+        """Joints with play by name whose play is a circle."""
         return {joint.name: joint for joint in self.source.clearances if not joint.at_wall}
 
     @cached_property
     def guides(self) -> Mapping[str, tuple[ClearanceInfo, ...]]:
-        """Sliders with play in their guides by joint: their corners."""
+        """Corners of the sliders with play by joint."""
         corners = [one for one in self.source.clearances if one.at_wall]
         return {name: tuple(one for one in corners if one.joint == name) for name in self.source.guides}
 
     def play(self, joint: str) -> float:
-        """Radial clearance of a joint with play, of a guide the gap on each side, m."""
+        """Return the radial clearance of a joint with play, or the gap on each side of a guide, m."""
         return float(self.p[next(one.clearance for one in self.source.clearances if one.joint == joint)])
 
     def slider(self, joint: ClearanceInfo) -> tuple[str, float, float, float]:
-        """Of a corner's slider the guide's address, half its length and height and the radius of its corners, m."""
+        """Return the guide's address, half the slider's length and height, and the radius of its corners (m), for a
+        corner.
+        """
         return slider_of(self.source, self.p, joint)
 
     def parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
-        """Those of a section of the file, of these kinds or of all."""
+        """Yield the parts of a section of the file, of some kinds or of all."""
         for part in self.source.parts:
             if part.section == section and (not kinds or part.kind in kinds):
                 yield part
 
     def parts_named(self, name: str) -> Iterator[PartInfo]:
-        """The one of that name: joints, drives and forces share one set of names."""
+        """Return the part of that name, as an iterator: joints, drives and forces have different names."""
         return (part for part in self.source.parts if part.name == name)
 
     @cached_property
     def _places(self) -> dict[str, Array]:
+        """Cache of positions by point."""
         return {}
 
     def place(self, point: str) -> Array:
-        """Where a point is in ground axes, (2,), m; the origin for the ground itself."""
+        """Return the position of a point in ground axes, (2,), m; the origin for the ground itself."""
         if point not in self._places:
             info = self.points.get(point)
             self._places[point] = place_of(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
         return self._places[point]
 
     def centre(self, body: str) -> Array:
-        """Its centre of mass, (2,), m."""
+        """Return the position of a body's centre of mass, (2,), m."""
         k = self.bodies[body].index
         return self.q[k : k + 2]
 
     def theta(self, body: str) -> float:
-        """Its angle, rad; 0 of the ground."""
+        """Return the angle of a body, rad; 0 for the ground."""
         return float(self.q[self.bodies[body].index + 2]) if body in self.bodies else 0.0
 
     def omega(self, body: str) -> float:
-        """Its angular velocity, rad/s; 0 where none is known."""
+        """Return the angular velocity of a body, rad/s; 0 if it is not known."""
         if self.v is None or body not in self.bodies:
             return 0.0
         return float(self.v[self.bodies[body].index + 2])
 
     def number(self, address: str) -> float:
-        """A number of the file, SI; 0 where nothing or a plain 0 is written."""
+        """Return a parameter of the file, SI; 0 if it is absent or a plain 0."""
         return float(self.p[self._slots[address]]) if address in self._slots else 0.0
 
     def has(self, address: str) -> bool:
-        """Whether the file says a number, 0 too."""
+        """Return whether the file specifies a value at an address."""
         return address in self._slots or any(one.address == address for one in self.source.written)
 
     def direction(self, part: PartInfo, key: str, body: str) -> Array:
-        """A part's vector in the axes of a body as a unit vector in ground axes, (2,)."""
+        """Return a vector of a part, given in the axes of a body, as a unit vector in ground axes, (2,)."""
         x, y = (self.number(f"{part.section}.{part.name}.{key}.{axis}") for axis in "xy")
         size, angle = float(np.hypot(x, y)), self.theta(body)
         if not size > 0.0:
@@ -144,12 +149,12 @@ class Posture:
 
 
 def type_of(joint: PartInfo) -> JointType:
-    """What a joint's kind declares."""
+    """Return the declaration of a joint's kind."""
     return joint_types().get(joint.kind, UNKNOWN)
 
 
 def _joins_points(part: PartInfo) -> bool:
-    """Whether a part's ends are points, and not whole bodies."""
+    """Return whether the ends of a part are points rather than bodies."""
     if part.section == "joints":
         return type_of(part).joins == "points"
     kinds = DRIVES if part.section == "drives" else element_types()
@@ -157,7 +162,7 @@ def _joins_points(part: PartInfo) -> bool:
 
 
 def directions(part: PartInfo) -> list[str]:
-    """Keys of a joint or force element that are directions: vectors without a dimension."""
+    """Return the keys of a joint or force element that are directions: vectors without a dimension."""
     fields = type_of(part).fields if part.section == "joints" else ()
     if part.section == "forces" and part.kind in element_types():
         fields = element_types()[part.kind].fields
@@ -165,13 +170,15 @@ def directions(part: PartInfo) -> list[str]:
 
 
 def body_of(end: str) -> str:
-    """Whose point it is: "L1.head" is a point of L1."""
+    """Return the body of a point: "L1.head" is a point of L1."""
     return end.partition(".")[0]
 
 
 def anchors(posture: Posture, body: str) -> dict[str, Array]:
-    """Points of a body that its outline goes through, by name: what joints, drives and forces hold, a bar's ends, what
-    the file names; without two of these the centre of mass too."""
+    """Return the points of a body's outline by name: ends of joints, drives, forces and bars, and named points.
+
+    If there are fewer than two, the centre of mass is added.
+    """
     found = {name: posture.place(name) for name in posture.held.get(body, ())}
     if len(distinct(found.values())) < 2:
         found[f"{body}.com"] = posture.centre(body)
@@ -179,7 +186,7 @@ def anchors(posture: Posture, body: str) -> dict[str, Array]:
 
 
 def distinct(places: object) -> list[Array]:
-    """Places that differ, in their order."""
+    """Return the positions without repetitions, in their order."""
     found: list[Array] = []
     for place in places:  # type: ignore[attr-defined]
         if all(float(np.linalg.norm(place - other)) > 1e-9 * (1.0 + float(np.linalg.norm(place))) for other in found):

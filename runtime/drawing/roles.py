@@ -1,4 +1,4 @@
-"""How each kind of shape looks: the same in a picture and in a page."""
+"""Own the style of each kind of shape, the same in figures and pages."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ INK, GREY, DRIVEN, LOADED, WOUND, WRONG = "#222222", "#888888", "#b3261e", "#006
 
 @dataclass(frozen=True)
 class Role:
-    """Colours ("": none; "tint", "edge": the body's), width of the line in points, order of painting, dashes."""
+    """Style of a shape: colours ("": none; "tint", "edge": the body's), line width in points, order of painting,
+    dashes.
+    """
 
     edge: str
     face: str
@@ -89,6 +91,6 @@ NAMES: Mapping[str, tuple[str, str]] = {
 
 
 def colour_of(word: str, tint: int) -> str:
-    """A colour, of a body by its turn; "none" for nothing."""
+    """Return a colour; for "tint" and "edge" that of a body by its number, "none" for ""."""
     by_turns = {"tint": TINTS, "edge": EDGES}.get(word)
     return by_turns[tint % len(by_turns)] if by_turns else word or "none"

@@ -1,4 +1,4 @@
-"""What a drawing consists of, in metres and ground axes, and the plain geometry that symbols are made of."""
+"""Own the shapes of a drawing, in metres and ground axes, and the plane geometry for symbols."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gudgeon.model.compiled import Array
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """Points (N, 2) that are joined; `part` is whose it is ("joint A"), `role` how it looks (roles.py)."""
+    """A polyline through points (N, 2); `part` is its owner ("joint A"), `role` its style (roles.py)."""
 
     part: str
     role: str
@@ -24,7 +24,7 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Disc:
-    """A circle."""
+    """A filled circle; `part` is its owner, `role` its style (roles.py)."""
 
     part: str
     role: str
@@ -35,7 +35,7 @@ class Disc:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text beside a place, (2,), from which it keeps `clear` metres; to the side `way` (degrees) if that is free."""
+    """A text at a distance `clear` (m) from a place (2,), in the direction `way` (degrees) if there is room."""
 
     part: str
     role: str
@@ -50,7 +50,7 @@ Shape: TypeAlias = Line | Disc
 
 @dataclass(frozen=True, eq=False)
 class Sketch:
-    """A drawing: shapes in the order in which they are painted, names to be placed, and the box (m) that holds all."""
+    """A drawing: shapes in the order of painting, names to place, and the box (m) that contains all."""
 
     shapes: tuple[Shape, ...]
     labels: tuple[Label, ...]
@@ -60,35 +60,38 @@ class Sketch:
     notes: tuple[str, ...] = field(default=())  # scales of arrows and insets
 
     def of(self, part: str) -> list[Shape]:
-        """What belongs to one part."""
+        """Return the shapes of one part."""
         return [shape for shape in self.shapes if shape.part == part]
 
 
 def turned(vector: Array) -> Array:
-    """By a quarter turn to the left."""
+    """Return a vector rotated by +90°."""
     return np.array([-vector[1], vector[0]])
 
 
 def unit_vector(vector: Array, otherwise: tuple[float, float] = (1.0, 0.0)) -> Array:
-    """Its direction; another one where it has none."""
+    """Return the direction of a vector; `otherwise` for a zero vector."""
     size = float(np.hypot(*vector))
     return vector / size if size > 0.0 else np.array(otherwise)
 
 
 def arc(centre: Array, radius: float, begin: float, end: float, count: int = 25) -> Array:
-    """Points of an arc, angles in rad."""
+    """Return points of an arc, angles in rad."""
     angle = np.linspace(begin, end, count)
     return centre + radius * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
 def hull(points: Sequence[Array]) -> Array:
-    """The corners of the convex hull, counterclockwise (Andrew's monotone chain), from the first of the points on."""
+    """Return the corners of the convex hull, counterclockwise (Andrew's monotone chain), from the first of the points
+    on.
+    """
     ordered = sorted({(float(x), float(y)) for x, y in points})
     if len(ordered) < 3:
         return np.array(list(dict.fromkeys((float(x), float(y)) for x, y in points)))
     size = max(abs(x) for pair in (ordered[0], ordered[-1]) for x in pair) + 1e-300
 
     def half(these: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+        """Return the lower or upper chain of the hull."""
         chain: list[tuple[float, float]] = []
         for x, y in these:
             while len(chain) > 1:
@@ -105,7 +108,7 @@ def hull(points: Sequence[Array]) -> Array:
 
 
 def rounded(points: Sequence[Array], radius: float) -> Array:
-    """The hull of discs about the points: of two a link, of more a plate with round corners."""
+    """Return the hull of discs about the points: for two a link, for more a plate with round corners."""
     corners = hull(points)
     if len(corners) == 1:
         return arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
@@ -120,13 +123,13 @@ def rounded(points: Sequence[Array], radius: float) -> Array:
 
 
 def rectangle(centre: Array, along: Array, length: float, width: float) -> Array:
-    """Corners; `along` is a unit vector, the sizes are halves."""
+    """Return the corners of a rectangle; `along` is a unit vector, the sizes are halves."""
     a, b = length * along, width * turned(along)
     return np.array([centre - a - b, centre + a - b, centre + a + b, centre - a + b])
 
 
 def hatching(a: Array, b: Array, into: Array, length: float) -> list[Array]:
-    """Short strokes from a line, leaning, to the side `into`: the ground."""
+    """Return short oblique strokes from a line to the side `into`, the symbol of the ground."""
     span = b - a
     along = unit_vector(span)
     reach = float(np.hypot(*span))
@@ -137,7 +140,7 @@ def hatching(a: Array, b: Array, into: Array, length: float) -> list[Array]:
 
 
 def zigzag(a: Array, b: Array, height: float, teeth: int = 6, ends: float = 0.2) -> Array:
-    """A spring; `ends` is the share of straight wire at either end."""
+    """Return the polyline of a spring; `ends` is the fraction of straight wire at either end."""
     across = turned(unit_vector(b - a)) * height
     shares = np.linspace(ends, 1.0 - ends, 2 * teeth + 2)
     sides = np.array([0.0, *([1.0, -1.0] * teeth), 0.0])
@@ -146,13 +149,13 @@ def zigzag(a: Array, b: Array, height: float, teeth: int = 6, ends: float = 0.2)
 
 
 def arrow_head(tip: Array, along: Array, size: float) -> Array:
-    """A slender triangle."""
+    """Return a slender triangle with its tip in the direction `along`."""
     side = 0.38 * size * turned(along)
     return np.array([tip, tip - size * along + side, tip - size * along - side])
 
 
 def box_of(shapes: Iterable[Shape]) -> tuple[Array, Array]:
-    """Low and high corner of all."""
+    """Return the low and high corner of the box of all shapes."""
     lows, highs = [], []
     for shape in shapes:
         if isinstance(shape, Disc):

@@ -1,4 +1,4 @@
-"""A whole drawing: bodies, joints, what moves them, insets of joints with play, gravity, a scale, all names.
+"""Compose a whole drawing: bodies, joints, drives and forces, insets, gravity, a scale, and all names.
 
 Symbols of joints are drawn by their declarations (generator/kinds/joints).
 """
@@ -10,10 +10,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from gudgeon.drawing.arrows import Arrows, round_number
-from gudgeon.drawing.bodies import BLOCK, bodies, names_of_bodies
+from gudgeon.drawing.bodies import BLOCK, bodies, labels_of_bodies
 from gudgeon.drawing.insets import in_contact, insets
 from gudgeon.drawing.joint_at import JointAt, gap_of, has_rail
-from gudgeon.drawing.movers import HEAD, arcs, arrow, gravity_of, movers, names_of_movers
+from gudgeon.drawing.movers import HEAD, arcs, arrow, draw_drives_and_forces, gravity_of, labels_of_drives_and_forces
 from gudgeon.drawing.pen import Pen
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture, type_of
@@ -37,50 +37,52 @@ def make_sketch(
     inset: bool = True,
     still: bool = True,
 ) -> Sketch:
-    """The drawing of a posture. `more` shapes with their `labels`, and `arrows` with their scales come on top.
+    """Return the drawing of a posture, with `more` shapes, their `labels`, and `arrows` with their scales on top.
 
-    With a `box` of `room_of_all` it keeps its place among others of a motion; names of a picture that is not `still`
-    say nothing that changes. `touching`: joints with play whose surfaces are in contact, None: those that overlap;
-    `touched`: those that met since the picture before; their insets are left out without `inset`. `loose` bodies are
-    those that nothing holds.
+    With a `box` from `room_of_all` the drawing has the same box as others of a motion; names of a picture that is not
+    `still` contain no values that change. `touching`: joints with play in contact, None: those that overlap; `touched`:
+    those in contact since the previous picture. `inset` False leaves insets out. `loose` bodies have no joint that
+    holds them.
     """
     plan = plan or make_plan([posture])
     more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
-    shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
+    shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *draw_drives_and_forces(posture, plan), *more]
     low, high = box or room_of(shapes, plan)
-    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan, arcs(posture))]
-    told = [*labels, *told, *names_of_movers(posture, plan, still)]
+    names = [*labels_of_bodies(posture, plan), *labels_of_joints(posture, plan, arcs(posture))]
+    names = [*labels, *names, *labels_of_drives_and_forces(posture, plan, still)]
     touching = in_contact(posture) if touching is None else touching
-    words, corner, beside = list[str](), high.copy(), list[Shape]()
+    notes, corner, annotations = list[str](), high.copy(), list[Shape]()
     for own, label, note in insets(posture, plan.unit, low, high, touching, touched) if inset else ():
-        beside += own
-        told, words = [*told, label], [*words, note]
+        annotations += own
+        names, notes = [*names, label], [*notes, note]
         corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
         low = np.minimum(low, [low[0], float(box_of(own)[0][1]) - 3.0 * plan.unit])
-    for own_shapes, label in _beside(posture, plan, low, high, arrows):
-        beside += own_shapes
-        told.append(label)
-    low = np.minimum(low, box_of(beside)[0] - 0.8 * plan.unit)
-    return Sketch((*shapes, *beside), tuple(told), low, corner, plan.unit, tuple(words))
+    for own_shapes, label in _draw_references(posture, plan, low, high, arrows):
+        annotations += own_shapes
+        names.append(label)
+    low = np.minimum(low, box_of(annotations)[0] - 0.8 * plan.unit)
+    return Sketch((*shapes, *annotations), tuple(names), low, corner, plan.unit, tuple(notes))
 
 
 def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
-    """The box of shapes with a margin for names."""
+    """Return the box of shapes with a margin for names."""
     low, high = box_of(shapes)
     return low - MARGIN * plan.unit, high + MARGIN * plan.unit
 
 
 def room_of_all(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
-    """The box of all positions of a motion, or of several assemblies; a plan for all, or one each."""
+    """Return the box of all positions of a motion, or of several assemblies, with one plan for all or one each."""
     each = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
-    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *movers(x, plan)], plan) for x, plan in each]
+    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *draw_drives_and_forces(x, plan)], plan) for x, plan in each]
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
 
 
-def _beside(
+def _draw_references(
     posture: Posture, plan: Plan, low: Array, high: Array, arrows: Sequence[Arrows]
 ) -> Iterator[tuple[list[Shape], Label]]:
-    """Gravity in the upper left corner, a length below, and an arrow for each scale."""
+    """Yield shapes and label of gravity in the upper left corner, of the scale below, and of an arrow for each scale of
+    arrows.
+    """
     u = plan.unit
     if (down := gravity_of(posture)) is not None:
         middle = np.array([low[0] + 1.5 * u, high[1] - 2.5 * u])
@@ -103,20 +105,20 @@ def _beside(
 
 
 def length_text(length: float) -> str:
-    """A round length in mm or m."""
+    """Return a round length in mm or m."""
     return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
 
 
 def joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
-    """Those of a scene, by kind."""
+    """Yield the shapes of all joints by their symbols."""
     for part in posture.parts("joints"):
         pen = Pen(posture, part, plan)
         type_of(part).symbol.draw(pen)
         yield from pen.shapes
 
 
-def names_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> Iterator[Label]:
-    """Beside each, and beside the `arcs` of arrows around it: radii in units by joint."""
+def labels_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> Iterator[Label]:
+    """Yield the label of each joint, outside of the `arcs` of arrows around it: radii in units by joint."""
     for part in posture.parts("joints"):
         symbol = type_of(part).symbol
         place = symbol.place(JointAt(posture, part))

@@ -26,7 +26,7 @@ from gudgeon.language.wanted import is_whole, refuse, told
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.results.peaks import BatchPeaks, of_runs
+from gudgeon.results.peaks import BatchPeaks, batch_extremes
 from gudgeon.results.results import Result, blank
 from gudgeon.results.series import catalogue
 from gudgeon.results.state import Array
@@ -123,7 +123,7 @@ class Batch:
     interrupted: bool
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
-    extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, where `peaks` asked for them
+    extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, of the series in `peaks`
     rubbed: tuple[tuple[Rubbed, ...], ...] = ()  # loads of the surfaces for wear, where a study needs them; not saved
 
     def __len__(self) -> int:
@@ -166,7 +166,7 @@ class Batch:
     def _states(self) -> States:
         """The states of all runs. Raises GudgeonError if only series were stored."""
         if self.states is None:
-            raise GudgeonError(f"the states of these runs were not kept: {kept_text(self)}")
+            raise GudgeonError(f"the states of these runs were not kept: {stored_series_text(self)}")
         return self.states
 
     @overload
@@ -211,13 +211,13 @@ class Batch:
 
     def peak(self, name: str) -> BatchPeaks:
         """Return the largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
-        return of_runs(self.source, self.extremes, name, False, lambda: self._samples_of(name))
+        return batch_extremes(self.source, self.extremes, name, False, lambda: self._samples_of(name))
 
     def peak_error(self, name: str) -> BatchPeaks:
         """Return the extremes of the difference between a series and that of another scene, (n,) each: see
         Result.peak_error.
         """
-        return of_runs(self.source, self.extremes, name, True, lambda: self._samples_of(name))
+        return batch_extremes(self.source, self.extremes, name, True, lambda: self._samples_of(name))
 
     def _samples_of(self, name: str) -> tuple[Array, Array]:
         """Return sample times and values of a series, (n, N) each; N is 0 if the series is not available."""
@@ -287,8 +287,8 @@ def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) ->
     """Return {address: (n,)} of the parameters that any run was given, from the values p (n, n_slots + n_derived) of
     all runs.
     """
-    some = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
-    return {slot.address: chosen_of_runs(slot, values) for slot, values in some}
+    given = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
+    return {slot.address: chosen_of_runs(slot, values) for slot, values in given}
 
 
 def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
@@ -312,20 +312,20 @@ def parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
 
 def reads_works(source: KernelSource, name: str) -> bool:
     """Return whether a series of a scene is computed from the works, itself or as an output's expression."""
-    own = catalogue(source)[name]
+    entry = catalogue(source)[name]
     if name in source.outputs:
         used = tree.names(tree.from_json(source.outputs[name]))
         return any(reads_works(source, one.path) for one in used if one.path in catalogue(source))
-    return name == "energy.residual" or (own.stored is not None and own.stored[0] == "work")
+    return name == "energy.residual" or (entry.stored is not None and entry.stored[0] == "work")
 
 
-def check_kept(batch: Batch, names: Iterable[str]) -> None:
+def check_stored(batch: Batch, names: Iterable[str]) -> None:
     """Raise GudgeonError for a series that is neither stored in the batch nor can be evaluated from states."""
-    if batch.states is None and (lost := [name for name in names if name not in batch.kept]):
-        raise GudgeonError(f"{lost[0]!r} was not kept in this batch: {kept_text(batch)}")
+    if batch.states is None and (missing := [name for name in names if name not in batch.kept]):
+        raise GudgeonError(f"{missing[0]!r} was not kept in this batch: {stored_series_text(batch)}")
 
 
-def kept_text(batch: Batch) -> str:
+def stored_series_text(batch: Batch) -> str:
     """Return a text that lists the stored series and how to store others, for errors of a batch without states."""
     named = [name for name in batch.kept if name != "t"]
     hint = 'simulate_many(…, keep=[…]) names what is kept; keep="states" keeps everything'
@@ -346,12 +346,12 @@ def given_columns(batch: Batch) -> dict[str, Array]:
 def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     """Return the named series of all runs, (n, N) each, NaN where a run has no sample. Raises SingularError."""
     names = wanted_names(batch.source, names)
-    check_kept(batch, names)
+    check_stored(batch, names)
     found = {name: column for name in names if (column := _stored_column(batch, name)) is not None}
-    left = [name for name in names if name not in found]
-    found |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in left}
-    for i, t, own in rows(batch, left) if left else ():
-        for name, values in own.items():
+    evaluated = [name for name in names if name not in found]
+    found |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in evaluated}
+    for i, t, values_by_name in iterate_rows(batch, evaluated) if evaluated else ():
+        for name, values in values_by_name.items():
             found[name][i, : len(t)] = values
     return {name: found[name] for name in names}
 
@@ -370,12 +370,12 @@ def _stored_column(batch: Batch, name: str) -> Array | None:
     return values
 
 
-def rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
+def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
     """Yield run number, sample times and the named series of each run that began, in order of the runs.
 
     Threads evaluate a few blocks of runs in advance.
     """
-    check_kept(batch, names)
+    check_stored(batch, names)
     make_row = _stored_row if batch.states is None else _evaluated_row
     parts = parts_of(batch.source, names)
 

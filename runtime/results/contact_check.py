@@ -122,11 +122,11 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
 
 def _in_contact(run: Result, k: int) -> NDArray[np.bool_]:
     """Return for each sample whether it lies in a listed contact of joint k, (N,)."""
-    own = run.impacts[run.impacts["joint"] == k]
+    impacts = run.impacts[run.impacts["joint"] == k]
     slack = TIME_TOL * float(run.t[-1] - run.t[0])
     inside = np.zeros(len(run.t) + 1, int)
-    ends = np.where(np.isnan(own["t_off"]), np.inf, own["t_off"])
-    np.add.at(inside, np.searchsorted(run.t, own["t_on"] - slack), 1)
+    ends = np.where(np.isnan(impacts["t_off"]), np.inf, impacts["t_off"])
+    np.add.at(inside, np.searchsorted(run.t, impacts["t_on"] - slack), 1)
     np.add.at(inside, np.searchsorted(run.t, ends + slack, "right"), -1)
     return np.cumsum(inside)[:-1] > 0
 
@@ -150,10 +150,10 @@ def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, touches: float)
     """
     if joint.film or (joint.at_wall and joint.joint in run.source.rigid):
         return
-    own = run.impacts[run.impacts["joint"] == k]
+    impacts = run.impacts[run.impacts["joint"] == k]
     if joint.name in run.source.rigid:  # those without a duration have impulses
-        own = own[own["t_off"] != own["t_on"]]
-    largest = float(own["F_peak"].max(initial=0.0))
+        impacts = impacts[impacts["t_off"] != impacts["t_on"]]
+    largest = float(impacts["F_peak"].max(initial=0.0))
     extremes = [one for one in run.diagnostics.extremes if one.name == f"{joint.name}.F" and not one.against]
     peaks = [(one.max, one.t_max) for one in extremes]
     peaks += [(one.F, one.t) for one in run.diagnostics.peaks if one.joint == joint.name]

@@ -43,9 +43,9 @@ class Motion:
     confidence: float
     supports: Mapping[str, float] = field(repr=False)  # of each kind
     points: int  # of the section
-    recurrence: float  # share of the points that recur after `nearest` returns
+    recurrence: float  # fraction of the points that recur after `nearest` returns
     nearest: int  # the number of returns, 1 to 32, after which most of the points recur
-    distance: float  # median distance after so many, as a share of the motion's extent
+    distance: float  # median distance after so many, as a fraction of the motion's extent
     K: float  # of the 0-1 test; NaN where the points do not move
     per_return: float  # exponent; NaN where it is not known
     per_return_uncertainty: float

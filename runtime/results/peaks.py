@@ -41,7 +41,7 @@ class Extreme:
     t: float
 
 
-def of_samples(name: str, unit: str, t: Array, values: Array) -> Extreme:
+def sample_extreme(name: str, unit: str, t: Array, values: Array) -> Extreme:
     """Return the extremes of a series over its samples (N,); NaN if no value is finite."""
     if not np.isfinite(values).any():
         return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
@@ -63,20 +63,20 @@ def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
     raise _not_requested(name, error)
 
 
-def _with_samples(one: Extremes, run: Result) -> Extremes:
+def _with_samples(extremes: Extremes, run: Result) -> Extremes:
     """Extend the extremes over all steps so that no sample lies beyond them.
 
     Between the ends of a step its polynomial is only as accurate as the tolerance.
     """
     try:
-        values = run[one.name]
+        values = run[extremes.name]
     except GudgeonError:  # a sample has none
-        return one
-    ends = ((one.max, one.t_max), (one.min, one.t_min))
+        return extremes
+    ends = ((extremes.max, extremes.t_max), (extremes.min, extremes.t_min))
     (high, at_high), (low, at_low) = (
         _extend_extremes(end, run.t[None], values[None], sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)
     )
-    return replace(one, max=float(high[0]), t_max=float(at_high[0]), min=float(low[0]), t_min=float(at_low[0]))
+    return replace(extremes, max=float(high[0]), t_max=float(at_high[0]), min=float(low[0]), t_min=float(at_low[0]))
 
 
 def _extend_extremes(
@@ -97,10 +97,12 @@ def _extend_extremes(
 def _not_requested(name: str, error: bool) -> BadValueError:
     """Return the error for a peak that was not requested, with the call that requests it."""
     if error:
-        told = f"the error of {name} over all steps is not known"
-        return BadValueError(told, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene')
-    told = f"the peak of {name} over all steps was not asked for, and samples do not know it"
-    return BadValueError(told, hint=f'simulate(…, peaks=["{name}"]), or peaks: [{name}] in the scene of the file')
+        message = f"the error of {name} over all steps is not known"
+        return BadValueError(
+            message, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene'
+        )
+    message = f"the peak of {name} over all steps was not asked for, and samples do not know it"
+    return BadValueError(message, hint=f'simulate(…, peaks=["{name}"]), or peaks: [{name}] in the scene of the file')
 
 
 def table_rows(
@@ -116,15 +118,17 @@ def table_rows(
     for name in dict.fromkeys(name for one in found for name in one):
         for end in ("",) if errors else ("max", "min"):
             ends = [_extreme_cell(one[name], end) if name in one else None for one in found]
-            told = [cell(*at) if at else "–" for cell, at in zip(cells, ends, strict=True)]
-            rows.append((f"{name} {end}".strip(), told))
+            texts = [cell(*at) if at else "–" for cell, at in zip(cells, ends, strict=True)]
+            rows.append((f"{name} {end}".strip(), texts))
     return rows
 
 
-def _extreme_cell(one: Extremes, end: str) -> tuple[float, str, float]:
+def _extreme_cell(extremes: Extremes, end: str) -> tuple[float, str, float]:
     """Return value, unit and time of an extreme: "max", "min", or "" for the largest magnitude."""
-    end = end or ("min" if -one.min > one.max else "max")
-    return (one.max, one.unit, one.t_max) if end == "max" else (one.min, one.unit, one.t_min)
+    end = end or ("min" if -extremes.min > extremes.max else "max")
+    return (
+        (extremes.max, extremes.unit, extremes.t_max) if end == "max" else (extremes.min, extremes.unit, extremes.t_min)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +154,7 @@ class BatchPeaks:
         return np.where(-self.min > self.max, self.t_min, self.t_max)
 
 
-def of_runs(
+def batch_extremes(
     source: KernelSource,
     runs: Sequence[Sequence[Extremes]],
     name: str,
@@ -209,11 +213,11 @@ def is_blow(impacts: NDArray[Any]) -> NDArray[np.bool_]:
     return found
 
 
-def first_force(own: NDArray[Any]) -> float:
+def first_force(impacts: NDArray[Any]) -> float:
     """Return the largest force of a joint's first contact, N; NaN for an impact of rigid surfaces, which has an impulse
     instead.
     """
-    return math.nan if is_blow(own[:1])[0] else float(own["F_peak"][0])
+    return math.nan if is_blow(impacts[:1])[0] else float(impacts["F_peak"][0])
 
 
 def piled_up(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
@@ -230,16 +234,16 @@ def piled_up(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
             yield f"{name}: bounces piled up {len(closings)} times, the last until t = {closings[-1][1]:.9g} s"
 
 
-def _bounces_before(own: NDArray[Any], i: int) -> int:
+def _bounces_before(impacts: NDArray[Any], i: int) -> int:
     """Return how many impacts of a joint, each slower than the one before, end in its lasting contact i; 0 for an
     impact.
     """
-    if bool(is_blow(own[i : i + 1])[0]):
+    if bool(is_blow(impacts[i : i + 1])[0]):
         return 0
     count, slower = 0, 0.0
-    for blow in own[:i][::-1]:
-        ends_here = count > 0 or blow["t_on"] == own["t_on"][i]
-        if not (ends_here and blow["t_off"] == blow["t_on"] and blow["deltadot"] > slower):
+    for impact in impacts[:i][::-1]:
+        ends_here = count > 0 or impact["t_on"] == impacts["t_on"][i]
+        if not (ends_here and impact["t_off"] == impact["t_on"] and impact["deltadot"] > slower):
             break
-        count, slower = count + 1, float(blow["deltadot"])
+        count, slower = count + 1, float(impact["deltadot"])
     return count

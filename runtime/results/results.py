@@ -58,7 +58,7 @@ class Result(Shown):
     t: Array  # (N,) s
     q: Array  # (N, n)
     v: Array
-    accelerations: Array | None  # (N, n), None: `a` computes them when they are first asked for
+    accelerations: Array | None  # (N, n), None: `a` computes them on first access
     state: Array  # (N, n_clearances) int8
     memory: Array  # (N, n_clearances)
     work: Array  # (N, 3) J: drives, applied forces, joints with play
@@ -168,9 +168,9 @@ class Result(Shown):
     @cached_property
     def states_at_events(self) -> Result:
         """The result whose samples are the start and then all events, by time."""
-        from gudgeon.results.samples import everything
+        from gudgeon.results.samples import result_at_events
 
-        return everything(self)
+        return result_at_events(self)
 
     @property
     def final(self) -> State:
@@ -386,7 +386,9 @@ def bare(
     state: Array,
     parts: frozenset[str],
 ) -> Bare:
-    """Return a Bare of samples as C stores them; works are NaN in a scene without masses."""
+    """Return a result of samples as C stores them, which evaluates `parts` only; works are NaN in a scene without
+    masses.
+    """
     slots = len(source.slots)
     return Bare(
         compiled=compiled,

@@ -120,7 +120,7 @@ class AtEvents:
         return self.all.unit(name)
 
 
-def everything(run: Result) -> Result:
+def result_at_events(run: Result) -> Result:
     """Return a result whose samples are the start of the run and then all its events.
 
     Raises GudgeonError where the states at the events are not known.
@@ -144,10 +144,10 @@ def everything(run: Result) -> Result:
         )
         parts = [np.concatenate([own[:1], at]) for own, at in zip(ours, theirs, strict=True)]
     q, v, work, memory, state = parts
-    return of_rows(run, run.events["t"], q, v, work, memory, state)
+    return result_of_rows(run, run.events["t"], q, v, work, memory, state)
 
 
-def of_rows(run: Result, t: Array, *parts: Array) -> Result:
+def result_of_rows(run: Result, t: Array, *parts: Array) -> Result:
     """Return a result like `run` with other samples: the start, then one for each of the times t.
 
     `parts` are q, v, works, memory and contact state at these samples.

@@ -1,4 +1,4 @@
-"""Every name that a result has: its unit, what it means and how it is computed.
+"""Own the catalogue of series: every name that a result has, its unit, its meaning and how it is computed.
 
     S9.x .y .theta   .vx .vy .omega   .ax .ay .alpha       of a body's centre of mass
     L1.head.x .y     .vx .vy          .ax .ay              of a point
@@ -9,10 +9,10 @@
     Phi.max   Phi_dot.max                                  how far the constraints are violated
     lift                                                   an output of the mechanism file
 
-Where a body has no mass, what follows from masses is left out: reactions, torques, multipliers, energies and works.
-The names depend on the scene alone; nothing is computed before somebody asks (`Series.compute`).
+If a body has no mass, series that depend on masses are left out: reactions, torques, multipliers, energies and works.
+The names depend on the scene alone; a series is computed on first access (`Series.compute`).
 
-At the end: the spectrum of a series at even times, and what an accelerometer's filter leaves of a series.
+Also the spectrum of a series at even times, and the low-pass filter of an accelerometer.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def _build_catalogue(source: KernelSource) -> dict[str, Series]:
     for part in (_body_series, _point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
         found.update(part(source))
     for name, tree in source.outputs.items():
-        if not missing(source, tree, found):
+        if not missing_names(source, tree, found):
             found[name] = _output_series(source, name, tree, found)
     return found
 
@@ -125,7 +125,7 @@ def without_masses(source: KernelSource) -> str:
     return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
 
 
-def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
+def missing_names(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
     """Return the names in an output's expression that this scene does not have, such as A.Fn where A has no play."""
     parameters = {slot.address.removeprefix("parameters.") for slot in source.slots} | {"t"}
     used = [name.path for name in expression_tree.names(expression_tree.from_json(tree))]
@@ -392,7 +392,7 @@ def unknown_series(
         hint = f'its value is run.parameters["{name}"]' + (f"; series: {alike}" if alike else "")
         return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
     if name in source.outputs:
-        lacking = ", ".join(missing(source, source.outputs[name], known))
+        lacking = ", ".join(missing_names(source, source.outputs[name], known))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
         hint = MASSLESS_HINT if source.massless else hint
         return UnknownNameError(f"output {name!r} needs {lacking}, which scene {source.scene!r} lacks", hint=hint)
@@ -461,7 +461,7 @@ def spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Arra
     if text(window, "window") not in WINDOWS:
         refuse("window", window, f"one of {', '.join(WINDOWS)}")
     rate, weights = rate_of(t), get_window(window, len(t))
-    finite(values)
+    check_finite(values)
     found = np.abs(np.fft.rfft((values - values.mean()) * weights)) / weights.sum()
     found[1 : (len(t) + 1) // 2] *= 2.0  # what is at −f, but for that at half the rate
     return np.fft.rfftfreq(len(t), 1.0 / rate), found
@@ -477,7 +477,7 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
     from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
     rate, order = rate_of(t), whole(order, "order", 1, MOST_ORDER)
-    finite(values)
+    check_finite(values)
     if not 0.0 < cutoff < 0.499 * rate:
         told = f"cutoff: {cutoff:g} Hz with {rate:g} samples a second: expected one below half of that"
         raise BadValueError(told, hint="simulate with a larger output")
@@ -493,7 +493,7 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
     return back
 
 
-def finite(values: Array) -> None:
+def check_finite(values: Array) -> None:
     """Raise BadValueError unless all values are finite."""
     if not np.isfinite(values).all():
         raise BadValueError("a series with values that are no numbers has no spectrum")

@@ -247,14 +247,14 @@ def middles(points: int) -> Array:
     return (np.arange(points) + 0.5) * (2.0 * np.pi / points)
 
 
-def arc(worn: Array, share: float = SHARE) -> float:
+def arc(depths: Array, share: float = SHARE) -> float:
     """Return the length (rad, whole cells) of the shortest arc that contains the fraction `share` of the sum of `worn`
     (points,).
     """
-    total, n = float(worn.sum()), len(worn)
+    total, n = float(depths.sum()), len(depths)
     if not total > 0.0:
         return np.nan
-    before = np.concatenate([[0.0], np.cumsum(np.concatenate([worn, worn]))])
+    before = np.concatenate([[0.0], np.cumsum(np.concatenate([depths, depths]))])
     targets = before[:n] + share * total * (1.0 - 1e-12)
     ends = np.searchsorted(before, targets, "left")
     return float((ends - np.arange(n)).min()) * 2.0 * np.pi / n

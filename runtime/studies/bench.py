@@ -247,23 +247,33 @@ def _make_rows(
     return rows, list(slow.values()), 0
 
 
-def _run_time(found: Attempt) -> float:
+def _run_time(measured_run: Attempt) -> float:
     """Return the run time of an attempt, s; 0 without a result."""
-    return found.run.diagnostics.seconds if found.run is not None else 0.0
+    return measured_run.run.diagnostics.seconds if measured_run.run is not None else 0.0
 
 
-def _make_row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
+def _make_row(work: Work, measured_run: Attempt, good: Sequence[Attempt]) -> Row:
     """Return the row of an attempt, with error and timed runs."""
-    if found.failure or found.run is None:
-        return Row(found.setting, NAN, 0, Error(), 0, 0, None, found.failure or "no result", found.failed_at)
-    diagnostics = found.run.diagnostics
+    if measured_run.failure or measured_run.run is None:
+        return Row(
+            measured_run.setting,
+            NAN,
+            0,
+            Error(),
+            0,
+            0,
+            None,
+            measured_run.failure or "no result",
+            measured_run.failed_at,
+        )
+    diagnostics = measured_run.run.diagnostics
     names = diagnostics.method.split("+")
     other = other_than([*names, names[0].rpartition(":")[2].lower()], good)  # nor by the same from elsewhere
-    error = difference(found.run, other.run) if other is not None and other.run is not None else Error()
-    known = diagnostics.seconds if found.setting.method in python_driver.NAMES else 0.0
-    seconds = known if known > work.enough else work.seconds(found.setting)
+    error = difference(measured_run.run, other.run) if other is not None and other.run is not None else Error()
+    known = diagnostics.seconds if measured_run.setting.method in python_driver.NAMES else 0.0
+    seconds = known if known > work.enough else work.seconds(measured_run.setting)
     return Row(
-        found.setting,
+        measured_run.setting,
         seconds / work.t_end,
         diagnostics.right_hand_sides,
         error,

@@ -1,8 +1,8 @@
 """Judge a box of parameters: all its corners and Sobol points in it, by a long run and two runs over a window.
 
 Two criteria apply to a point. A run over the whole time must remain valid: finite, closed, energy accounted for, no
-contact lost. It must also agree with a hundred times tighter tolerance over the predictable window, up to half-way
-between the fourth onset and the next.
+contact lost. It must also agree with a hundred times tighter tolerance over a window that ends half-way between the
+fourth onset and the next.
 """
 
 from __future__ import annotations

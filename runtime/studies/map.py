@@ -58,7 +58,7 @@ class VerdictMap(_Verdicts):
     columns: Axis
     cells: tuple[Cell, ...]
     t_long: float  # s, over which stability is judged
-    full: bool = False  # whether the full formulation was asked for: Baumgarte's gains act there
+    full: bool = False  # whether the full formulation is used, in which Baumgarte's gains act
 
     def cell(self, row: float, column: float) -> Cell:
         """Return the cell at values of both axes. Raises KeyError if the map does not have it."""
@@ -276,7 +276,7 @@ def _make_jobs(
         if rows.of_method:
             settings = tuple(Setting(usual.method, y) for y in rows.values)
             moved = {**given, **columns.parameters(x)}
-            # fixed steps serve as references for each other, tolerances need nobody
+            # fixed steps are references for each other, tolerances are judged alone
             found += [_Job(moved, settings)] if usual.fixed else [_Job(moved, (setting,)) for setting in settings]
             continue
         for y in rows.values:

@@ -28,7 +28,7 @@ ADAPTIVE = (*CHOOSING, "auto")
 BATCH, REPEATS = 20_000, 9
 
 
-def adaptive(simulation: Simulation) -> bool:
+def has_adaptive_method(simulation: Simulation) -> bool:
     """Return whether any method with step-size control fits a scene."""
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
@@ -53,7 +53,7 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
         package = method.partition(":")[0]
         source, asked = simulation.source, method in STAGED and wanted is not usual
         there = (*source.methods, *(STAGED if asked and not source.no_slopes else ()))
-        fits = method in there if method in CHOOSING else adaptive(simulation)
+        fits = method in there if method in CHOOSING else has_adaptive_method(simulation)
         if method in ADAPTIVE and not fits:
             continue
         if method in python_driver.NAMES and reason:

@@ -68,7 +68,7 @@ class Cell:
     setting: Setting
     parameters: Parameters  # what to give to `simulate` to see the same
     status: Status
-    reason: str  # for people, "" where there is nothing to say
+    reason: str  # a sentence, "" for a stable run
     label: str  # the same in a few characters, for the map
     error: Error  # over [0, compared]
     energy: float = NAN  # residual over turned over
@@ -99,7 +99,7 @@ def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: 
     """
     limits = limits or limits_of(long.setting)
     both = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
-    error = worst([difference(a, b) for a, b in both])
+    error = largest_errors([difference(a, b) for a, b in both])
     compared = max((float(min(a.t[-1], b.t[-1])) for a, b in both), default=NAN)
     cell = partial(Cell, long.setting, parameters, seconds=long.cpu, compared=compared)
     if long.failure or long.run is None:
@@ -154,7 +154,7 @@ def _find_faults(
         yield Status.INACCURATE, *max(beyond)[1:]
 
 
-def worst(errors: Sequence[Error]) -> Error:
+def largest_errors(errors: Sequence[Error]) -> Error:
     """Return the largest of each measure of the errors; NaN for a measure that none has."""
     measures = ("motion", "path", "force")
     found = ([getattr(e, m) for e in errors if math.isfinite(getattr(e, m))] for m in measures)

@@ -94,42 +94,42 @@ def wanted_of(
     return Wanted(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
 
 
-def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
+def animate(run: Result, target: Any, options: Wanted) -> Animation | None:
     """Write x.gif, x.mp4 or x.html; return an Animation for a page or if `target` is None."""
     if target is None:
-        return _build_page(run, wanted)
+        return _build_page(run, options)
     file = Path(path(target, "the file of an animation"))
     kind = file.suffix.lower()
     if kind not in SUFFIXES or os.fspath(target).endswith(os.sep):
         refuse("the file of an animation", os.fspath(target), "a name that ends in .gif, .mp4 or .html")
     if kind == ".mp4" and shutil.which("ffmpeg") is None:
-        told = f"{file}: a film needs the program ffmpeg, which is not there"
-        raise GudgeonError(f"{told}\n  install it, or name a .gif or .html")
+        message = f"{file}: a film needs the program ffmpeg, which is not there"
+        raise GudgeonError(f"{message}\n  install it, or name a .gif or .html")
     check_target(file)
     if kind == ".html":
-        shown = _build_page(run, wanted)
+        shown = _build_page(run, options)
         write_text(file, shown.html)
         return shown
     try:
         with telling(file):  # a folder of its own, and what is written there first
-            film = _write_film(run, wanted, kind)
+            film = _write_film(run, options, kind)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
     write_bytes(file, film)
     return None
 
 
-def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
+def sketches(run: Result, options: Wanted) -> Iterator[Sketch]:
     """Yield the drawing of each picture, all in one box."""
     motion = postures_of(run, 60)
     plan = make_plan(motion)
-    box, lines = room_of_all(motion, [plan]), path_lines(run, wanted.points)
-    before = wanted.times[0]
-    for k, t in enumerate(wanted.times):
-        if wanted.progress:
-            wanted.progress(k / len(wanted.times), f"picture {k + 1} of {len(wanted.times)}")
+    box, lines = room_of_all(motion, [plan]), path_lines(run, options.points)
+    before = options.times[0]
+    for k, t in enumerate(options.times):
+        if options.progress:
+            options.progress(k / len(options.times), f"picture {k + 1} of {len(options.times)}")
         posture = posture_at(run, float(t))
-        to_scale, arrows = arrows_of(run, posture, motion, plan, wanted.velocities, wanted.forces)
+        to_scale, arrows = arrows_of(run, posture, motion, plan, options.velocities, options.forces)
         drawn = make_sketch(
             posture,
             to_scale,
@@ -156,26 +156,26 @@ def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
     return frozenset(name for k, name in enumerate(names) if k in met or (inside[:, k] > 0).any())
 
 
-def _caption(run: Result, t: float, wanted: Wanted) -> str:
+def _caption(run: Result, t: float, options: Wanted) -> str:
     """Return the caption of a picture: mechanism, scene, time and the ratio of speeds."""
-    slow = wanted.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
-    told = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
+    slow = options.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
+    speed_text = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
     title = textwrap.shorten(caption_of(run), NAMED, placeholder="…")
-    return f"{title}, t = {t:.4f} s{told if abs(slow - 1.0) > 1e-9 else ''}"
+    return f"{title}, t = {t:.4f} s{speed_text if abs(slow - 1.0) > 1e-9 else ''}"
 
 
-def _build_page(run: Result, wanted: Wanted) -> Animation:
+def _build_page(run: Result, options: Wanted) -> Animation:
     """Return the Animation of an HTML page.
 
     matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
     """
-    drawn = list(sketches(run, wanted))
-    picture, names = _draw_canvas(drawn[0], _caption(run, wanted.times[0], wanted))
-    beside = _name_offsets(picture, names)
+    drawn = list(sketches(run, options))
+    picture, names = _draw_canvas(drawn[0], _caption(run, options.times[0], options))
+    offsets = _name_offsets(picture, names)
     halves = {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in names.boxes.items()} if names else {}
     width = float(picture.get_size_inches()[0]) * PIXELS
     title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
-    text = page(title, drawn, [float(t) for t in wanted.times], wanted.seconds, width, beside, halves)
+    text = page(title, drawn, [float(t) for t in options.times], options.seconds, width, offsets, halves)
     return Animation(text, width, width * float(np.divide(*(drawn[0].high - drawn[0].low)[::-1])))
 
 
@@ -224,21 +224,21 @@ def _with_swatches(picture: Any) -> Any:
     return more
 
 
-def _write_film(run: Result, wanted: Wanted, suffix: str) -> bytes:
+def _write_film(run: Result, options: Wanted, suffix: str) -> bytes:
     """Return the bytes of a GIF or film, written by matplotlib into a temporary folder."""
     from matplotlib.animation import FFMpegWriter
 
-    rate: Any = (len(wanted.times) - 1) / wanted.seconds
+    rate: Any = (len(options.times) - 1) / options.seconds
     writer: Any = _GifWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
-    beside: dict[str, tuple[float, float]] = {}
+    offsets: dict[str, tuple[float, float]] = {}
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, f"film{suffix}")
-        for t, sketch in zip(wanted.times, sketches(run, wanted), strict=True):
-            picture, names = _draw_canvas(sketch, _caption(run, float(t), wanted))
+        for t, sketch in zip(options.times, sketches(run, options), strict=True):
+            picture, names = _draw_canvas(sketch, _caption(run, float(t), options))
             if names is not None:
-                names.held = beside
-            beside = _name_offsets(picture, names)
-            if t == wanted.times[0]:
+                names.held = offsets
+            offsets = _name_offsets(picture, names)
+            if t == options.times[0]:
                 writer.setup(picture, file, PIXELS)
             writer.fig = picture
             writer.grab_frame()

@@ -83,8 +83,8 @@ def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, flo
     applied = [posture.loads[part.name] for part in posture.parts("forces", "force")]
     sizes = [float(np.hypot(*vector)) for vector in (*(vector for _, vector in found.values()), *applied)]
     largest = max((size for size in sizes if np.isfinite(size)), default=0.0)
-    told = " on the second body, applied force" if np.any(applied) else " on the second body"
-    drawn = replace(arrows("reaction", found, "N", plan.unit, largest), on=told)
+    acting_on = " on the second body, applied force" if np.any(applied) else " on the second body"
+    drawn = replace(arrows("reaction", found, "N", plan.unit, largest), on=acting_on)
     return drawn, LONGEST * plan.unit / largest if largest > 0.0 else 0.0
 
 

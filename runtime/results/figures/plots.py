@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.drawing.picture import one_word_on_signs
+from gudgeon.drawing.picture import report_missing_glyphs
 from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, quantity, scale
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from gudgeon.results.results import Result
 
-# Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
+# Okabe and Ito's palette: distinguished by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
 ACROSS, BESIDE = 4, 6  # orbits in a row; entries of a legend that fits next to the title
@@ -77,7 +77,7 @@ def caption_of(run: Result) -> str:
     return f"{one_line(run.source.title or run.source.mechanism)}: {run.source.scene}"
 
 
-def reach(run: Result, joint: str) -> float:
+def orbit_half_width(run: Result, joint: str) -> float:
     """Return half the side of a square that contains the orbit and the clearance circle, in units of c."""
     _, x, y = joint_curves.path(run, joint)
     return 1.04 * max(1.0, peak_of(np.hypot(x, y)) / run.constants[f"{joint}.c"])
@@ -267,7 +267,9 @@ def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     rows = -(-len(scenes) // columns)
     grid = part.add_gridspec(len(joints) * rows, columns)
     found = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
-    half = max(reach(runs[scene], joint) for joint, scene in found)  # one scale: all circles are equally large
+    half = max(
+        orbit_half_width(runs[scene], joint) for joint, scene in found
+    )  # one scale: all circles are equally large
     for joint, scene in found:
         row, column = divmod(scenes.index(scene), columns)
         place = grid[joints.index(joint) * rows + row, column]
@@ -311,7 +313,7 @@ def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
     path, drawn = Path(path), io.BytesIO()
     suffix = path.suffix.lower().removeprefix(".") or None
     try:
-        with one_word_on_signs():
+        with report_missing_glyphs():
             picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
         told = f"no picture {shortened(path)}: its numbers cannot be drawn ({error})"

@@ -31,8 +31,8 @@ from gudgeon.results.figures.plots import (
     cycle,
     draw_orbit,
     mark_horizon,
+    orbit_half_width,
     peak_of,
-    reach,
 )
 from gudgeon.results.series import default_watch, drive_series, rates
 
@@ -93,7 +93,7 @@ class Plot:
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
@@ -121,8 +121,8 @@ class Plot:
             hint = f"its journals with play: {', '.join(joints) or 'none'}"
             raise UnknownNameError(f"no orbit of {told(joint)}: expected a journal with play", hint=hint)
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(4.2, 4.4) if ax is None else plain(ax)
-            draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
+            ax = new_axes(4.2, 4.4) if ax is None else check_axes(ax)
+            draw_orbit(ax, self.run, joint, COLOURS[1], orbit_half_width(self.run, joint))
         return ax
 
     def phase(self, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
@@ -147,10 +147,10 @@ class Plot:
             raise BadValueError(f"{name} has no rate by name: name the other series too")
         return found
 
-    def _pairs(self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, more: str = "") -> Axes:
+    def _pairs(self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, suffix: str = "") -> Axes:
         """Plot values `ys` of the series y over values `xs` of the series x, with units."""
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.2, 4.4) if ax is None else plain(ax)
+            ax = new_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (of_x, x_unit), (of_y, y_unit) = (
                 drawn(peak_of(values), self.run.unit(name)) for name, values in ((x, xs), (y, ys))
             )
@@ -158,7 +158,7 @@ class Plot:
             if style == "-":
                 ax.plot(xs[:1] * of_x, ys[:1] * of_y, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
             ax.set(xlabel=label(x, x_unit), ylabel=label(y, y_unit))
-            ax.set_title(in_figure(caption_of(self.run) + more, TITLE))
+            ax.set_title(in_figure(caption_of(self.run) + suffix, TITLE))
         return ax
 
     def spectrum(self, *names: str | Sequence[str], window: str = "hann", ax: Axes | None = None) -> Axes:
@@ -188,14 +188,14 @@ class Plot:
         from gudgeon.results.series import low_pass
 
         run = self.run
-        left = low_pass(run.t, run[name], positive(cutoff, "cutoff"), order, flag(causal, "causal"))
+        smoothed = low_pass(run.t, run[name], positive(cutoff, "cutoff"), order, flag(causal, "causal"))
         kind = "causal" if causal else "zero phase"
-        told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {kind}"
+        filter_text = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {kind}"
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
-            factor, text = drawn(max(peak_of(run[name]), peak_of(left)), run.unit(name))
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
+            factor, text = drawn(max(peak_of(run[name]), peak_of(smoothed)), run.unit(name))
             ax.plot(run.t, run[name] * factor, color=UNTRUSTED, lw=0.6, alpha=0.7, label=name)
-            ax.plot(run.t, left * factor, color=COLOURS[1], lw=1.2, label=told)
+            ax.plot(run.t, smoothed * factor, color=COLOURS[1], lw=1.2, label=filter_text)
             ax.set(xlabel="t [s]", ylabel=label(name, text))
             ax.set_title(in_figure(caption_of(run), TITLE))
             ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
@@ -232,15 +232,15 @@ class Plot:
         return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
 
     def _drawn(
-        self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, beside: float = 0.0
+        self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, margin: float = 0.0
     ) -> Axes:
         """Draw a sketch with caption and notes on new or given axes."""
         from gudgeon.drawing.picture import PER_INCH, size_of
 
         with matplotlib.rc_context(STYLE):
             width, height = size_of(sketch, 7.0)
-            across = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + beside)))
-            ax = new_axes(width + beside, height) if ax is None else plain(ax)
+            across = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
+            ax = new_axes(width + margin, height) if ax is None else check_axes(ax)
             draw(ax)
             ax.set_title(in_figure(caption, across))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
@@ -250,12 +250,12 @@ class Plot:
 def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
     """Plot the wear depth over the angle for both surfaces. See Wear.plot."""
     with matplotlib.rc_context(STYLE):
-        ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+        ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
         sides = {"bearing": wear.bearing, "journal": wear.journal}
         factor, unit = drawn(max(side.deepest for side in sides.values()), "m")
         for (name, side), colour in zip(sides.items(), COLOURS, strict=False):
-            told = f"{name}, 90 % on {np.degrees(side.arc()):.3g}°" if side.deepest > 0.0 else f"{name}: not worn"
-            ax.plot(np.degrees(wear.angle), side.depth * factor, color=colour, lw=1.0, label=told)
+            label_text = f"{name}, 90 % on {np.degrees(side.arc()):.3g}°" if side.deepest > 0.0 else f"{name}: not worn"
+            ax.plot(np.degrees(wear.angle), side.depth * factor, color=colour, lw=1.0, label=label_text)
         ax.set(xlabel="angle in the body's own frame [°]", ylabel=label("depth", unit), xlim=(0.0, 360.0))
         ax.set_title(in_figure(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
         ax.legend(loc="best")
@@ -284,7 +284,7 @@ class ShownAxes(Axes):
 
 
 @contextmanager
-def of_a_page() -> Iterator[None]:
+def figures_for_page() -> Iterator[None]:
     """Create figures for a page within this context: neither a window nor a notebook's cell displays them."""
     token = _OF_A_PAGE.set(True)
     try:
@@ -306,7 +306,7 @@ def new_axes(width: float, height: float) -> Axes:
     return _new_figure(width, height).add_subplot(axes_class=ShownAxes)
 
 
-def plain(ax: Any) -> Axes:
+def check_axes(ax: Any) -> Axes:
     """Return the argument if it is matplotlib Axes with x and y; raise BadValueError for polar, map and 3-D axes."""
     if not isinstance(ax, Axes) or ax.name != "rectilinear" or ax.figure is None:
         refuse("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")

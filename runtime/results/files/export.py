@@ -20,7 +20,7 @@ from gudgeon.language.shown import in_spreadsheet
 from gudgeon.language.wanted import listed, refuse
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
-from gudgeon.results.batch import Batch, given_columns, rows, series, series_column, wanted_names
+from gudgeon.results.batch import Batch, given_columns, iterate_rows, series, series_column, wanted_names
 from gudgeon.results.files.netcdf import import_xarray
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
@@ -99,9 +99,9 @@ def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFra
     return table
 
 
-def _origin_attributes(of: Result | Batch) -> dict[str, str]:
+def _origin_attributes(result: Result | Batch) -> dict[str, str]:
     """Return mechanism, scene and title of a result as attributes of a table."""
-    return {"mechanism": of.source.mechanism, "scene": of.source.scene, "title": of.source.title}
+    return {"mechanism": result.source.mechanism, "scene": result.source.scene, "title": result.source.title}
 
 
 def _import_pandas() -> Any:
@@ -122,7 +122,7 @@ def _series_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
 def _columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
     """Yield the columns of one run after the other; a run that did not begin has none."""
     columns = given_columns(batch)
-    for i, t, own in rows(batch, _series_of_batch(batch, names)):
+    for i, t, own in iterate_rows(batch, _series_of_batch(batch, names)):
         given = {name: values[i] for name, values in columns.items()}
         same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
         yield same | {"t": t} | {series_column(name): values for name, values in own.items()}
@@ -144,17 +144,17 @@ def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] |
     _write_csv(path, _columns_by_run(batch, names), _count_rows(batch))
 
 
-def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns], rows: float) -> None:
+def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns], count: float) -> None:
     """Write a line of names, then a line for each row, with the shortest digits that read back as the same number.
 
-    Raises OutputError at once if `rows` lines of the length of some of the first do not fit on the disk.
+    Raises OutputError at once if `count` lines of the length of some of the first do not fit on the disk.
     """
     with written(named(path, "path")) as file:
         for k, part in enumerate(parts):
             columns = list(part.values())
             if k == 0:
                 some = _format_lines([column[:: max(1, len(column) // SOME)] for column in columns])
-                check_disk(Path(path).parent, rows * len("".join(some)) / max(1, len(some)), "it", path)
+                check_disk(Path(path).parent, count * len("".join(some)) / max(1, len(some)), "it", path)
                 file.write((",".join(part) + "\n").encode())
             for first in range(0, len(columns[0]), ROWS):
                 file.write("".join(_format_lines([column[first : first + ROWS] for column in columns])).encode())
@@ -174,35 +174,35 @@ def _format_cell(value: object) -> str:
 def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a run as a MATLAB file. See Result.to_mat."""
     series = ["t", *wanted_series(run, names)]
-    told = [(name, run.unit(name), run.meaning(name)) for name in series]
-    _write_mat(path, run, told, {name: np.asarray(run[name], dtype=float) for name in series})
+    descriptions = [(name, run.unit(name), run.meaning(name)) for name in series]
+    _write_mat(path, run, descriptions, {name: np.asarray(run[name], dtype=float) for name in series})
 
 
 def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a batch as a MATLAB file. See Batch.to_mat."""
     known, slots = catalogue(batch.source), {slot.address: slot for slot in batch.source.slots}
-    wanted = _series_of_batch(batch, names)
-    told = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in wanted)]
+    names_of_series = _series_of_batch(batch, names)
+    descriptions = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in names_of_series)]
     given = given_columns(batch)
     pairs = zip(given, batch.parameters, strict=True)
-    told += [(column, slots[name].unit, "given to each run") for column, name in pairs]
-    size = 8.0 * (len(wanted) + 1) * len(batch) * batch.t.shape[-1]
-    check_memory(size, f"{len(wanted)} series of {len(batch)} runs")
-    _write_mat(path, batch, told, series(batch, ["t", *wanted]) | given)
+    descriptions += [(column, slots[name].unit, "given to each run") for column, name in pairs]
+    size = 8.0 * (len(names_of_series) + 1) * len(batch) * batch.t.shape[-1]
+    check_memory(size, f"{len(names_of_series)} series of {len(batch)} runs")
+    _write_mat(path, batch, descriptions, series(batch, ["t", *names_of_series]) | given)
 
 
 def _write_mat(
-    path: str | os.PathLike[str], of: Result | Batch, told: Sequence[tuple[str, str, str]], columns: Columns
+    path: str | os.PathLike[str], result: Result | Batch, descriptions: Sequence[tuple[str, str, str]], columns: Columns
 ) -> None:
-    """Write columns under MATLAB's names, with their names, units and meanings (`told`) as cells."""
+    """Write columns under MATLAB's names, with `descriptions` (name, unit, meaning) as cells."""
     from scipy.io import savemat
 
-    fields = _matlab_names([name for name, *_ in told])
+    fields = _matlab_names([name for name, *_ in descriptions])
     found: dict[str, Any] = {fields[name]: columns[name] for name in fields}
     found["variables"] = np.array(list(fields.values()), dtype=object)
     for column, what in enumerate(("names", "units", "meanings")):
-        found[what] = np.array([row[column] for row in told], dtype=object)
-    found |= {"mechanism": of.source.mechanism, "scene": of.source.scene}
+        found[what] = np.array([row[column] for row in descriptions], dtype=object)
+    found |= {"mechanism": result.source.mechanism, "scene": result.source.scene}
     path = named(path, "path")
     check_disk(Path(path).parent, sum(float(column.nbytes) for column in columns.values()), "it", path)
     with written(path) as file:
@@ -216,14 +216,16 @@ def _matlab_names(names: Sequence[str]) -> dict[str, str]:
     found: dict[str, str] = {}
     used = {"variables", "names", "units", "meanings", "mechanism", "scene"}
     for name in names:
-        plain = re.sub(r"\W", "_", name, flags=re.ASCII)
-        plain = (f"{plain}_" if plain in KEYWORDS else plain if plain[0].isalpha() else f"x{plain}")[:LONGEST]
-        choice, number = plain, 2
-        while choice in used:
+        cleaned = re.sub(r"\W", "_", name, flags=re.ASCII)
+        cleaned = (f"{cleaned}_" if cleaned in KEYWORDS else cleaned if cleaned[0].isalpha() else f"x{cleaned}")[
+            :LONGEST
+        ]
+        candidate, number = cleaned, 2
+        while candidate in used:
             end = f"_{number}"
-            choice, number = plain[: LONGEST - len(end)] + end, number + 1
-        used.add(choice)
-        found[name] = choice
+            candidate, number = cleaned[: LONGEST - len(end)] + end, number + 1
+        used.add(candidate)
+        found[name] = candidate
     return found
 
 

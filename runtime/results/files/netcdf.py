@@ -25,7 +25,7 @@ from gudgeon.language.wanted import mapping, text, told
 from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import PROVENANCE, Diagnostics, Extremes
 from gudgeon.results.files.hdf5 import Table, Variable, write
-from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, opened
+from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, open_result_file
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT, MOTION, catalogue
 from gudgeon.results.state import State
@@ -135,8 +135,8 @@ def _parameter_variables(run: Result) -> Iterator[Variable]:
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
     if any(slot.words for slot in slots):
-        told = [str(said(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)]
-        yield Variable("name", _as_text_array(told), "", "of what was chosen where the value is its place")
+        choice_names = [str(said(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)]
+        yield Variable("name", _as_text_array(choice_names), "", "of what was chosen where the value is its place")
 
 
 def _as_text_array(values: list[str]) -> Array:
@@ -202,13 +202,15 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
     return xarray.Dataset(found, attrs=dict(table.attributes))
 
 
-def save(run: Result, path: str | os.PathLike[str], more: Mapping[str, str] = MappingProxyType({})) -> None:
+def save(run: Result, path: str | os.PathLike[str], user_attributes: Mapping[str, str] = MappingProxyType({})) -> None:
     """Write a run to a file with additional attributes.
 
     Raises OutputError if that fails, and leaves an older file unchanged.
     """
     root, *others = tables(run)
-    write(iter([replace(root, attributes={**root.attributes, **_check_attributes(more, root)}), *others]), path)
+    write(
+        iter([replace(root, attributes={**root.attributes, **_check_attributes(user_attributes, root)}), *others]), path
+    )
 
 
 def _check_attributes(given: Any, root: Table) -> dict[str, str]:
@@ -224,7 +226,7 @@ def _check_attributes(given: Any, root: Table) -> dict[str, str]:
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Return the result in a file that `save` wrote. Raises InputError for any other file."""
-    return opened(path, lambda file, size: _read_result(File(file, size, (FORMAT, OLD_FORMAT))))
+    return open_result_file(path, lambda file, size: _read_result(File(file, size, (FORMAT, OLD_FORMAT))))
 
 
 def source_of(file: File) -> KernelSource:
@@ -287,9 +289,11 @@ def check_times(t: Array) -> None:
 
 def _check_given(source: KernelSource, p: Array, given: Array, is_given: Array) -> None:
     """Raise ValueError unless given values equal the values of the run."""
-    for slot, x, own, is_own in zip(source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False):
-        if is_own not in (0, 1) or is_own and not own == x:
-            raise ValueError(f"{slot.address} is {x!r}, and was given as {own!r}")
+    for slot, x, given_value, was_given in zip(
+        source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False
+    ):
+        if was_given not in (0, 1) or was_given and not given_value == x:
+            raise ValueError(f"{slot.address} is {x!r}, and was given as {given_value!r}")
 
 
 def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
@@ -353,24 +357,24 @@ def events_of(file: File, source: KernelSource) -> Array:
     return _read_records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
 
 
-def _read_records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
+def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
     """Return impacts or events from their columns, the first of which names the joint or event; empty without a
     group.
     """
     first, *others = dtype.names or ()
-    if not file.has(f"{what}.{first}" if file.is_old else f"{what}s"):
+    if not file.has(f"{kind}.{first}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
     if file.is_old:
-        owner = file.numbers(f"{what}.{first}", None, "i4")
+        owner = file.numbers(f"{kind}.{first}", None, "i4")
     else:
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
-        owner = np.array([index[name] for name in file.texts(f"{what}s/{first}")], "i4")
+        owner = np.array([index[name] for name in file.texts(f"{kind}s/{first}")], "i4")
     if len(owner) and not (owner.min() >= 0 and owner.max() < len(names)):
-        raise ValueError(f"the {what}s are of something that the scene does not have")
+        raise ValueError(f"the {kind}s are of something that the scene does not have")
     table = np.empty(len(owner), dtype)
     table[first] = owner
     for name in others:
-        table[name] = file.numbers(f"{what}.{name}" if file.is_old else f"{what}s/{name}", len(owner))
+        table[name] = file.numbers(f"{kind}.{name}" if file.is_old else f"{kind}s/{name}", len(owner))
     return table
 
 

@@ -44,7 +44,7 @@ from gudgeon.results.files.netcdf import (
     result_of,
     source_of,
 )
-from gudgeon.results.files.untrusted import File, check_typed, opened
+from gudgeon.results.files.untrusted import File, check_typed, open_result_file
 from gudgeon.results.peaks import PEAK_DTYPE, run_columns
 from gudgeon.results.results import Array, Result, blank
 from gudgeon.results.series import MOTION_UNITS, catalogue, rates
@@ -80,16 +80,16 @@ def tables(batch: Batch) -> Iterator[Table]:
     yield Table("", "run", (Variable("run", np.arange(len(batch)), "", "number of the run"),), attributes)
     yield times(batch)
     if not batch.states:
-        parts += kept_tables(batch)
+        parts += stored_series_tables(batch)
         yield long_table(KEPT, [(i, table) for i, table in parts if table.group == KEPT], {})
     yield Table(RUNS, NUMBER, tuple(_run_variables(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
     yield Table(GIVEN, NUMBER, tuple(given), {})
     for group in ("", *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED):
-        own = [(i, table) for i, table in parts if table.group == group and table.length]
+        with_rows = [(i, table) for i, table in parts if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
-        yield long_table(group or netcdf.SERIES, own, source)
+        yield long_table(group or netcdf.SERIES, with_rows, source)
     yield Table(netcdf.PROVENANCE_GROUP, "", (), next((run.provenance for run in runs.values()), {}))
 
 
@@ -99,11 +99,11 @@ def long_table(group: str, parts: list[tuple[int, Table]], attributes: dict[str,
     found = [Variable(OWNER, np.concatenate(rows), "", "number of the run")] if parts else []
     for k, first in enumerate(parts[0][1].variables if parts else ()):
         values = np.concatenate([table.variables[k].values for _, table in parts])
-        found.append(Variable(beside_owner(first.name), values, first.unit, first.meaning))
+        found.append(Variable(column_name(first.name), values, first.unit, first.meaning))
     return Table(group, "row", tuple(found), attributes)
 
 
-def beside_owner(name: str) -> str:
+def column_name(name: str) -> str:
     """Return the name of a series in a long table, other than the column of runs and the dimension."""
     return f"output.{name}" if name in (OWNER, "row") else name
 
@@ -122,7 +122,7 @@ def times(batch: Batch) -> Table:
     return long_table(TIMES, [(i, Table(TIMES, "row", (variable,), {})) for i, variable in own], {})
 
 
-def kept_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
+def stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
     """Yield number and tables of each run of a batch without states: stored series, contacts, events."""
     source, known = batch.source, blank(batch.source)
     joints, events = [joint.name for joint in source.clearances], [event.name for event in source.events]
@@ -144,11 +144,11 @@ def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SE
     if text(part, "part", "the name of a table") != netcdf.SERIES:
         rows = {v.name: ("row", v.values, v.attributes) for v in _part_table(batch, part).variables}
         return xarray.Dataset(rows)
-    reasons = dict((failure.run, str(failure.error)) for failure in batch.failures)
+    failure_texts = dict((failure.run, str(failure.error)) for failure in batch.failures)
     columns: dict[str, Any] = {
         "samples": ("run", batch.samples),
         "t_last": ("run", batch.t_last, {"units": "s"}),
-        "failure": ("run", np.array([reasons.get(i, "") for i in range(len(batch))])),
+        "failure": ("run", np.array([failure_texts.get(i, "") for i in range(len(batch))])),
     }
     columns |= {name: ("run", values) for name, values in batch.diagnostics.items()}
     for k, joint in enumerate(batch.source.clearances):
@@ -180,24 +180,26 @@ def _part_table(batch: Batch, part: str) -> Table:
     if part not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and part in ("impacts", "events"):
-        own = [(i, table) for i, table in kept_tables(batch) if table.group == part]
+        with_rows = [(i, table) for i, table in stored_series_tables(batch) if table.group == part]
     else:
         began = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
-        own = [(i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length]
-    return long_table(part, own, {})
+        with_rows = [
+            (i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length
+        ]
+    return long_table(part, with_rows, {})
 
 
 def _run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
     """Yield the columns of the table `runs`."""
     failed = {failure.run: failure.error for failure in batch.failures}
     if batch.states:
-        told = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
-        yield Variable("diagnostics", np.array(told, dtype=object), "", "what the run says of itself, JSON")
+        texts = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
+        yield Variable("diagnostics", np.array(texts, dtype=object), "", "what the run says of itself, JSON")
     elif batch.extremes:
-        told = [extremes_to_json(own) for own in batch.extremes]
-        yield Variable(EXTREMES, np.array(told, dtype=object), "", "peaks over all steps, JSON")
-    told = [_error_to_json(failed[i]) if i in failed else "" for i in range(len(batch))]
-    yield Variable("failure", np.array(told, dtype=object), "", "why it did not come to its end, JSON")
+        texts = [extremes_to_json(own) for own in batch.extremes]
+        yield Variable(EXTREMES, np.array(texts, dtype=object), "", "peaks over all steps, JSON")
+    texts = [_error_to_json(failed[i]) if i in failed else "" for i in range(len(batch))]
+    yield Variable("failure", np.array(texts, dtype=object), "", "why it did not come to its end, JSON")
     yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
     yield Variable("t_last", batch.t_last, "s", "where the run ended")
     for name in COUNTS:
@@ -228,13 +230,13 @@ def _error_from_json(text: str, partial: Result | None) -> GudgeonError:
 
 def load(path: str | os.PathLike[str]) -> Batch:
     """Return the batch in a file. See Batch.load."""
-    return opened(path, _read_batch)
+    return open_result_file(path, _read_batch)
 
 
 class _RunOf(File):
     """The rows of one run in the long tables, with the interface of a single run's file."""
 
-    def __init__(self, whole: Whole, run: int) -> None:
+    def __init__(self, whole: LongTables, run: int) -> None:
         """Store the file of the batch and the number of the run."""
         self.whole, self.run, self.is_old = whole, run, False
 
@@ -261,7 +263,7 @@ class _RunOf(File):
         return found
 
 
-class Whole:
+class LongTables:
     """Columns of the long tables of a file, read once each, and the first row of each run."""
 
     def __init__(self, file: File, count: int, states: bool) -> None:
@@ -290,7 +292,7 @@ class Whole:
 
     def column(self, name: str, dtype: str) -> Array:
         """Return a column by "group/name"; a name without a group is a series. `dtype` "" means texts."""
-        name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{beside_owner(name.rpartition('/')[2])}"
+        name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{column_name(name.rpartition('/')[2])}"
         if name not in self.columns:
             rows = int(self.begins[name.rpartition("/")[0]][-1])
             texts = np.array(self.file.texts(name, rows), dtype=object) if not dtype else None
@@ -326,29 +328,29 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
     source, count = source_of(file), len(file.numbers(OWNER, None, "i8"))
     about = json.loads(file.text("batch"))
     kept = about.get("kept")
-    names, whole = tuple(catalogue(source)), Whole(file, count, kept is None)
+    names, whole = tuple(catalogue(source)), LongTables(file, count, kept is None)
     began = [i for i in range(count) if whole.diagnostics[i]]
     runs, provenance = {i: result_of(_RunOf(whole, i), source, names) for i in began}, read_provenance(file)
     for run in runs.values():
         run.provenance = provenance
-    told = file.texts(f"{RUNS}/failure", count)
-    failed = {i: _error_from_json(text, runs.get(i)) for i, text in enumerate(told) if text}
+    texts = file.texts(f"{RUNS}/failure", count)
+    failed = {i: _error_from_json(text, runs.get(i)) for i, text in enumerate(texts) if text}
     if missing := [i for i in range(count) if kept is None and i not in runs and i not in failed]:
         raise ValueError(f"run {missing[0]} has neither a result nor a failure")
     t = read_times(whole, count, bool(about.get("own_times")))
     numbers = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
-    own, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
+    by_run, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
     padded = [_pad_runs(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
         t=t,
         states=States(*padded) if kept is None else None,
         samples=samples,
-        kept={} if kept is None else read_kept(whole, kept, names, samples, t.shape[-1]),
+        kept={} if kept is None else read_stored_series(whole, kept, names, samples, t.shape[-1]),
         t_last=file.numbers(f"{RUNS}/t_last", count),
         parameters=_read_given(file, source, count, runs),
-        impacts=tuple(impacts_of(run, source) for run in own),
-        events=tuple(events_of(run, source) for run in own),
+        impacts=tuple(impacts_of(run, source) for run in by_run),
+        events=tuple(events_of(run, source) for run in by_run),
         peaks=_read_peaks(file, source, count),
         diagnostics=numbers,
         failures=as_failures(failed),
@@ -360,10 +362,10 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
     )
 
 
-def read_times(whole: Whole, count: int, own: bool) -> Array:
+def read_times(whole: LongTables, count: int, separate: bool) -> Array:
     """Return the requested times, (N,), or (n, N) where each run has its own."""
     t = whole.file.numbers(f"{TIMES}/time")
-    if not own:
+    if not separate:
         check_times(t)
         return t
     for i in range(count):
@@ -371,7 +373,7 @@ def read_times(whole: Whole, count: int, own: bool) -> Array:
     return _unroll_column(whole, TIMES, t, count, max(whole.count(TIMES, i) for i in range(count)))
 
 
-def _unroll_column(whole: Whole, group: str, column: Array, count: int, samples: int) -> Array:
+def _unroll_column(whole: LongTables, group: str, column: Array, count: int, samples: int) -> Array:
     """Return a column of a long table as (n, N), NaN where a run has no row."""
     out = np.full((count, samples), np.nan)
     if len(column) != whole.begins[group][-1]:
@@ -382,14 +384,18 @@ def _unroll_column(whole: Whole, group: str, column: Array, count: int, samples:
     return out
 
 
-def read_kept(whole: Whole, kept: Any, names: tuple[str, ...], samples: Array, most: int) -> dict[str, Array]:
+def read_stored_series(
+    whole: LongTables, stored_names: Any, names: tuple[str, ...], samples: Array, most: int
+) -> dict[str, Array]:
     """Return the stored series of a batch without states, (n, N) each."""
-    known = isinstance(kept, list) and "t" in kept and all(name in ("t", *names) for name in kept)
+    known = (
+        isinstance(stored_names, list) and "t" in stored_names and all(name in ("t", *names) for name in stored_names)
+    )
     if not known or [whole.count(KEPT, i) for i in range(len(samples))] != samples.tolist():
         raise ValueError("the series that were kept are not those of its runs")
     found = {}
-    for name in kept:
-        stored = f"{KEPT}/{beside_owner(_stored_name(name))}"
+    for name in stored_names:
+        stored = f"{KEPT}/{column_name(_stored_name(name))}"
         column = whole.file.numbers(stored) if whole.file.has(KEPT) else np.zeros(0)
         found[name] = _unroll_column(whole, KEPT, column, len(samples), most)
     return found
@@ -437,8 +443,8 @@ def _read_given(file: File, source: KernelSource, count: int, runs: Mapping[int,
             if found[address].words and value not in found[address].words:
                 raise ValueError(f"run {i}: {address} is {value[:64]!r}, which is no choice")
             if i in runs and value != runs[i].parameters[address]:
-                told = runs[i].parameters[address]
-                raise ValueError(f"run {i}: {address} is {told!r}, and was given as {value!r}")
+                actual = runs[i].parameters[address]
+                raise ValueError(f"run {i}: {address} is {actual!r}, and was given as {value!r}")
     return given
 
 

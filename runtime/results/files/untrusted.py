@@ -22,7 +22,7 @@ from gudgeon.language.wanted import path as named
 from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
 
-OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
+OLD_FORMAT = "gudgeon-result/1"  # impacts, events, parameters at the root, over other dimensions
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
 LOADERS = {
     "gudgeon-result": ("a single run", "gudgeon.Result.load"),
@@ -32,7 +32,7 @@ Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
 
-def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
+def open_result_file(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
     """Return `make(file, size)` for an open HDF5 file and its size in bytes. Raises InputError for every fault of the
     file.
     """

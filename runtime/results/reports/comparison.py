@@ -15,15 +15,15 @@ import numpy as np
 
 from gudgeon.language.plot_units import drawn, quantity
 from gudgeon.results.diagnostics import Diagnostics
-from gudgeon.results.peaks import Extreme, of_samples, table_rows
+from gudgeon.results.peaks import Extreme, sample_extreme, table_rows
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, drive_series, rates, rigid_guides
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-NOISE, ZERO = 1e-9, "≈ 0"  # a number below this share of what the run has of its kind is shown as none
-COLUMNS = 4  # scenes beside each other in one table
+NOISE, ZERO = 1e-9, "≈ 0"  # a value below this fraction of the run's largest of its unit is shown as ≈ 0
+COLUMNS = 4  # scenes in one table
 # of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
 AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
@@ -54,21 +54,21 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
     """
     wanted = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)
     series = [name for name in wanted if name in run]
-    motion = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in series)
+    motion = tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in series)
     errors: tuple[Extreme, ...] = ()
     if reference is not None:
         compared = [name for name in series if name in reference]
-        errors = tuple(of_samples(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
+        errors = tuple(sample_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
     forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
     for joint in run.source.joints if not (run.source.clearances or run.source.massless) else ():
-        reaction = of_samples("", "N", run.t, run[f"{joint.name}.F"])
+        reaction = sample_extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
     driven = () if run.source.massless else drive_series(run.source)
     sliding = [joint.name for joint in rigid_guides(run.source) if not run.source.clearances]
     guided = [f"{name}.{last}" for name in run.source.guides or sliding for last in "FM" if not run.source.massless]
     drives, guides = (
-        tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in names) for names in (driven, guided)
+        tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in names) for names in (driven, guided)
     )
     rows = run.source.rows if run.source.formulation == "full" else run.source.closures
     found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
@@ -110,16 +110,16 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
         }
-    clean: dict[str, Any] = finite(scenes)
+    clean: dict[str, Any] = replace_non_finite(scenes)
     return clean
 
 
-def finite(value: Any) -> Any:
+def replace_non_finite(value: Any) -> Any:
     """Return the value with NaN and infinity, which JSON lacks, replaced by None at any depth."""
     if isinstance(value, dict):
-        return {key: finite(item) for key, item in value.items()}
+        return {key: replace_non_finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [finite(item) for item in value]
+        return [replace_non_finite(item) for item in value]
     if hasattr(value, "item"):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value

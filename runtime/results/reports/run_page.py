@@ -22,22 +22,22 @@ SIDE, MOST = 260, 6000  # pixels of an orbit, its points
 Rows = list[tuple[str, str]]
 
 
-def page_of(run: Result, found: Mapping[str, Any]) -> str:
+def page_of(run: Result, report: Mapping[str, Any]) -> str:
     """Return the report as a complete HTML file."""
-    return page(_title(found), _about(found), sections(run, found))
+    return page(_title(report), _about(report), sections(run, report))
 
 
-def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
+def sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
     """Yield heading and HTML of each section of the report."""
-    yield "What to know", lines(found["warnings"], "g-warning")
-    for name, guide in found["guides"].items():
-        yield f"Guide {name}", table(("", ""), guide_rows(guide, found["trust"]["asked"]))
-    for name, joint in found["joints"].items():
+    yield "What to know", lines(report["warnings"], "g-warning")
+    for name, guide in report["guides"].items():
+        yield f"Guide {name}", table(("", ""), guide_rows(guide, report["trust"]["asked"]))
+    for name, joint in report["joints"].items():
         orbit = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
-        inside = f"{orbit}<div>{table(('', ''), joint_rows(joint, found['trust']['asked']))}</div>"
+        inside = f"{orbit}<div>{table(('', ''), joint_rows(joint, report['trust']['asked']))}</div>"
         yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-beside'>{inside}</div>"
-    yield "Energy", table(("", ""), energy_rows(found))
-    trust = found["trust"]
+    yield "Energy", table(("", ""), energy_rows(report))
+    trust = report["trust"]
     yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")
     yield (
         "Laws",
@@ -50,45 +50,49 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
                     f"Source: {law['source']}.",
                 ]
             )
-            for law in found["laws"]
+            for law in report["laws"]
         ),
     )
 
 
-def as_text(found: Mapping[str, Any]) -> str:
+def as_text(report: Mapping[str, Any]) -> str:
     """Return the report as text for a terminal."""
-    parts: list[tuple[str, Rows]] = [("", [("", _about(found))])]
-    asked = found["trust"]["asked"]
-    parts += [(f"guide {name}", guide_rows(one, asked)) for name, one in found["guides"].items()]
+    parts: list[tuple[str, Rows]] = [("", [("", _about(report))])]
+    is_examined = report["trust"]["asked"]
+    parts += [(f"guide {name}", guide_rows(one, is_examined)) for name, one in report["guides"].items()]
     parts += [
-        (f"{'corner' if one['corner'] else 'joint'} {name}", joint_rows(one, asked))
-        for name, one in found["joints"].items()
+        (f"{'corner' if one['corner'] else 'joint'} {name}", joint_rows(one, is_examined))
+        for name, one in report["joints"].items()
     ]
-    parts += [("energy", energy_rows(found)), ("how far to believe it", trust_rows(found["trust"]))]
-    told = [_title(found)]
+    parts += [("energy", energy_rows(report)), ("how far to believe it", trust_rows(report["trust"]))]
+    lines_of_text = [_title(report)]
     for heading, rows in parts:
-        told += [heading] if heading and rows else []
-        told += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
-    told += [
+        lines_of_text += [heading] if heading and rows else []
+        lines_of_text += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
+    lines_of_text += [
         f"law: {law['title']}{'; ' * bool(law['options'])}{law['options']}; valid: {law['valid']}"
-        for law in found["laws"]
+        for law in report["laws"]
     ]
-    return visible("\n".join([*told, *(f"note: {one}" for one in (*found["warnings"], *found["trust"]["notes"]))]))
+    return visible(
+        "\n".join([*lines_of_text, *(f"note: {one}" for one in (*report["warnings"], *report["trust"]["notes"]))])
+    )
 
 
-def _title(found: Mapping[str, Any]) -> str:
+def _title(report: Mapping[str, Any]) -> str:
     """Return title and scene in one line."""
-    return f"{one_line(found['title'] or found['mechanism'])}: {found['scene']}"
+    return f"{one_line(report['title'] or report['mechanism'])}: {report['scene']}"
 
 
-def _about(found: Mapping[str, Any]) -> str:
+def _about(report: Mapping[str, Any]) -> str:
     """Return time span, samples, method and steps in one line."""
-    begin, end = found["t"]
-    return f"{begin:.6g} … {end:.6g} s, {found['samples']} samples, {found['method']}, {found['trust']['steps']} steps"
+    begin, end = report["t"]
+    return (
+        f"{begin:.6g} … {end:.6g} s, {report['samples']} samples, {report['method']}, {report['trust']['steps']} steps"
+    )
 
 
-def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
-    """Return the rows (name, cell) of a joint with play; `asked`: whether additional runs were requested."""
+def joint_rows(joint: Mapping[str, Any], is_examined: bool) -> Rows:
+    """Return the rows (name, cell) of a joint with play; `is_examined`: whether additional runs were requested."""
     shares = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
     time = ", ".join(f"{name} {100 * x:.4g} %" for name, x in shares if x or name == "free")
     rows = [("gap c" if joint["corner"] else "clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
@@ -98,8 +102,8 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
         rows.append(("stiffness K of its law", f"{stiffness['K']:.4g} {stiffness['unit']}"))
     if joint["asked"] is not None:
         free = joint["free_impact"]
-        told = "" if free is None else f", of which a free impact delivers {free:.5g}"
-        rows.append(("restitution asked for", f"{joint['asked']:g}{told}"))
+        text = "" if free is None else f", of which a free impact delivers {free:.5g}"
+        rows.append(("restitution asked for", f"{joint['is_examined']:g}{text}"))
     if joint["approach"]:
         rows.append(("approach, least … median … largest", _range_cell(joint["approach"], "m/s")))
         back = joint["restitution"]
@@ -108,40 +112,40 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
         rows.append(("restitution delivered, the same", _range_cell(back, "") if known else none))
     rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
     rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))
-    rows += [] if joint["corner"] else _ideal_rows(joint, asked)  # of a guide the sum has one
+    rows += [] if joint["corner"] else _ideal_rows(joint, is_examined)  # of a guide the sum has one
     if math.isfinite(joint["penetration"]):
-        told = f"{quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
-        rows.append(("deepest penetration", told if joint["penetration"] else "none"))
+        text = f"{quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
+        rows.append(("deepest penetration", text if joint["penetration"] else "none"))
     if math.isfinite(joint["film_least"]):
         rows.append(("least film thickness", quantity(joint["film_least"], "m")))
-    return rows + _work_rows(joint["work"], asked)
+    return rows + _work_rows(joint["work"], is_examined)
 
 
-def guide_rows(guide: Mapping[str, Any], asked: bool) -> Rows:
-    """Return the rows (name, cell) of a guide with play; `asked` as in `joint_rows`."""
+def guide_rows(guide: Mapping[str, Any], is_examined: bool) -> Rows:
+    """Return the rows (name, cell) of a guide with play; `is_examined` as in `joint_rows`."""
     peak, moment = guide["peak"], guide["M"]
     return [
         ("force on the slider, peak of samples", f"{quantity(peak['F'], 'N')} at {quantity(peak['t'], 's')}"),
         ("RMS force, of samples", quantity(guide["rms"], "N")),
         ("moment on the slider, peak of samples", f"{quantity(moment['peak'], 'N*m')} at {quantity(moment['t'], 's')}"),
-        *_ideal_rows(guide, asked),
+        *_ideal_rows(guide, is_examined),
     ]
 
 
-def _ideal_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
+def _ideal_rows(joint: Mapping[str, Any], is_examined: bool) -> Rows:
     """Return the rows of the forces in the ideal scene."""
     if not (ideal := joint["ideal"]):
-        return [("ideal forces", NOT_ASKED if not asked else "not known")]
+        return [("ideal forces", NOT_ASKED if not is_examined else "not known")]
     return [
         ("ideal peak force", f"{quantity(ideal['F'], 'N')}{_ratio_text(joint['peak']['F'], ideal['F'])}"),
         ("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_ratio_text(joint['rms'], ideal['rms'])}"),
     ]
 
 
-def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
+def _work_rows(work: Mapping[str, float] | None, is_examined: bool) -> Rows:
     """Return the rows of the energies that contact, friction and film dissipate."""
     if work is None:
-        return [("where its work went", NOT_ASKED if not asked else "not known")]
+        return [("where its work went", NOT_ASKED if not is_examined else "not known")]
     names = {
         "taken": "energy into contact",
         "returned": "given back",
@@ -149,12 +153,12 @@ def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
         "friction": "taken by friction",
         "film": "taken by the film",
     }
-    return [(told, quantity(work[name], "J")) for name, told in names.items() if math.isfinite(work[name])]
+    return [(label, quantity(work[name], "J")) for name, label in names.items() if math.isfinite(work[name])]
 
 
-def _range_cell(found: Mapping[str, float], unit: str) -> str:
+def _range_cell(quantiles: Mapping[str, float], unit: str) -> str:
     """Return minimum, median and maximum as a cell."""
-    return " … ".join(quantity(found[name], unit) for name in ("min", "median", "max"))
+    return " … ".join(quantity(quantiles[name], unit) for name in ("min", "median", "max"))
 
 
 def _ratio_text(value: float, ideal: float) -> str:
@@ -162,9 +166,9 @@ def _ratio_text(value: float, ideal: float) -> str:
     return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
 
 
-def energy_rows(found: Mapping[str, Any]) -> Rows:
+def energy_rows(report: Mapping[str, Any]) -> Rows:
     """Return the rows (name, cell) of the energy balance."""
-    energy = found["energy"]
+    energy = report["energy"]
     if energy is None:
         return [("energy", "not known: a body has no mass or no inertia")]
     names = {
@@ -176,8 +180,8 @@ def energy_rows(found: Mapping[str, Any]) -> Rows:
         "residual": "largest residual of the balance",
         "turned_over": "turned over",
     }
-    rows = [(told, quantity(energy[name], "J")) for name, told in names.items() if name in energy]
-    return [row for row in rows if found["joints"] or row[0] != names["clearances"]]
+    rows = [(label, quantity(energy[name], "J")) for name, label in names.items() if name in energy]
+    return [row for row in rows if report["joints"] or row[0] != names["clearances"]]
 
 
 def trust_rows(trust: Mapping[str, Any]) -> Rows:
@@ -191,8 +195,8 @@ def trust_rows(trust: Mapping[str, Any]) -> Rows:
     until = horizon if isinstance(horizon, str) else quantity(horizon, "s") if math.isfinite(horizon) else "not sought"
     rows.append(("believed until (horizon)", until))
     for one in trust["differences"]:
-        told = f"{quantity(one['largest'], one['unit'])} at {quantity(one['t'], 's')}"
-        rows.append((f"{one['name']}, against {trust['compared_with']}", told))
+        text = f"{quantity(one['largest'], one['unit'])} at {quantity(one['t'], 's')}"
+        rows.append((f"{one['name']}, against {trust['compared_with']}", text))
     return rows if trust["asked"] else [*rows, ("against smaller steps", NOT_ASKED)]
 
 

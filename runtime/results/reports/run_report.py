@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.results.diagnostics import Examined
-from gudgeon.results.peaks import of_samples
-from gudgeon.results.reports.comparison import finite
+from gudgeon.results.peaks import sample_extreme
+from gudgeon.results.reports.comparison import replace_non_finite
 from gudgeon.results.samples import with_start
 
 if TYPE_CHECKING:
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Array, Result
 
-SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not slow beside turning
-OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
+SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean rate that counts as slow squeezing
+OFF = 0.02  # fraction of the joints' work; a quadrature that misses more is reported
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
     r"(?P<title>.*?)\. Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\.(?: Options: (?P<options>.*?)\.)?(?: |$)"
@@ -63,7 +63,7 @@ class RunReport:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values in SI for JSON, None where there is no value."""
-        plain: dict[str, Any] = finite(self._found)
+        plain: dict[str, Any] = replace_non_finite(self._found)
         return plain
 
     def to_html(self) -> str:
@@ -96,18 +96,18 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     Times, forces and positions are over all steps, fractions of time from onsets and separations.
     """
     peak, c = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
-    own = run.impacts[run.impacts["joint"] == k]
+    impacts = run.impacts[run.impacts["joint"] == k]
     examined, deepest = _joint_statistics(run, joint.name), peak.e_max - c
     between = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
-        deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
+        deepest = float(run[f"{joint.name}.delta"].max())  # at the samples, since the depth depends on the angle
     found = {
         "c": c,
         "corner": joint.at_wall,
-        "time": _time_fractions(run, k, joint, own),
-        "contacts": len(own),
-        "still_closed": int(np.isnan(own["t_off"]).sum()),
-        "approach": _quantiles(own["deltadot"][own["deltadot"] > 0.0]),
+        "time": _time_fractions(run, k, joint, impacts),
+        "contacts": len(impacts),
+        "still_closed": int(np.isnan(impacts["t_off"]).sum()),
+        "approach": _quantiles(impacts["deltadot"][impacts["deltadot"] > 0.0]),
         "restitution": None,
         "stiffness": _stiffness(run, joint),
         "asked": _specified_restitution(run, joint),
@@ -138,7 +138,7 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
 
 def _guide_values(run: Result, name: str) -> dict[str, Any]:
     """Return force and moment on the slider of a guide with play, at the samples."""
-    force, moment = (of_samples("", "", run.t, run[f"{name}.{last}"]) for last in "FM")
+    force, moment = (sample_extreme("", "", run.t, run[f"{name}.{last}"]) for last in "FM")
     found = {
         "peak": {"F": force.peak, "t": force.t},
         "rms": _rms_force(run, name),
@@ -203,7 +203,7 @@ def _joint_statistics(run: Result, joint: str) -> Any:
     return next((one for one in found.joints if one.joint == joint), None)
 
 
-def _time_fractions(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, float]:
+def _time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: Array) -> dict[str, float]:
     """Return the fractions of the time: free, impacting (from an onset until the first maximum of δ), in contact, on a
     film.
 
@@ -213,8 +213,8 @@ def _time_fractions(run: Result, k: int, joint: ClearanceInfo, own: Array) -> di
     begin, end = float(run.t[0]), float(run.t[-1])
     if not end > begin:
         return dict.fromkeys(("free", "impacting", "contact", "film"), math.nan)
-    off = np.where(np.isnan(own["t_off"]), end, own["t_off"])
-    touching = np.clip(off, begin, end) - np.clip(own["t_on"], begin, end)
+    off = np.where(np.isnan(impacts["t_off"]), end, impacts["t_off"])
+    touching = np.clip(off, begin, end) - np.clip(impacts["t_on"], begin, end)
     closed = float(touching.sum()) / (end - begin)
     examined = _joint_statistics(run, joint.name)
     if examined is not None and joint.dry:
@@ -222,12 +222,12 @@ def _time_fractions(run: Result, k: int, joint: ClearanceInfo, own: Array) -> di
     else:
         states = run.state[:, k]
         impacting = closed * float((states == 1).sum()) / max(int((states > 0).sum()), 1)
-    apart = 1.0 - closed
+    open_fraction = 1.0 - closed
     return {
-        "free": 0.0 if joint.film else apart,
+        "free": 0.0 if joint.film else open_fraction,
         "impacting": impacting,
         "contact": closed - impacting,
-        "film": apart if joint.film else 0.0,
+        "film": open_fraction if joint.film else 0.0,
     }
 
 
@@ -286,9 +286,11 @@ def laws_of(source: KernelSource) -> list[dict[str, str]]:
     found: dict[tuple[str, str], dict[str, str]] = {}
     for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
         if law := _LAW.match(" ".join(line.strip(" *") for line in comment.splitlines())):
-            told = law.groupdict("")
-            told["options"] = re.sub(r": (True|False)\b", lambda flag: flag[0].lower(), told["options"])  # as in YAML
-            found.setdefault((told["title"], told["options"]), told)
+            fields = law.groupdict("")
+            fields["options"] = re.sub(
+                r": (True|False)\b", lambda flag: flag[0].lower(), fields["options"]
+            )  # as in YAML
+            found.setdefault((fields["title"], fields["options"]), fields)
     return list(found.values())
 
 
@@ -302,7 +304,7 @@ def _validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[s
         )
     found += beyond(run)
     energy = _energy_balance(run) or {}
-    known = not run.source.rigid  # what blows take is told nowhere else
+    known = not run.source.rigid  # the energy loss of rigid impacts is in no other term
     if known and abs(energy.get("not_told_apart", 0.0)) > OFF * max(abs(energy.get("clearances", 0.0)), 1e-300):
         found.append(
             f"{energy['not_told_apart']:.3g} J of the joints' work is of neither contact, friction nor the film's"
@@ -333,10 +335,10 @@ def _exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]:
     if most > law.limits.epsilon:
         where = f"at {100 * deep:.3g} % of the samples" if deep > 0.0 else "between samples"
         yield f"{joint.name}: {where} ε is over {law.limits.epsilon:g}, beyond {law.name}; it reaches {most:.4g}"
-    share = _fast_squeeze_fraction(run, joint) if law.limits.slow_squeeze else 0.0
-    if share > 0.0:
+    fraction = _fast_squeeze_fraction(run, joint) if law.limits.slow_squeeze else 0.0
+    if fraction > 0.0:
         yield (
-            f"{joint.name}: at {100 * share:.3g} % of the samples on the film |ε̇| is over half the surfaces' mean"
+            f"{joint.name}: at {100 * fraction:.3g} % of the samples on the film |ε̇| is over half the surfaces' mean"
             f" rate: {law.name} holds for |ω| ≫ |ε̇|"
         )
 

@@ -21,11 +21,19 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.simulation.wear import rate_of
 from gudgeon.simulation.wear_loop import Loop, Wearing, share
 from gudgeon.studies.ensemble.exponents import follow
-from gudgeon.studies.ensemble.libraries import loaded, method_in
-from gudgeon.studies.ensemble.measures import Spans, measured, rubs_of, sampled, series_of, steps_of, within
-from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
-from gudgeon.studies.ensemble.numbers import ROUNDING, impossible, key_of, of_runs, real, slot_of
-from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
+from gudgeon.studies.ensemble.libraries import load_library, method_in
+from gudgeon.studies.ensemble.measures import (
+    Spans,
+    is_within,
+    measure_runs,
+    peak_series_of,
+    sampled_interval,
+    series_of,
+    sliding_requests_of,
+)
+from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, gathered, merge_notes
+from gudgeon.studies.ensemble.numbers import ROUNDING, evaluate_for_runs, find_impossible, key_of, real_value, slot_of
+from gudgeon.studies.ensemble.origins import origin_of, origin_over_steps, origin_series
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure, WearRounds
@@ -95,16 +103,16 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
 
     Raises KeyboardInterrupt if Ctrl-C ended a run.
     """
-    simulation = simulation or loaded(job.mechanism, job.scene, job.overrides, job.sha256)
+    simulation = simulation or load_library(job.mechanism, job.scene, job.overrides, job.sha256)
     table = Table(simulation, job)
     failures = [table.bad.get(i, "") for i in range(job.n)]
     good = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
     found = _Collector(job, table)
-    with guesses(simulation.source, job.first) as off, followed_by(job.later):
+    with collect_guess_notes(simulation.source, job.first) as off, followed_by(job.later):
         try:
             if len(good):
                 found.take(good, _run_batch(simulation, job, table, good, progress), failures)
-        except InputError:  # of one run, as a rule; alone it says which
+        except InputError:  # usually of one run; run by run it is found
             for i in good:
                 try:
                     found.take(np.array([i]), _run_batch(simulation, job, table, np.array([i]), None), failures)
@@ -135,7 +143,7 @@ class Table:
         self.output = self._output_counts(wanted.output, known)
         self.step: Array | None = None
         if wanted.step is not None and self.source.degrees_of_freedom:
-            self.step = of_runs(self.source, wanted.step, self.p, known)
+            self.step = evaluate_for_runs(self.source, wanted.step, self.p, known)
             self._mark_impossible("step", self.step)
         self.spans = self._evaluate_windows(wanted.windows, known)
 
@@ -146,8 +154,8 @@ class Table:
             if (slot := slot_of(self.source, name)) is None:
                 continue
             base, key, zero = self.p[:, place[slot.address]], key_of(self.source, name), np.zeros(job.n)
-            by = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
-            found[key] = found.get(key, base) + by  # another ensemble may spell it otherwise
+            deviation = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
+            found[key] = found.get(key, base) + deviation  # another ensemble may spell it otherwise
         return found
 
     def _prepare_parameters(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
@@ -167,26 +175,26 @@ class Table:
         """Return begin and end of each run's windows; a window outside its run makes the run bad."""
         found: dict[str, tuple[Array | None, ...]] = {}
         for name, ends in windows.items():
-            own = [None if expr is None else of_runs(self.source, expr, self.p, known) for expr in ends]
+            own = [None if expr is None else evaluate_for_runs(self.source, expr, self.p, known) for expr in ends]
             limits = zip(own, (np.zeros_like(self.t_end), self.t_end), strict=True)
             begin, end = (limit if x is None else x for x, limit in limits)
-            within = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
-            for i in np.flatnonzero(~within).tolist():
-                told = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
-                self.bad.setdefault(i, f"{told}: expected a part of the run, to {self.t_end[i]:g} s")
+            is_valid = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
+            for i in np.flatnonzero(~is_valid).tolist():
+                message = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
+                self.bad.setdefault(i, f"{message}: expected a part of the run, to {self.t_end[i]:g} s")
             found[name] = tuple(own)
         return found
 
     def _mark_impossible(self, name: str, values: Array) -> None:
         """Mark the runs whose values are not possible as bad."""
-        wrong, expected = impossible(name, values)
+        wrong, expected = find_impossible(name, values)
         for i in np.flatnonzero(wrong).tolist():
             self.bad.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
 
     def _end_times(self, expr: Expr | None) -> Array:
         """Return the end time of each run, (n,), s."""
         if expr is not None:
-            found = of_runs(self.source, expr, self.p, {})
+            found = evaluate_for_runs(self.source, expr, self.p, {})
             self._mark_impossible("t_end", found)
             return found
         return self._from_scene(lambda p: scene_end(self.source, p))
@@ -195,7 +203,7 @@ class Table:
         """Return the number of output intervals of each run, (n,); an expression is rounded to a whole number."""
         if expr is None:
             return self._from_scene(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
-        found = np.rint(of_runs(self.source, expr, self.p, more))
+        found = np.rint(evaluate_for_runs(self.source, expr, self.p, more))
         self._mark_impossible("output", found)
         return found
 
@@ -219,17 +227,17 @@ def _as_python_value(value: Any) -> float | str:
 def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
     """Run some runs of a job and return their batch."""
     wanted, ends, counts = job.wanted, table.t_end[runs], table.output[runs].astype(int)
-    spans = None if wanted.keep else sampled(wanted.measures, table.spans, runs)
-    alike = spans is None and len(set(counts.tolist())) == 1
+    spans = None if wanted.keep else sampled_interval(wanted.measures, table.spans, runs)
+    same_times = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
-    if not alike:
+    if not same_times:
         output = [np.linspace(0.0, end, k + 1) for end, k in zip(ends, counts, strict=True)]
         output = output if spans is None else [_times_to_store(t, *own) for t, *own in zip(output, *spans, strict=True)]
     same_end = len(set(ends.tolist())) == 1
-    t_end: Any = None if not alike else float(ends[0]) if same_end else ends
+    t_end: Any = None if not same_times else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_as_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
-    origin, lookers = of_steps(wanted.measures, source), rubs_of(wanted.measures, source)
+    origin, sliding = origin_over_steps(wanted.measures, source), sliding_requests_of(wanted.measures, source)
     common: dict[str, Any] = {
         "method": method_in(source, wanted.method),
         "rtol": wanted.rtol if source.degrees_of_freedom else None,
@@ -238,7 +246,7 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
         "stop": wanted.stop,
     }
     parameters = parameters or [{}] * len(runs)
-    contour, progress = worn(simulation, wanted.wear, wanted.rounds, parameters, ends, common, progress)
+    contour, progress = run_wear_rounds(simulation, wanted.wear, wanted.rounds, parameters, ends, common, progress)
     batch = simulation.simulate_many(
         parameters,
         t_end,
@@ -247,7 +255,7 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
         progress=progress,
         contour=contour,
         keep=series_of(wanted.measures, wanted.keep, source),
-        peaks=(*steps_of(wanted.measures, source), *lookers),
+        peaks=(*peak_series_of(wanted.measures, source), *sliding),
         against=origin_of(job, origin) if origin else None,
     )
     if batch.interrupted:
@@ -257,7 +265,7 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
 
 def _times_to_store(t: Array, begin: float, end: float) -> Array:
     """Return the sample times within [begin, end], and the start and end of the run."""
-    return t[(t == 0.0) | (t == t[-1]) | within(t, begin, end)]
+    return t[(t == 0.0) | (t == t[-1]) | is_within(t, begin, end)]
 
 
 class _Collector:
@@ -279,10 +287,10 @@ class _Collector:
         failed = {failure.run: str(failure.error) for failure in batch.failures}
         for i, told in failed.items():
             failures[runs[i]] = told
-        origins = at_samples(self.job, self.table, runs, batch, failures)
+        origins = origin_series(self.job, self.table, runs, batch, failures)
         good = np.array([not failures[i] for i in runs])
         for one in self.job.wanted.measures:
-            self.measures[one.name][runs] = np.where(good, measured(batch, one, spans, origins), np.nan)
+            self.measures[one.name][runs] = np.where(good, measure_runs(batch, one, spans, origins), np.nan)
         begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(begun, batch.t_last, np.nan)
         noted = batch.result.notes()
@@ -311,11 +319,11 @@ class _Collector:
         common = t[began][0] if began.any() else np.zeros(N)
         if np.array_equal(t[began], np.broadcast_to(common, t[began].shape)):
             t = common
-        notes = merged(self.notes)
+        notes = merge_notes(self.notes)
         return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)
 
 
-def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
+def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
     """Return the wear model of a study. Raises InputError for bad values, and for a joint without a contour in any
     scene.
     """
@@ -328,13 +336,13 @@ def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
         rate = rate_of(wear.k, wear.hardness, "wear.k", "wear.hardness")
     except InputError as error:
         raise type(error)(error.message, wear.k.where, error.hint) from None
-    scale = 1.0 if wear.scale is None else real(wear.scale, Slot("wear.scale", "", 1.0, False, (0, 0, 0)))
+    scale = 1.0 if wear.scale is None else real_value(wear.scale, Slot("wear.scale", "", 1.0, False, (0, 0, 0)))
     if wear.scale is not None and not scale > 0.0:
         raise BadValueError(f"wear.scale is {scale:g}", wear.scale.where, "expected a positive number of runs")
     return Wearing(tuple(map(str, wear.joints)), rate, wear.law, scale)
 
 
-def worn(
+def run_wear_rounds(
     simulation: Simulation,
     wearing: Wearing | None,
     rounds: int,

@@ -81,8 +81,8 @@ def _deviation_text(printed: pandas.DataFrame) -> str:
     if not len(off):
         return f"{of}: of a printed 0 ours is off by no share"
     share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
-    told = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
-    return f"{of}: {told}"
+    sentence = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
+    return f"{of}: {sentence}"
 
 
 def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
@@ -209,13 +209,13 @@ def _number_rows(known: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, Ce
 
 def _describe_cell(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) -> str:
     """Return the cell of a number in words, as the claim or the file writes it: "scene dry, c 0.3 mm"."""
-    told, own = [], {str(name): as_people_write(str(text)) for name, text in known.claim.selection.at.items()}
+    texts, own = [], {str(name): as_people_write(str(text)) for name, text in known.claim.selection.at.items()}
     for name, k in zip(_cell_dimensions(plan), known.cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
             said = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
-            told.append(f"{one.name} {own.get(one.name) or written.get(one.name, {k: said})[k]}")
-    return ", ".join(told)
+            texts.append(f"{one.name} {own.get(one.name) or written.get(one.name, {k: said})[k]}")
+    return ", ".join(texts)
 
 
 def _cell_dimensions(plan: Plan) -> list[str]:

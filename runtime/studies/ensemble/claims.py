@@ -20,7 +20,7 @@ from gudgeon.language.names import unknown_name
 from gudgeon.language.units import unit
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, Check, Look
-from gudgeon.studies.ensemble.numbers import real
+from gudgeon.studies.ensemble.numbers import real_value
 from gudgeon.studies.ensemble.plan import Coordinate, Plan, Plans
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ SAME = 1e-9  # relative tolerance of a coordinate's value in a claim
 MOST_LISTED = 8
 
 
-def few(checks: Iterable[Check], name: Text) -> tuple[Check, ...]:
+def limit_checks(checks: Iterable[Check], name: Text) -> tuple[Check, ...]:
     """Return all checks of a claim. Raises BadValueError at its name if there are too many."""
     found = tuple(itertools.islice(checks, MOST_COMPARED + 1))
     if len(found) > MOST_COMPARED:
@@ -110,7 +110,7 @@ def known_claims(plans: Plans) -> Known:
     for trend in claims.trends:
         try:
             every = (check for one in trend.trials for check in _make_checks(plans, one))
-            trends.append(KnownTrend(trend, few(every, trend.name)))
+            trends.append(KnownTrend(trend, limit_checks(every, trend.name)))
         except InputError as error:
             errors.append(error)
     if errors:
@@ -138,11 +138,13 @@ def _unit_of(plan: Plan, measure: Text) -> str:
     return plan.units[str(measure)]
 
 
-def _value_in(text: Text, told: str) -> float:
+def _value_in(text: Text, unit_text: str) -> float:
     """Return the value of a text in an SI unit."""
-    of = unit(told).dimension if told and unit(told) else None  # type: ignore[union-attr]
-    exponents = (float(of.length), float(of.mass), float(of.time)) if of else (0.0, 0.0, 0.0)
-    return real(text, Slot("value", told, 0.0, False, exponents))
+    known_unit = unit(unit_text).dimension if unit_text and unit(unit_text) else None  # type: ignore[union-attr]
+    exponents = (
+        (float(known_unit.length), float(known_unit.mass), float(known_unit.time)) if known_unit else (0.0, 0.0, 0.0)
+    )
+    return real_value(text, Slot("value", unit_text, 0.0, False, exponents))
 
 
 def _select(plans: Plans, selection: Selection) -> Selected:

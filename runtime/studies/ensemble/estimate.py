@@ -17,7 +17,7 @@ from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
 from gudgeon.results.batch import parts_of
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
-from gudgeon.studies.ensemble.folder import image
+from gudgeon.studies.ensemble.folder import block_to_bytes
 from gudgeon.studies.ensemble.loop import SIDE_BY_SIDE
 from gudgeon.studies.ensemble.measures import series_of
 from gudgeon.studies.ensemble.plan import Part, Plan, Plans
@@ -93,7 +93,7 @@ def estimate(plan: Plan, threads: int | None) -> Estimate:
             block, taken = _time_block(job, part.simulation)
         seconds += taken * plan.each / len(runs)
         numbers = len(plan.wanted.measures) + 3 + (len(plan.wanted.keep) + 1) * block.t.shape[-1]
-        more = max(0, len(image(block, plan.digest)) - 8 * numbers * len(runs))  # of a file, beside its numbers
+        more = max(0, len(block_to_bytes(block, plan.digest)) - 8 * numbers * len(runs))  # overhead of a file
         size += 2 * 8 * numbers * plan.each + more * math.ceil(plan.each / part.block)  # in blocks, and in the dataset
         failures += filter(None, block.failures)
     reasons = tuple(dict.fromkeys(failures))

@@ -23,8 +23,8 @@ from gudgeon.results.batch import Array
 from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
 from gudgeon.simulation.lyapunov import neighbours_rtol
 from gudgeon.studies.ensemble.libraries import method_in
-from gudgeon.studies.ensemble.notes import guesses
-from gudgeon.studies.ensemble.numbers import ROUNDING, check_expression, of_runs
+from gudgeon.studies.ensemble.notes import collect_guess_notes
+from gudgeon.studies.ensemble.numbers import ROUNDING, check_expression, evaluate_for_runs
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure, StudyFile
@@ -118,7 +118,9 @@ class _NeighbourComputation:
         """Return the measures of run i by name, or the reason why there are none."""
         followed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
-        with guesses(self.simulation.source, self.job.first):  # of the run itself they are told already
+        with collect_guess_notes(
+            self.simulation.source, self.job.first
+        ):  # notes of the run itself are reported already
             try:
                 for one in measures:
                     key = (str(one.of), one.window)
@@ -161,7 +163,7 @@ class _NeighbourComputation:
         if _is_event(measure, self.simulation.source):
             return str(measure.of)
         expr, known = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
-        return float(of_runs(self.simulation.source, expr, self.table.p, known)[i])
+        return float(evaluate_for_runs(self.simulation.source, expr, self.table.p, known)[i])
 
     def _report_progress(self, fraction: float, text: str) -> None:
         """Report progress, so that the caller may cancel; the runs themselves are finished."""

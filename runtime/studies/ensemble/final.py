@@ -15,7 +15,7 @@ from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.block import Block
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, h5py_module
 from gudgeon.studies.ensemble.measures import meaning
-from gudgeon.studies.ensemble.notes import MOST, Note, kind_of, merged
+from gudgeon.studies.ensemble.notes import MOST, Note, kind_of, merge_notes
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
 TOGETHER = 1 << 20  # bytes of blocks that are written at once
@@ -65,7 +65,7 @@ def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
         for of in ("measures", "series")
     )
     failures = tuple(told for one in blocks for told in one.failures)
-    t_last, notes = np.concatenate([one.t_last for one in blocks]), merged(one.notes for one in blocks)
+    t_last, notes = np.concatenate([one.t_last for one in blocks]), merge_notes(one.notes for one in blocks)
     return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
 
 
@@ -75,7 +75,7 @@ def _common_times(folder: StudyFolder) -> tuple[Array, bool]:
     alike, most = True, 0
     for block in _blocks(folder) if folder.plan.wanted.keep else ():
         most = max(most, block.t.shape[-1])
-        if not block.t.size:  # nobody began
+        if not block.t.size:  # no run began
             continue
         alike = alike and block.t.ndim == 1 and (common is None or np.array_equal(common, block.t))
         common = block.t if common is None else common
@@ -100,7 +100,7 @@ def _write_blocks(target: BinaryIO, folder: StudyFolder, t: Array, common: bool)
         variables = _create_variables(h5py, file, plan, len(t), common)
         for block in _join_small_blocks(_blocks(folder)):
             _fill(variables, plan, block, common)
-            notes = merged((notes, block.notes))
+            notes = merge_notes((notes, block.notes))
             for run, why in enumerate(block.failures, block.first):
                 if why:
                     kinds[kind := kind_of(why)] += 1
@@ -159,12 +159,12 @@ def _write_coordinate(h5py: Any, file: Any, one: Coordinate) -> None:
             found.dims[k].attach_scale(file[name])
 
 
-def _set_attributes(found: Any, unit: str, meaning: str) -> None:
+def _set_attributes(variable: Any, unit: str, meaning: str) -> None:
     """Set unit and meaning of a variable."""
     if unit:
-        found.attrs["units"] = unit
+        variable.attrs["units"] = unit
     if meaning:
-        found.attrs["long_name"] = meaning
+        variable.attrs["long_name"] = meaning
 
 
 def _create_variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bool) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A finished study in its folder: datasets and tables, read as they are asked for."""
+"""Own `Study`, a finished study in its folder, from which datasets and tables are read on request."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gudgeon.files.writing import written
 from gudgeon.language.names import unknown
 from gudgeon.language.wanted import names, path
 from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
-from gudgeon.studies.ensemble.folder import DATASET, h5py_module, readable
+from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, h5py_module
 from gudgeon.studies.ensemble.names import Names, read_names
 
 if TYPE_CHECKING:
@@ -56,9 +56,11 @@ class Study:
         import xarray
 
         h5py_module()
-        with readable(path := self.folder / DATASET):
+        with convert_read_errors(path := self.folder / DATASET):
             found = xarray.open_dataset(path, engine="h5netcdf", decode_times=False, decode_timedelta=False)
-        return found if self._keeps is None else found.load()  # a temporary folder goes before what was asked of it
+        return (
+            found if self._keeps is None else found.load()
+        )  # a temporary folder may be deleted before the dataset is used
 
     @property
     def parts(self) -> Mapping[str, Study]:

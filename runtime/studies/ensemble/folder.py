@@ -101,7 +101,7 @@ class StudyFolder:
 
     def write(self, block: Block) -> None:
         """Write a block as one file, complete on the disk on return. Raises OutputError."""
-        data = image(block, self.plan.digest)
+        data = block_to_bytes(block, self.plan.digest)
         with written(self._block_path(block.number), sync=True) as file:
             file.write(data)
         if self.held + block.nbytes <= RECENT:
@@ -115,7 +115,7 @@ class StudyFolder:
             return self.recent[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
             if (data := read_regular(path)) is not None:
-                return from_image(data, self.plan, number)
+                return block_from_bytes(data, self.plan, number)
         return None
 
     def _block_path(self, number: int) -> Path:
@@ -148,7 +148,7 @@ def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
         file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(parts)}, indent=1).encode())
 
 
-def parts_of(found: Mapping[str, Any]) -> list[str]:
+def part_names(found: Mapping[str, Any]) -> list[str]:
     """Return the names of the parts in a manifest; invalid names are left out."""
     named = found.get("parts")
     known = named if isinstance(named, list) else []
@@ -158,14 +158,14 @@ def parts_of(found: Mapping[str, Any]) -> list[str]:
 def check_dataset(folder: Path, plan: Any) -> None:
     """Raise InputError for a dataset that cannot be opened, or has another digest than this plan."""
     path = folder / DATASET
-    with readable(path), h5py_module().File(path, "r") as file:
+    with convert_read_errors(path), h5py_module().File(path, "r") as file:
         own = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
     if not own:
         raise InputError(f"{shortened(path)} is of another study", hint="remove it: it is written anew")
 
 
 @contextmanager
-def readable(path: Path) -> Iterator[None]:
+def convert_read_errors(path: Path) -> Iterator[None]:
     """Convert errors of HDF5 on a damaged file to InputError within this context."""
     try:
         yield
@@ -208,7 +208,7 @@ def h5py_module() -> Any:
     return h5py
 
 
-def image(block: Block, digest: str) -> bytes:
+def block_to_bytes(block: Block, digest: str) -> bytes:
     """Return a block as the bytes of an HDF5 file with checksums; few arrays, since each costs time."""
     h5py, memory = h5py_module(), io.BytesIO()
     with h5py.File(memory, "w") as file:
@@ -223,7 +223,7 @@ def image(block: Block, digest: str) -> bytes:
     return memory.getvalue()
 
 
-def from_image(data: bytes, plan: Plan, number: int) -> Block | None:
+def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
     """Return the block of these bytes; None for another plan. Raises OSError, ValueError, KeyError for damage."""
     h5py = h5py_module()
     of = plan.blocks[number]

@@ -22,7 +22,7 @@ from gudgeon.results.batch import Array
 HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
 MOST = 1 << 20  # combinations that are evaluated one by one; of more, so many random ones
 DOUBT = 0.05  # probability beyond each end of an interval
-PLACES = ""  # in the place of a measure: which runs of a cell have all that is asked of it
+PLACES = ""  # in place of a measure: indices of the runs of a cell that have all measures
 VERDICTS = ("holds", "fails", "undecided")
 
 

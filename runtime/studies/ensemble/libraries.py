@@ -81,7 +81,7 @@ def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
     for study in studies:
         try:
             mechanism = mechanism_of(study)
-        except InputError:  # told where it is resolved
+        except InputError:  # reported when it is resolved
             continue
         for scene, _, overrides in structures(study):
             for name in (*origins(study), scene):
@@ -113,7 +113,7 @@ def made_beside(structures: Sequence[Structure]) -> Iterator[None]:
                 programs.wait(process)
 
 
-def make() -> None:
+def compile_from_command_line() -> None:
     """Compile the libraries of the command line in the other process; the process that needs a library reports its
     errors.
     """
@@ -129,7 +129,7 @@ def make() -> None:
 
 
 @lru_cache(maxsize=16)
-def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
+def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
     """Return the library of a part in a worker's process. Raises InputError for a file that changed since the study
     began.
     """

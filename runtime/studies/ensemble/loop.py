@@ -15,7 +15,7 @@ from gudgeon.integrators.threads import POLL_INTERVAL_S, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset
-from gudgeon.studies.ensemble.workers import Processes, is_lost, room
+from gudgeon.studies.ensemble.workers import Processes, is_lost, max_submitted
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
@@ -45,7 +45,9 @@ class _StudyProgress:
             self.progress((self.done + under_way) / self.runs, f"{self.done} of {self.runs} runs")
 
 
-def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, progress: Progress | None) -> None:
+def finish_study(
+    folder: StudyFolder, threads: int | None, executor: Executor | None, progress: Progress | None
+) -> None:
     """Run the missing blocks, then write the dataset. KeyboardInterrupt preserves the finished blocks."""
     plan, futile = folder.plan, 0
     while True:
@@ -118,7 +120,7 @@ def _run_by_executor(
                 raise
             raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
-    _run_all(folder, missing, done, submit, lambda: room(executor))
+    _run_all(folder, missing, done, submit, lambda: max_submitted(executor))
 
 
 def _run_all(
@@ -160,6 +162,6 @@ def _cancel_at_end(out: dict[Future[Block], BlockOf]) -> Iterator[None]:
 
 def _lost_worker_error(folder: StudyFolder, error: Exception) -> GudgeonError:
     """Return the error for a worker that ended early, with the number of finished blocks."""
-    there = sum(folder.has(block.number) for block in folder.plan.blocks)
-    told = f"a worker ended before its runs did ({type(error).__name__}): {there} of {len(folder.plan.blocks)}"
-    return GudgeonError(f"{told} blocks are there\n  the same call goes on from them")
+    finished = sum(folder.has(block.number) for block in folder.plan.blocks)
+    message = f"a worker ended before its runs did ({type(error).__name__}): {finished} of {len(folder.plan.blocks)}"
+    return GudgeonError(f"{message} blocks are there\n  the same call goes on from them")

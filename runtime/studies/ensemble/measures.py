@@ -54,14 +54,14 @@ def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: Kern
     return [name for name in dict.fromkeys(wanted) if name in known]
 
 
-def steps_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
+def peak_series_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
     """Return the series whose peaks over all steps are measured; not the deviation of a scene from itself."""
     known = catalogue(source)
     wanted = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
     return [name for name in dict.fromkeys(wanted) if name in known]
 
 
-def rubs_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[Rubbing, ...]:
+def sliding_requests_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[Rubbing, ...]:
     """Return the requests for sliding loads of joints whose wear is measured."""
     own = _joint_names(source, rubs=True)
     wanted = (str(one.of) for one in measures if one.statistic in WEAR)
@@ -128,7 +128,7 @@ def meaning(measure: Measure) -> str:
     return f"{told} in window {measure.window}" if measure.window else told
 
 
-def measured(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
+def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
     """Return the values of a measure for all runs of a batch, (n,); NaN for a run without one.
 
     `origins`: series of other scenes to subtract.
@@ -208,7 +208,7 @@ def _values_without_occurrence(batch: Batch, counted: bool, begin: Array) -> Arr
     return np.where(seen & counted, 0.0, np.nan)
 
 
-def sampled(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
+def sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
     """Return the interval in which samples of these runs are needed, (n,) each; None if a measure needs a whole run."""
     windows = {one.window for one in measures if one.statistic in STATISTICS}
     if not (windows and all(windows)):
@@ -218,7 +218,7 @@ def sampled(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Arr
     return begin, np.max([np.full(len(runs), np.inf) if end is None else end[runs] for _, end in ends], axis=0)
 
 
-def within(t: Array, begin: Array | float, end: Array | float) -> Array:
+def is_within(t: Array, begin: Array | float, end: Array | float) -> Array:
     """Return which samples lie in a window, with a tolerance for rounding."""
     slack = ROUNDING * np.abs(t)
     return np.asarray((t >= begin - slack) & (t <= end + slack))
@@ -227,7 +227,7 @@ def within(t: Array, begin: Array | float, end: Array | float) -> Array:
 def _in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
     """Return which samples, (n, N), lie in each run's window and are not NaN."""
     with np.errstate(invalid="ignore"):
-        return within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
+        return is_within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
 
 
 def _make_extreme(

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 # not the digits of a name or of a unit: S9, m/s^2, 1/s
 _NUMBER = re.compile(r"(?<![\w.^])(?<!\^-)(?!1/[^\W\d_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _WITH = re.compile(r" with [\w.]+ = [^:]*(?=:)")  # the numbers of one run
-MOST = 50  # kinds that are told
+MOST = 50  # kinds that are reported
 
 
 @dataclass(frozen=True)
@@ -31,18 +31,18 @@ class Note:
     text: str
 
 
-def kind_of(told: str) -> str:
+def kind_of(message: str) -> str:
     """Return the first line of a note without numbers, by which equal notes of many runs are recognised."""
-    return _NUMBER.sub("…", _WITH.sub("", told.partition("\n")[0]))[:200]
+    return _NUMBER.sub("…", _WITH.sub("", message.partition("\n")[0]))[:200]
 
 
 def gathered(told: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
     """Return the notes of runs by kind, without those on choices, which coordinates show."""
     own = ((run, text) for run, texts in told for text in texts if not tells_choice(text))
-    return merged({kind_of(text): Note(1, run, text)} for run, text in own)
+    return merge_notes({kind_of(text): Note(1, run, text)} for run, text in own)
 
 
-def merged(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
+def merge_notes(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
     """Return the notes of different runs as one table by kind."""
     found: dict[str, Note] = {}
     for kind, note in (item for one in several for item in one.items()):
@@ -53,7 +53,7 @@ def merged(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
 
 
 @contextmanager
-def guesses(source: KernelSource, run: int) -> Iterator[dict[str, Note]]:
+def collect_guess_notes(source: KernelSource, run: int) -> Iterator[dict[str, Note]]:
     """Collect notes on guesses that runs do not follow, instead of a warning for each block."""
     noted: list[Mapping[str, float]] = []
     found: dict[str, Note] = {}

@@ -48,7 +48,7 @@ def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
             return found
     every = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
     try:
-        given_slots(sources[0], {str(name): 0.0})  # says more, of an expression of t for example
+        given_slots(sources[0], {str(name): 0.0})  # its message is more specific, for example for an expression of t
     except InputError as error:
         if "has the address" not in error.message:
             raise type(error)(error.message, name.where, error.hint) from None
@@ -74,7 +74,7 @@ def in_si(text: Text, slot: Slot) -> float | str:
     return value
 
 
-def real(text: Text, slot: Slot) -> float:
+def real_value(text: Text, slot: Slot) -> float:
     """Return the value of a text for a parameter that is not a choice. Raises BadValueError."""
     value = in_si(text, slot)
     if isinstance(value, str):
@@ -96,7 +96,7 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
             text = numbers.texts[twice]
             raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
         return np.array(found, dtype=object if slot.words else float)
-    first, last = (real(text, slot) for text in numbers.texts)
+    first, last = (real_value(text, slot) for text in numbers.texts)
     if numbers.spacing == GEOMETRIC and not first * last > 0.0:
         told = f"a geometric row from {first:g} to {last:g}"
         raise BadValueError(told, numbers.texts[0].where, "expected both ends positive, or both negative")
@@ -104,10 +104,10 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
         raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
     row = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
     with np.errstate(over="ignore", invalid="ignore"):
-        return within_doubles(np.asarray(row(first, last, numbers.count)), numbers.texts[1])
+        return check_finite(np.asarray(row(first, last, numbers.count)), numbers.texts[1])
 
 
-def within_doubles(values: Array, text: Text) -> Array:
+def check_finite(values: Array, text: Text) -> Array:
     """Return the values. Raises BadValueError at the second end unless all are finite."""
     if not np.isfinite(values).all():
         raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
@@ -142,14 +142,14 @@ def _check_units(written: Written, known: Sequence[str]) -> None:
         raise ExpressionError(told, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 
 
-def constant(written: Written | None, known: Mapping[str, float]) -> float | None:
+def constant_value(written: Written | None, known: Mapping[str, float]) -> float | None:
     """Return the value of an expression that is the same in all runs, from `known` names; else None."""
     if written is None or any(name.path not in known for name in names(written.expr)):
         return None
     return float(evaluate(written.expr, known.get))
 
 
-def impossible(name: str, values: Array) -> tuple[Array, str]:
+def find_impossible(name: str, values: Array) -> tuple[Array, str]:
     """Return which values of t_end, step or (rounded) output are not possible, and a text of what is expected."""
     if name == "output":
         expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
@@ -161,15 +161,15 @@ def check_constants(study: StudyFile) -> None:
     """Raise BadValueError at its location for a constant end, output, step or window that no run can have."""
     known: dict[str, float] = {}
     for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
-        if written is None or (value := constant(written, known)) is None:
+        if written is None or (value := constant_value(written, known)) is None:
             continue
-        wrong, expected = impossible(name, np.rint([value]) if name == "output" else np.array([value]))
+        wrong, expected = find_impossible(name, np.rint([value]) if name == "output" else np.array([value]))
         if wrong.any():
             raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
         known |= {name: value} if name == "t_end" else {}
     last = known.get("t_end", np.inf)
     for name, window in study.windows.items():
-        begin, end = (constant(one, known) for one in (window.begin, window.end))
+        begin, end = (constant_value(one, known) for one in (window.begin, window.end))
         begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
         if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
             of = window.begin or window.end
@@ -177,7 +177,7 @@ def check_constants(study: StudyFile) -> None:
             raise BadValueError(told, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
 
 
-def of_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:
+def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:
     """Return the values of an expression, (n,), from the parameters p (n, ...) of the runs; not finite where
     undefined.
     """

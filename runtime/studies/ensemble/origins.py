@@ -22,7 +22,7 @@ from gudgeon.results.batch import Array, parts_of
 from gudgeon.results.results import bare
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.libraries import loaded, method_in
+from gudgeon.studies.ensemble.libraries import load_library, method_in
 from gudgeon.studies.ensemble.measures import STEPS
 from gudgeon.studies.ensemble.numbers import key_of
 
@@ -40,7 +40,7 @@ def origins_of(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
     return tuple(dict.fromkeys(str(one.origin) for one in measures if one.origin is not None and one.origin != scene))
 
 
-def of_steps(measures: Sequence[Measure], source: KernelSource) -> str:
+def origin_over_steps(measures: Sequence[Measure], source: KernelSource) -> str:
     """Return the scene that measures over all steps subtract; "" if there is none."""
     own = (one for one in measures if one.statistic in STEPS and one.of in catalogue(source))
     return next(iter(origins_of(own, source.scene)), "")
@@ -48,10 +48,10 @@ def of_steps(measures: Sequence[Measure], source: KernelSource) -> str:
 
 def origin_of(job: Job, scene: str) -> Simulation:
     """Return the library of another scene of a job's structure."""
-    return loaded(job.mechanism, scene, job.overrides, job.sha256)
+    return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
 
-def idle(source: KernelSource) -> Array:
+def is_passive(source: KernelSource) -> Array:
     """Return which entries of p do not affect a motion directly, (n,): parameters in no expression of t or motion.
 
     Lengths or masses that follow them are entries of p themselves.
@@ -63,7 +63,7 @@ def idle(source: KernelSource) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Alike:
+class RunKeys:
     """Runs of another scene with keys by which equal runs are recognised."""
 
     columns: Mapping[str, Array]  # its own numbers, (n,)
@@ -106,7 +106,9 @@ class Recent:
 _recent, _making = Recent(), Lock()
 
 
-def at_samples(job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]) -> dict[str, dict[str, Array]]:
+def origin_series(
+    job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]
+) -> dict[str, dict[str, Array]]:
     """Return for each scene to subtract its series at the samples of these runs, (n, N), NaN where missing.
 
     A run whose parameters the other scene cannot use is entered in `failures`.
@@ -123,13 +125,13 @@ def at_samples(job: Job, table: Table, runs: Array, batch: Batch, failures: list
 
 
 def _series_at_samples(
-    job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, wanted: list[str], failures: list[str]
+    job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, names: list[str], failures: list[str]
 ) -> dict[str, Array]:
     """Return the wanted series of another scene at the samples of these runs, (n, N) each."""
     times = batch.kept["t"]
-    out = {name: np.full(times.shape, np.nan) for name in wanted}
+    out = {name: np.full(times.shape, np.nan) for name in names}
     good = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
-    alike = _make_runs(simulation, table, runs, [row[np.isfinite(row)] for row in times])
+    keyed = _make_runs(simulation, table, runs, [row[np.isfinite(row)] for row in times])
     common = (
         job.mechanism,
         job.overrides,
@@ -137,14 +139,14 @@ def _series_at_samples(
         simulation.source.scene,
         job.wanted.method,
         job.wanted.rtol,
-        tuple(wanted),
+        tuple(names),
     )
-    keys = [(common, alike.key(i)) for i in range(len(runs))]
+    keys = [(common, keyed.key(i)) for i in range(len(runs))]
     with _making:  # another block in another thread may be about to need the same ones
         held = {keys[i]: _recent.get(keys[i]) for i in good}
         missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
-        made = _followed(job, simulation, alike, sorted(missing), wanted)
-        for i, series in (made | _simulate_runs(job, simulation, alike, sorted({*missing} - {*made}), wanted)).items():
+        made = _followed(job, simulation, keyed, sorted(missing), names)
+        for i, series in (made | _simulate_runs(job, simulation, keyed, sorted({*missing} - {*made}), names)).items():
             if isinstance(series, str):
                 for k in (k for k in good if keys[k] == keys[i]):
                     failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
@@ -157,7 +159,7 @@ def _series_at_samples(
     return out
 
 
-def _make_runs(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> Alike:
+def _make_runs(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> RunKeys:
     """Return the runs of another scene with the parameters and times of these runs."""
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := key_of(source, name))}
@@ -165,7 +167,7 @@ def _make_runs(simulation: Simulation, table: Table, runs: Array, times: list[Ar
     given, is_given = given_each(source, rows)
     p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
-    return Alike(columns, p, np.where(idle(source), 0.0, p), tuple(times), step)
+    return RunKeys(columns, p, np.where(is_passive(source), 0.0, p), tuple(times), step)
 
 
 def _as_python_value(value: Any) -> float | str:
@@ -174,7 +176,7 @@ def _as_python_value(value: Any) -> float | str:
 
 
 def _followed(
-    job: Job, simulation: Simulation, alike: Alike, runs: list[int], wanted: list[str]
+    job: Job, simulation: Simulation, keyed: RunKeys, runs: list[int], wanted: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Return the series of kinematically driven runs from their motion alone, without the runs that fail.
 
@@ -186,14 +188,14 @@ def _followed(
 
     def follow(i: int) -> Mapping[str, Array] | None:
         """Return the series of run i; None if they cannot be computed from the motion alone."""
-        t, p = alike.t[i], alike.whole[i]
+        t, p = keyed.t[i], keyed.whole[i]
         try:
             start = assemble(compiled, p)
             q, v = along(compiled, p, t, start.q, start.v)
             none = np.zeros((len(t), 0))
             run = bare(source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts)
             found = {name: np.array(run[name]) for name in wanted} if np.isfinite(q).all() and t[0] == 0.0 else {}
-        except GudgeonError:  # the whole run says what it is
+        except GudgeonError:  # a simulation reports the reason
             return None
         return found if found and all(np.isfinite(values).all() for values in found.values()) else None
 
@@ -203,36 +205,36 @@ def _followed(
 
 
 def _simulate_runs(
-    job: Job, simulation: Simulation, alike: Alike, runs: list[int], wanted: list[str]
+    job: Job, simulation: Simulation, keyed: RunKeys, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Return the series of each run from a simulation, or the reason why there are none."""
     if not runs:
         return {}
     source, moves = simulation.source, bool(simulation.source.degrees_of_freedom)
-    t = [alike.t[i] for i in runs]
+    t = [keyed.t[i] for i in runs]
     same = all(np.array_equal(one, t[0]) for one in t)
     try:
         batch = simulation.simulate_many(
-            {name: [_as_python_value(values[i]) for i in runs] for name, values in alike.columns.items()}
+            {name: [_as_python_value(values[i]) for i in runs] for name, values in keyed.columns.items()}
             or [{}] * len(runs),
             output=t[0] if same else t,
             method=method_in(source, job.wanted.method),
             rtol=job.wanted.rtol if moves else None,
-            step=None if alike.step is None else alike.step[runs],
+            step=None if keyed.step is None else keyed.step[runs],
             threads=job.threads,
             stop=False,
-            keep=wanted,
+            keep=names,
             peaks=[],
         )
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        each = [_simulate_runs(job, simulation, alike, [i], wanted) for i in runs]
+        each = [_simulate_runs(job, simulation, keyed, [i], names) for i in runs]
         return {i: series for own in each for i, series in own.items()}
     if batch.interrupted:
         raise KeyboardInterrupt
     failed = {failure.run: str(failure.error) for failure in batch.failures}
     return {
-        i: failed[k] if k in failed else {name: batch.kept[name][k, : len(t[k])].copy() for name in wanted}
+        i: failed[k] if k in failed else {name: batch.kept[name][k, : len(t[k])].copy() for name in names}
         for k, i in enumerate(runs)
     }

@@ -231,6 +231,6 @@ def check_size(study: StudyFile) -> None:
             raise BadValueError(f"the study has {found} {what}", where, f"expected {most:.0e} at most")
 
 
-def _sha256_of(told: Any) -> str:
+def _sha256_of(value: Any) -> str:
     """Return the SHA-256 of a value as JSON."""
-    return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+    return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()

@@ -21,19 +21,19 @@ from gudgeon.results.series import catalogue, check_series
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.block import Job, Table, Wanted, wearing_of
+from gudgeon.studies.ensemble.block import Job, Table, Wanted, resolve_wear
 from gudgeon.studies.ensemble.exponents import check_followed
 from gudgeon.studies.ensemble.libraries import mechanism_of, method_in, origins, structures
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
 from gudgeon.studies.ensemble.numbers import (
     check_constants,
     check_expression,
+    check_finite,
     in_si,
     known_slot,
-    real,
+    real_value,
     slot_of,
     values,
-    within_doubles,
 )
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
 
@@ -139,11 +139,11 @@ def _resolve_numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple
 
 def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
     """Return the random or quasi-random values of each drawn parameter, (count,)."""
-    points = shares(draw.method, draw.count, len(draw.names), draw.seed)
+    points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
     found = {}
     for name, spread in draw.numbers.items():
         slot = known_slot(sources, name)
-        first, second = (real(text, slot) for text in spread.ends)
+        first, second = (real_value(text, slot) for text in spread.ends)
         where = spread.ends[1].where
         if spread.kind == NORMAL and not second > 0.0:
             raise BadValueError(f"a standard deviation of {second:g}", where, "expected a positive one")
@@ -152,8 +152,8 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
-            own = spread_over(spread, first, second, points[:, draw.names.index(name)])
-            found[str(name)] = within_doubles(own, spread.ends[1])
+            own = map_to_distribution(spread, first, second, points[:, draw.names.index(name)])
+            found[str(name)] = check_finite(own, spread.ends[1])
     return found
 
 
@@ -164,7 +164,7 @@ def _resolve_starts(
     if starts is None:
         return None, [], []
     names = sorted({str(name): name for own in starts.ensembles.values() for name in own}.values())
-    points, ensembles = deviations(starts, list(map(str, names))), list(starts.ensembles.values())
+    points, ensembles = draw_deviations(starts, list(map(str, names))), list(starts.ensembles.values())
     over = ("ensemble",) if starts.named else ()
     off = Deviations({}, {})
     coordinates = [
@@ -208,7 +208,7 @@ def _deviation_sizes(
     for k, own in enumerate(ensembles):
         if name in own and own[name].relative == relative:
             text, found = own[name].size, True
-            sizes[k] = real(text, slot)
+            sizes[k] = real_value(text, slot)
             if not sizes[k] > 0.0:
                 raise BadValueError(f"a size of {str(text)!r}", text.where, "expected a positive one")
     return sizes if found else None
@@ -238,7 +238,7 @@ def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
     }
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
     keep, method = tuple(map(str, study.keep)), str(study.method)
-    wear = wearing_of(study.wear, [part.simulation.source for part in parts]) if study.wear else None
+    wear = resolve_wear(study.wear, [part.simulation.source for part in parts]) if study.wear else None
     rounds = study.wear.rounds if study.wear else 0
     return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
 
@@ -258,7 +258,7 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
 
 def _parse_tolerance(text: Text) -> float:
     """Return the value of rtol."""
-    return real(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
+    return real_value(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
 
 
 def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
@@ -315,7 +315,7 @@ def _size_blocks(plan: Plan, k: int) -> Part:
     return replace(plan.parts[k], block=block, samples=mean, most=most)
 
 
-def shares(method: str, count: int, width: int, seed: int) -> Array:
+def sample_unit_cube(method: str, count: int, width: int, seed: int) -> Array:
     """Return points of the unit cube, (count, width): independent ones, or those of scipy.stats.qmc, scrambled if
     possible.
     """
@@ -330,7 +330,7 @@ def shares(method: str, count: int, width: int, seed: int) -> Array:
     return np.asarray(qmc.Sobol(width, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def spread_over(spread: Spread, first: float, second: float, share: Array) -> Array:
+def map_to_distribution(spread: Spread, first: float, second: float, share: Array) -> Array:
     """Return values at fractions (n,) of a distribution, from mean and standard deviation, or from two ends (SI)."""
     if spread.kind == NORMAL:
         from scipy.special import ndtri
@@ -341,7 +341,7 @@ def spread_over(spread: Spread, first: float, second: float, share: Array) -> Ar
     return np.asarray(first + (second - first) * share)
 
 
-def deviations(starts: Starts, names: list[str]) -> Array:
+def draw_deviations(starts: Starts, names: list[str]) -> Array:
     """Return deviations of each ensemble, start and parameter, (n_ensembles, count, n_names): in [−1, 1], or normal
     with σ = 1.
 

@@ -25,9 +25,9 @@ from gudgeon.studies.ensemble.folder import (
     h5py_module,
     manifest,
     open_parts,
-    parts_of,
+    part_names,
 )
-from gudgeon.studies.ensemble.loop import finish
+from gudgeon.studies.ensemble.loop import finish_study
 from gudgeon.studies.ensemble.names import write_names
 from gudgeon.studies.ensemble.workers import executor_of
 
@@ -144,7 +144,7 @@ def run_plans(
                 progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
 
         with StudyFolder(folder / name, plan).opened(restart) as opened:
-            finish(opened, threads, executor, report if progress else None)
+            finish_study(opened, threads, executor, report if progress else None)
         done += plan.runs
     study = StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
     write_names(folder, plans)
@@ -158,7 +158,7 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     place = Path(path(folder, "folder"))
     if (found := manifest(place)) is None:
         raise InputError(f"{shortened(place)} is no folder of a study: it has no {MANIFEST}")
-    if parts := parts_of(found):
+    if parts := part_names(found):
         for name in parts:
             load_study(place / name)
         return StudyOfParts(place, parts)

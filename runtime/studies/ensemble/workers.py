@@ -16,7 +16,7 @@ from gudgeon.errors import GudgeonError, InputError, in_a_line
 from gudgeon.language.wanted import instance
 
 AHEAD = 2  # blocks for each worker that wait or run
-UNKNOWN = 4  # workers of an executor that does not say how many it has
+UNKNOWN = 4  # assumed workers of an executor whose number is not known
 PATIENCE = 10  # s, timeout of a cluster
 
 
@@ -81,7 +81,7 @@ def executor_of(given: Any) -> Executor | None:
     return None if given is None else instance(given, "executor", Executor)
 
 
-def room(executor: Executor) -> int:
+def max_submitted(executor: Executor) -> int:
     """Return the number of blocks to submit at once, so that no worker waits and memory stays bounded."""
     count = getattr(executor, "count", None) or getattr(executor, "_max_workers", None)
     if count is None and (client := getattr(executor, "_connect", None)) is not None:
@@ -130,7 +130,9 @@ def _connect(address: str) -> Iterator[Any]:
     try:
         if not address.strip():  # of that Client makes a cluster of its own
             raise ValueError("the address is empty")
-        client = Client(address, timeout=PATIENCE, set_as_default=False)  # else what failed would be asked by others
+        client = Client(
+            address, timeout=PATIENCE, set_as_default=False
+        )  # otherwise other code would use a failed client
     except (OSError, ValueError, TypeError) as error:
         told = f"--dask: no scheduler answers at {in_a_line(address)[:100]}: {in_a_line(str(error))[:200]}"
         raise InputError(told, hint="expected an address as `dask scheduler` prints it, tcp://HOST:8786") from error

@@ -1,1 +1,1 @@
-"""Studies as tables, CSV, JSON and figures."""
+"""Display studies as tables, CSV, JSON and figures."""

@@ -1,4 +1,4 @@
-"""What `gudgeon bench` prints and writes: tables, sentences from the data, CSV, JSON, a figure."""
+"""Print and write the results of `gudgeon bench`: tables, sentences, CSV, JSON, a figure."""
 
 from __future__ import annotations
 
@@ -19,17 +19,18 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 COLUMNS = ("method", "step, tol", "run time", "rhs", "Jacobians", "coordinates", "paths", "forces")
-GOOD_FORCE = 0.01  # share of the peak force that the sentence of `bench` asks for
-TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # errors that the second table asks for
+GOOD_FORCE = 0.01  # largest error of forces, as a fraction of the peak force, in the notes of `bench`
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # bounds of errors in the second table
 
 
 def show_bench(
     source: KernelSource, found: Sequence[SceneBench], table: Path, mark_step: float | None, as_json: bool = False
 ) -> None:
-    """Print everything (or only JSON), write the table and beside it the picture."""
+    """Print the results (or only JSON), and write the table and the figure next to it."""
     rows = bench_rows(found)
 
     def draw() -> Figure:
+        """Return the figure."""
         from gudgeon.studies.show.bench_figure import bench_figure
 
         return bench_figure(source.title or source.mechanism, found, mark_step)
@@ -43,7 +44,7 @@ def show_bench(
 def _show(
     source: KernelSource, found: Sequence[SceneBench], written: Sequence[Path], mark_step: float | None, as_json: bool
 ) -> None:
-    """What was found, and what was written of it."""
+    """Print the results and the names of the written files."""
     if as_json:
         scenes = [
             {
@@ -79,20 +80,25 @@ def _show(
 
 
 def _title(scene: SceneBench) -> str:
+    """Return scene, window and completeness as a title."""
     part = " (partial: interrupted after {} of {} rows)".format(*scene.done) if scene.interrupted else ""
     return f"{scene.scene}: the first {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "") + part
 
 
 def _kinematic_table(scene: SceneBench) -> Table:
+    """Return the table of the kinematic method: samples, times, constraint residual."""
     table = new_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
     for row in scene.rows:
-        cells = (seconds(row.seconds), seconds(row.seconds * row.setting.value), _error(row.error.motion))
+        cells = (seconds(row.seconds), seconds(row.seconds * row.setting.value), _format_error(row.error.motion))
         table.add_row(f"{row.samples:,}", *(cells if not row.failure else (row.failure, "", "")))
     return table
 
 
 def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
-    """Run time is that of the window, rhs its right-hand sides. Errors in brackets are not resolved."""
+    """Return the table of rows of one scene: run time of the window, its right-hand sides, errors.
+
+    Errors in brackets are not resolved.
+    """
     from rich.text import Text
 
     table = new_table(columns)
@@ -103,24 +109,26 @@ def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLU
         if row.failure:
             table.add_row(method, str(row.setting), Text("fails", "red"), Text(f"at {seconds(row.failed_at)}", "red"))
             continue
-        errors = (_told(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
+        errors = (_error_cell(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
         jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []
         time = seconds(row.seconds * scene.t_end)
         table.add_row(method, str(row.setting), time, f"{row.right_hand_sides:,}", *jacobians, *errors)
     return table
 
 
-def _told(scene: SceneBench, measure: str, error: float) -> str:
-    return _error(error) if math.isnan(error) or scene.resolved(measure, error) else f"({_error(error)})"
+def _error_cell(scene: SceneBench, measure: str, error: float) -> str:
+    """Return an error as a cell, in brackets if it is not resolved."""
+    return _format_error(error) if math.isnan(error) or scene.resolved(measure, error) else f"({_format_error(error)})"
 
 
-def _error(value: float) -> str:
+def _format_error(value: float) -> str:
+    """Return an error as a cell, "–" if it is not known."""
     return "–" if math.isnan(value) else f"{value:.1e}"
 
 
 def _target_table(scene: SceneBench) -> Table:
-    """Run time of the window to bring every error below a bound, by method; what it is not told for is no better."""
-    table = new_table(("run time to errors below", *map(_error, TARGETS)), left=("run time to errors below",))
+    """Return the table of the run times of the window by which every error is below a bound, by method."""
+    table = new_table(("run time to errors below", *map(_format_error, TARGETS)), left=("run time to errors below",))
     for method in scene.methods:
         times = (scene.seconds_to(target, method) * scene.t_end for target in TARGETS)
         table.add_row(method, *(seconds(x) if x == x else "–" for x in times))
@@ -128,38 +136,40 @@ def _target_table(scene: SceneBench) -> Table:
 
 
 def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
-    """What the table says, in sentences."""
+    """Return sentences on the references, orders of convergence, steps and omitted rows."""
     if not scene.references:
         return ["no degree of freedom: nothing is integrated, the error is what is left open of the constraints"]
     first, second = (f"{r.method} at {r}" for r in scene.references)
     a = scene.agreement
-    differ = ", ".join(f"{name} {_error(x)}" for name, x in _named(a.motion, a.path, a.force))
+    differ = ", ".join(f"{name} {_format_error(x)}" for name, x in _name_measures(a.motion, a.path, a.force))
     lines = [
         f"references: {first} and {second}; a run is compared with another method",
         f"they differ by: {differ}; below {TRUSTED} times that, in brackets, not resolved",
     ]
     if math.isinf(a.motion):
         lines[1] = "one of them fails: nothing confirms the errors"
-    orders = _named(*(scene.order(m) for m in ("motion", "path", "force")))
-    if told := ", ".join(f"{name} {order:.2f}" for name, order in orders):
-        lines.append(f"observed order of rk4: {told}")
+    orders = _name_measures(*(scene.order(m) for m in ("motion", "path", "force")))
+    if text := ", ".join(f"{name} {order:.2f}" for name, order in orders):
+        lines.append(f"observed order of rk4: {text}")
     if scene.of("rk4"):
         good = [row for row in scene.of("rk4") if not row.failure and row.error.force < GOOD_FORCE]
         bad = [row.setting.value for row in scene.of("rk4") if row.failure]
-        told = str(good[0].setting) if good else "none"
-        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {told}"
+        text = str(good[0].setting) if good else "none"
+        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {text}"
         lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
     if mark_step is not None:
-        lines.append(f"rk4 at {seconds(mark_step)}: {_marked(scene, mark_step)}")
+        lines.append(f"rk4 at {seconds(mark_step)}: {_describe_step(scene, mark_step)}")
     return [*lines, *scene.left_out]
 
 
-def _named(motion: float, path: float, force: float) -> list[tuple[str, float]]:
+def _name_measures(motion: float, path: float, force: float) -> list[tuple[str, float]]:
+    """Return the known ones of three values with the name of each measure."""
     pairs = (("coordinates", motion), ("paths", path), ("forces", force))
     return [(name, x) for name, x in pairs if not math.isnan(x)]
 
 
-def _marked(scene: SceneBench, step: float) -> str:
+def _describe_step(scene: SceneBench, step: float) -> str:
+    """Return the result of rk4 with the marked step in words."""
     row: Row | None = scene.row(Setting("rk4", step))
     if row is None:
         return "not tested"
@@ -174,6 +184,7 @@ def _marked(scene: SceneBench, step: float) -> str:
 
 
 def _rhs_table(found: Sequence[SceneBench]) -> Table:
+    """Return the table of the times of a right-hand side."""
     table = new_table(("scene", "state", "time", "operations", "ns an operation"))
     for scene in found:
         for rhs in scene.rhs:
@@ -188,7 +199,7 @@ def _rhs_table(found: Sequence[SceneBench]) -> Table:
 
 
 def bench_rows(found: Sequence[SceneBench]) -> list[dict[str, Any]]:
-    """The table as it is written to a file: SI units in the names."""
+    """Return the rows of the file, with SI units in the names of the columns."""
     return [
         {
             "scene": scene.scene,

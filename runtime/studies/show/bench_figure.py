@@ -1,4 +1,6 @@
-"""The figure of `gudgeon bench`: error against run time and against right-hand sides, a line a method."""
+"""Draw the figure of `gudgeon bench`: error against run time and against right-hand sides, with a line for each
+method.
+"""
 
 from __future__ import annotations
 
@@ -22,13 +24,16 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARKERS = {method.name: method.marker for method in METHODS} | {"auto": "x", KINEMATIC: "D"}
-# cross-checks are in the background: thin, dashed, grey or light blue, told apart by their markers
+# cross-checks are in the background: thin, dashed, grey or light blue, distinguished by their markers
 CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
 GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
 
 
 def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | None = None) -> Figure:
-    """A row a scene. Hollow markers are below what the references agree to; a shaded band says how far that is."""
+    """Return the figure with a row for each scene.
+
+    Hollow markers and a shaded band show errors within the uncertainty of the references.
+    """
     shown = [scene for scene in found if scene.references] or list(found)
     with matplotlib.rc_context(STYLE):
         picture = Figure(figsize=(11, 1.2 + 3.6 * len(shown)), dpi=120, layout="constrained")
@@ -36,10 +41,10 @@ def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | Non
         for (left, right), scene in zip(axes, shown, strict=True):
             _draw_scene(left, right, scene)
             if mark_step is not None and scene.references:
-                _mark(left, right, mark_step, scene)
+                _mark_step(left, right, mark_step, scene)
         used = dict.fromkeys(method for scene in shown for method in scene.methods)
         handles = [
-            Line2D([], [], color=_colour(m), marker=_shape(m), ls="--" if m in CHECKS else "-", ms=6, label=m)
+            Line2D([], [], color=_colour_of(m), marker=_marker_of(m), ls="--" if m in CHECKS else "-", ms=6, label=m)
             for m in used
         ]
         doubt = "within the references' own uncertainty"
@@ -51,27 +56,30 @@ def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | Non
     return picture
 
 
-def _shape(method: str) -> str:
+def _marker_of(method: str) -> str:
+    """Return the marker of a method."""
     return CHECKS.get(method) or MARKERS[method]
 
 
-def _colour(method: str) -> str:
+def _colour_of(method: str) -> str:
+    """Return the colour of a method."""
     if method in CHECKS:
         return LIGHT[method.partition(":")[0]]
     return COLOURS[list(MARKERS).index(method) % len(COLOURS)]
 
 
 def _draw_scene(left: Axes, right: Axes, scene: SceneBench) -> None:
+    """Draw the errors of one scene over run time (left) and right-hand sides (right)."""
     for method in scene.methods:
         rows = [row for row in scene.of(method) if not row.failure and row.error.largest > 0]
         errors = [row.error.largest for row in rows]
-        colour, marker, check = _colour(method), _shape(method), method in CHECKS
+        colour, marker, check = _colour_of(method), _marker_of(method), method in CHECKS
         times = [row.seconds * scene.t_end * 1e3 for row in rows]
         for ax, x in ((left, times), (right, [row.right_hand_sides or row.samples for row in rows])):
             dashes, width, z = ("--", 0.8, 1.9) if check else ("-", 1.3, 2)
             ax.plot(x, errors, dashes, color=colour, lw=width, zorder=z)
             for place, error, row in zip(x, errors, rows, strict=True):
-                face = colour if _clear(scene, row) else "white"
+                face = colour if _is_resolved(scene, row) else "white"
                 edge = {"c": [colour]} if marker == "x" else {"c": [face], "edgecolors": colour}
                 ax.scatter([place], [error], s=18 if check else 26, marker=marker, linewidths=1.1, zorder=3, **edge)
     left.set(xscale="log", yscale="log", xlabel="run time of the window [ms]", ylabel="largest error")
@@ -85,8 +93,8 @@ def _draw_scene(left: Axes, right: Axes, scene: SceneBench) -> None:
         left.set_ylim(bottom=bottom)
 
 
-def _clear(scene: SceneBench, row: Row) -> bool:
-    """Whether the largest of a row's errors is resolved."""
+def _is_resolved(scene: SceneBench, row: Row) -> bool:
+    """Return whether the largest of a row's errors is resolved."""
     return (
         any(
             getattr(row.error, m) == row.error.largest and scene.resolved(m, row.error.largest)
@@ -96,17 +104,17 @@ def _clear(scene: SceneBench, row: Row) -> bool:
     )
 
 
-def _mark(left: Axes, right: Axes, step: float, scene: SceneBench) -> None:
-    """A ring around the step's row; what it costs stands above the axes, where no marker is."""
+def _mark_step(left: Axes, right: Axes, step: float, scene: SceneBench) -> None:
+    """Draw a ring around the row of the marked step, with its errors above the axes."""
     row = scene.row(Setting("rk4", step))
     if row is None:
         return
     if row.failure or not row.error.largest > 0:
         text = f"rk4, {seconds(step)}: fails at {seconds(row.failed_at)}"
-        right.set_title(text, loc="right", fontsize=8.5, color=_colour("rk4"))
+        right.set_title(text, loc="right", fontsize=8.5, color=_colour_of("rk4"))
         return
     for ax, x in ((left, row.seconds * scene.t_end * 1e3), (right, row.right_hand_sides)):
         ax.plot([x], [row.error.largest], "o", ms=12, mfc="none", mec=IDEAL, mew=1.2, zorder=4)
     text = f"rk4, {seconds(step)}: forces off by {share(row.error.force)}"
     text += f", {scene.contact / step:.1f} steps a contact" if math.isfinite(scene.contact) else ""
-    right.set_title(text, loc="right", fontsize=8.5, color=_colour("rk4"))
+    right.set_title(text, loc="right", fontsize=8.5, color=_colour_of("rk4"))

@@ -1,4 +1,4 @@
-"""What `gudgeon map --box` prints and writes: counts by verdict and reason, the worst points, CSV, a figure."""
+"""Print and write the results of `gudgeon map --box`: counts by verdict and reason, the worst points, CSV, a figure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.shown import path_text, print_json
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, partial, tell_failures
+from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, interruption_text, print_failures
 from gudgeon.studies.show.tables import console, new_table, seconds, share, write_files
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
 
@@ -20,15 +20,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.table import Table
 
-WORST = 8  # points that are told with what runs them again; the rest is in the table on disk
+WORST = 8  # points that are printed with their command; the others are in the table on disk
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
 def show_box(source: KernelSource, file: str, found: Sequence[VerdictBox], table: Path, as_json: bool = False) -> None:
-    """Print everything (or only JSON), write the table and beside it the picture."""
+    """Print the results (or only JSON), and write the table and the figure next to it."""
     rows = [row for box in found for row in cell_rows(box)]
 
     def draw() -> Figure:
+        """Return the figure."""
         from gudgeon.studies.show.box_figure import box_figure
 
         return box_figure(source.title or source.mechanism, found)
@@ -40,7 +41,7 @@ def show_box(source: KernelSource, file: str, found: Sequence[VerdictBox], table
 
 
 def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written: Sequence[Path], as_json: bool) -> None:
-    """What was found, and what was written of it."""
+    """Print the results and the names of the written files."""
     if as_json:
         rows = [row for one in found for row in cell_rows(one)]
         print_json(
@@ -56,21 +57,21 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
     for box in found:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
         title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
-        out.print(title + partial(box), style="bold")
+        out.print(title + interruption_text(box), style="bold")
         if box.full:
             out.print(f"  {FULL}")
         out.print(f"  {count(box.cells)}")
         out.print(f"  {compared(box)}")
-        out.print(_verdicts(box.cells))
+        out.print(_verdict_table(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
-            tell_failures(out, file, box, worst)
+            print_failures(out, file, box, worst)
     for path in written:
         out.print(f"wrote {path_text(path)}")
 
 
 def count(cells: Sequence[Cell]) -> str:
-    """ "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
+    """Return the counts by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
     counts = Counter(cell.status for cell in cells)
     told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
     slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
@@ -78,7 +79,9 @@ def count(cells: Sequence[Cell]) -> str:
 
 
 def grouped(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
-    """Verdict, reason without its numbers, the cells that have both: the worst verdict first, then the most cells."""
+    """Return groups of cells with equal verdict and reason (without its numbers), the worst verdict and largest group
+    first.
+    """
     groups: dict[tuple[Status, str], list[Cell]] = {}
     for cell in cells:
         groups.setdefault((cell.status, kind(cell.reason)), []).append(cell)
@@ -87,12 +90,14 @@ def grouped(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
 
 
 def kind(reason: str) -> str:
-    """What a reason says without the figures of its run."""
+    """Return a reason without the values of its run."""
     return _NUMBER.sub("…", re.split(r",? at t = |: ", reason)[0]).strip(", ")
 
 
 def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
-    """Failed ones, the first of each reason before the second of any; where none failed, the largest errors."""
+    """Return the failed cells, one of each reason before a second of any; without failures, those with the largest
+    errors.
+    """
     if not any(cell.failed for cell in cells):
         known = [cell for cell in cells if math.isfinite(cell.error.largest)]
         return sorted(known, key=lambda cell: -cell.error.largest)[: WORST // 2]
@@ -101,7 +106,8 @@ def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
     return rounds[:WORST]
 
 
-def _verdicts(cells: Sequence[Cell]) -> Table:
+def _verdict_table(cells: Sequence[Cell]) -> Table:
+    """Return the table of verdicts and reasons with counts and largest errors."""
     from rich.text import Text
 
     table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))

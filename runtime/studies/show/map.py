@@ -1,4 +1,4 @@
-"""What `gudgeon map` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure."""
+"""Print and write the results of `gudgeon map`: maps, failures with all their values, CSV, JSON, a figure."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ COLOURS = {
 FULL = "integrated in the full formulation (absolute coordinates): the gains act there alone"
 SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗", Status.MISSING: "·"}
 PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
-# what a cell's label may begin with, and what that says; told where a cell has it
+# meaning of the first word of a cell's label; printed if a cell has it
 LABELS = {
     "at": "at: when the run failed",
     "energy": "energy: residual, or it comes from nowhere",
@@ -58,10 +58,11 @@ def show_map(
     mark_step: float | None,
     as_json: bool = False,
 ) -> None:
-    """Print everything (or only JSON), write the table and beside it the picture."""
+    """Print the results (or only JSON), and write the table and the figure next to it."""
     rows = [row for scene in found for row in cell_rows(scene)]
 
     def draw() -> Figure:
+        """Return the figure."""
         from gudgeon.studies.show.map_figure import map_figure
 
         return map_figure(source.title or source.mechanism, found, mark_step)
@@ -80,7 +81,7 @@ def _show(
     mark_step: float | None,
     as_json: bool,
 ) -> None:
-    """What was found, and what was written of it."""
+    """Print the results and the names of the written files."""
     if as_json:
         rows = [row for one in found for row in cell_rows(one)]
         print_json(
@@ -95,7 +96,7 @@ def _show(
     out = console()
     for scene in found:
         title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, {compared(scene)}"
-        out.print(title + partial(scene), style="bold")
+        out.print(title + interruption_text(scene), style="bold")
         if scene.full:
             out.print(f"  {FULL}")
         if scene.columns.ratios:
@@ -105,9 +106,9 @@ def _show(
             out.print(_boundary_table(scene))
         elif failures := [cell for cell in scene.cells if cell.failed]:
             out.print("  what failed, and what runs it again")
-            tell_failures(out, file, scene, failures)
+            print_failures(out, file, scene, failures)
     out.print(legend(found))
-    for line in explain(found).splitlines():
+    for line in explain_labels(found).splitlines():
         out.print(f"  {line}")
     for line in verdict(found, mark_step):
         out.print(line)
@@ -116,7 +117,7 @@ def _show(
 
 
 def _map_table(scene: VerdictMap) -> Table:
-    """Rows down, columns across; each cell its verdict and the number behind it."""
+    """Return the table of a map; each cell has the sign of its verdict and its decisive number."""
     from rich.text import Text
 
     heads = [value(scene.columns, x) for x in scene.columns.values]
@@ -129,6 +130,7 @@ def _map_table(scene: VerdictMap) -> Table:
 
 
 def _boundary_table(scene: VerdictMap) -> Table:
+    """Return the table of the largest stable step for each column, with the fault of the next step."""
     name = scene.columns.name
     table = new_table((name, "largest stable step", "the next one"), left=("the next one",))
     for x in scene.columns.values:
@@ -140,8 +142,8 @@ def _boundary_table(scene: VerdictMap) -> Table:
     return table
 
 
-def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
-    """Why, and what to type to see it again; that line is as long as it is, so that it can be copied."""
+def print_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
+    """Print the reasons of failed cells and the command that repeats each, on one line so that it can be copied."""
     laws = files_of_laws()
     for cell in cells:
         said = cell.reason or f"largest error {share(cell.error.largest)}"
@@ -150,13 +152,13 @@ def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
-def partial(found: VerdictMap | VerdictBox) -> str:
-    """What follows the title of what Ctrl-C cut short."""
+def interruption_text(found: VerdictMap | VerdictBox) -> str:
+    """Return the part of a title that says how many runs Ctrl-C left; "" if it did not."""
     return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
 
 
 def legend(found: Sequence[VerdictMap | VerdictBox]) -> Text:
-    """Signs and verdicts, "not judged" only where there is such a cell."""
+    """Return signs and verdicts, "not judged" only if there is such a cell."""
     from rich.text import Text
 
     shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
@@ -164,7 +166,7 @@ def legend(found: Sequence[VerdictMap | VerdictBox]) -> Text:
 
 
 def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()) -> str:
-    """The line that runs a cell again, of the file as it was typed; as it stands it can be given to a shell."""
+    """Return the shell command that repeats the run of a cell, with the file as it was typed."""
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
     words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
     words += ["--formulation", "full"] if full else []
@@ -176,14 +178,14 @@ def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False,
 
 
 def files_of_laws() -> list[str]:
-    """Those of the user's own laws that are known, as they were typed."""
+    """Return the files of the user-defined laws, as they were typed."""
     from gudgeon.generator.kinds.laws.registered import ORIGINS
 
     return [origin.typed for origin in ORIGINS.values() if origin.typed]
 
 
 def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
-    """One line a scene on the marked step, from the cells; nothing without one."""
+    """Return a line for each scene on the marked step; empty without one."""
     lines = []
     for scene in (s for s in found if s.rows.name == "step"):
         step = next((x for x in scene.rows.values if mark_step is not None and math.isclose(x, mark_step)), None)
@@ -199,7 +201,7 @@ def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
 
 
 def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
-    """A row a cell, with what it takes to see it again."""
+    """Return a row for each cell, with all that is needed to repeat it."""
     return [
         {
             "scene": found.scene,
@@ -221,7 +223,7 @@ def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
 
 
 def value(axis: Axis, x: float) -> str:
-    """A value on an axis as people say it."""
+    """Return a value of an axis as text with its unit."""
     if axis.words:
         return axis.words[int(x)]
     if axis.name == "clearance":
@@ -231,8 +233,8 @@ def value(axis: Axis, x: float) -> str:
     return seconds(x) if axis.unit == "s" else quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
 
 
-def explain(found: Sequence[VerdictMap]) -> str:
-    """What stands in the cells, of all that may stand there what does; two to a line."""
+def explain_labels(found: Sequence[VerdictMap]) -> str:
+    """Return the meaning of the labels that occur in cells, two a line."""
     used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
     told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
     parts = ["a number: largest error against a finer run, over the time compared", *told]
@@ -240,7 +242,10 @@ def explain(found: Sequence[VerdictMap]) -> str:
 
 
 def compared(found: VerdictMap | VerdictBox) -> str:
-    """Over what the errors are, and against what: with dry contacts runs can be compared over the first few alone."""
+    """Return over which time errors were computed, and against which setting.
+
+    With dry contacts runs are comparable over the first few contacts only.
+    """
     finer = "a 10× shorter step" if found.setting.fixed else "a 100× tighter tolerance"
     ends = [cell.compared for cell in found.cells if cell.compared == cell.compared]
     shortest, longest = (seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))

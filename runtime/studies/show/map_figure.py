@@ -1,4 +1,4 @@
-"""The figure of `gudgeon map`: a map of verdicts."""
+"""Draw the figure of `gudgeon map`: a map of verdicts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from matplotlib.patches import Patch, Rectangle
 from gudgeon.language.shown import in_figure
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
-from gudgeon.studies.show.map import compared, explain, value
+from gudgeon.studies.show.map import compared, explain_labels, value
 from gudgeon.studies.show.tables import seconds
 from gudgeon.studies.verdicts import Cell, Status
 
@@ -31,7 +31,7 @@ NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
 def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
-    """A panel a scene, each cell its verdict and the number behind it."""
+    """Return the figure with a panel for each scene; each cell has its verdict and its decisive number."""
     columns = max(len(scene.columns.values) for scene in found)
     rows = max(len(scene.rows.values) for scene in found)
     with matplotlib.rc_context(STYLE):
@@ -43,24 +43,25 @@ def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None 
         axes[0].set_ylabel(NAMES.get(found[0].rows.name, found[0].rows.name))
         used = {cell.status for scene in found for cell in scene.cells}
         handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
-        if mark_step is not None and any(_marked(scene, y, mark_step) for scene in found for y in scene.rows.values):
+        if mark_step is not None and any(_is_marked(scene, y, mark_step) for scene in found for y in scene.rows.values):
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
         question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
         part = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
         head = in_figure(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in found)
-        told = "\n".join([explain(found), *over])
+        told = "\n".join([explain_labels(found), *over])
         picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=told, title_fontsize=8)
     return picture
 
 
 def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
+    """Draw the map of one scene."""
     rows, columns = scene.rows.values, scene.columns.values
     for i, y in enumerate(rows):
         for j, x in enumerate(columns):
             _draw_cell(ax, i, j, scene.cell(y, x))
-        if _marked(scene, y, mark_step):
+        if _is_marked(scene, y, mark_step):
             ax.add_patch(Rectangle((-0.5, i - 0.5), len(columns), 1, fill=False, ec=IDEAL, lw=1.8, zorder=4))
     limits = {"xlim": (-0.5, len(columns) - 0.5), "ylim": (-0.5, len(rows) - 0.5)}
     ax.set(**limits, title=f"{scene.scene}, {scene.setting.method}")
@@ -72,10 +73,12 @@ def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
     ax.spines[:].set_visible(False)
 
 
-def _marked(scene: VerdictMap, row: float, step: float | None) -> bool:
+def _is_marked(scene: VerdictMap, row: float, step: float | None) -> bool:
+    """Return whether a row has the marked step."""
     return scene.rows.name == "step" and step is not None and math.isclose(row, step)
 
 
 def _draw_cell(ax: Axes, row: int, column: int, cell: Cell) -> None:
+    """Draw one cell with the colour of its verdict."""
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=FILL[cell.status], edgecolor="white", lw=1.5))
     ax.text(column, row, cell.label, ha="center", va="center", fontsize=7.5, color="#333333", zorder=3)

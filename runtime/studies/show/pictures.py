@@ -1,4 +1,4 @@
-"""Figures of a study side by side on its page, as SVG; many of them are drawn on all cores."""
+"""Place the figures of a study on its page as SVG; large numbers of figures are drawn on all cores."""
 
 from __future__ import annotations
 
@@ -33,26 +33,27 @@ Draw = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
 
 
 class Pictures:
-    """What a page shows, by number: its places are written first, and filled when all of them are known."""
+    """Figures of a page by number: placeholders are written first and replaced when all figures are known."""
 
     def __init__(self) -> None:
+        """Create an empty list of figures."""
         self.wanted: list[tuple[str, Callable[[], Axes]]] = []
 
     def place(self, name: str, draw: Callable[[], Axes]) -> str:
-        """A comment, such as no text of a file can be, where the picture will stand. `name` is that of no other."""
+        """Return the placeholder of a figure, a comment that no text of a file can contain. `name` must be unique."""
         self.wanted.append((name, draw))
         return f"<!--picture {len(self.wanted) - 1}-->"
 
     def filled(self, page: str) -> str:
-        """The page with its pictures."""
-        drawn = _side_by_side(self.wanted)
+        """Return the page with its figures."""
+        drawn = _draw_in_processes(self.wanted)
         return _PLACE.sub(lambda place: drawn[int(place[1])], page)
 
 
-def gallery(drawn: Iterable[Draw], kind: str, pictures: Pictures) -> str:
-    """Pictures side by side, with what they show; of very many the first."""
+def gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
+    """Return figures with captions in a grid; of very many only the first MOST_FIGURES."""
     parts, left = [], 0
-    for k, (caption, draw) in enumerate(drawn):
+    for k, (caption, draw) in enumerate(figures):
         if k >= MOST_FIGURES:
             left += 1
             continue
@@ -62,14 +63,14 @@ def gallery(drawn: Iterable[Draw], kind: str, pictures: Pictures) -> str:
     return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
 
 
-def _side_by_side(wanted: list[tuple[str, Callable[[], Any]]]) -> list[str]:
-    """All of them: each core draws its share, in processes forked from this one where it is alone in itself."""
-    forks = sys.platform == "linux" and threading.active_count() == 1 and len(wanted) >= MANY
-    count = min(available_threads(), len(wanted) // FEW) if forks else 1
-    others = [_Other(wanted[k::count]) for k in range(1, count)]
-    drawn = [""] * len(wanted)
+def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str]:
+    """Return the SVG of all figures, drawn by forked processes if this process has no other threads."""
+    forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MANY
+    count = min(available_threads(), len(figures) // FEW) if forks else 1
+    others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
+    drawn = [""] * len(figures)
     try:
-        drawn[::count] = [_drawn(*one) for one in wanted[::count]]
+        drawn[::count] = [_draw_figure(*one) for one in figures[::count]]
         for k, other in enumerate(others, 1):
             drawn[k::count] = other.drawn()
     finally:
@@ -79,10 +80,11 @@ def _side_by_side(wanted: list[tuple[str, Callable[[], Any]]]) -> list[str]:
     return drawn
 
 
-class _Other:
-    """A process that draws some of them; where it dies, they are drawn here."""
+class _DrawingProcess:
+    """A process that draws some of the figures; if it dies, they are drawn here."""
 
     def __init__(self, wanted: list[tuple[str, Callable[[], Any]]]) -> None:
+        """Start the process."""
         self.wanted, context = wanted, get_context("fork")
         self.end, begin = context.Pipe(duplex=False)
         self.process = context.Process(target=_draw_all, args=(begin, wanted), daemon=True)
@@ -92,33 +94,34 @@ class _Other:
         begin.close()
 
     def drawn(self) -> list[str]:
-        """Waits for it."""
+        """Wait for the process and return its figures."""
         try:
             found: list[str] = self.end.recv()
         except (EOFError, OSError):
-            return [_drawn(*one) for one in self.wanted]
+            return [_draw_figure(*one) for one in self.wanted]
         return found
 
 
-def _draw_all(end: Connection, wanted: list[tuple[str, Callable[[], Any]]]) -> None:
+def _draw_all(end: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
+    """Draw figures in the other process and send them."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
-    with suppress(Exception):  # what is no picture is told where it is drawn again
-        end.send([_drawn(*one) for one in wanted])
+    with suppress(Exception):  # errors are reported when the figure is drawn again
+        end.send([_draw_figure(*one) for one in figures])
 
 
-def _drawn(name: str, draw: Callable[[], Axes]) -> str:
-    """A picture; one that cannot be drawn is told."""
-    from gudgeon.results.figures.run_plots import of_a_page
+def _draw_figure(name: str, draw: Callable[[], Axes]) -> str:
+    """Return a figure as SVG, or a text if it cannot be drawn."""
+    from gudgeon.results.figures.run_plots import figures_for_page
 
     try:
-        with of_a_page():
+        with figures_for_page():
             return _svg(draw(), name)
     except (GudgeonError, ValueError, ArithmeticError) as error:
         return lines([f"not drawn: {error}"], "g-quiet")
 
 
 def _svg(ax: Axes, name: str) -> str:
-    """The figure's SVG by itself: words are text, names are its own, no date."""
+    """Return the SVG element of a figure with text as text, unique identifiers and no date."""
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
@@ -126,16 +129,17 @@ def _svg(ax: Axes, name: str) -> str:
     with matplotlib.rc_context({"svg.hashsalt": name, "svg.fonttype": "none"}):
         figure: Any = ax.figure
         canvas = FigureCanvasSVG(figure)
-        _laid_out(figure)
+        _compute_layout(figure)
         canvas.print_svg(target, metadata={"Date": None, "Creator": None})
     found = _AROUND.sub("", target.getvalue().decode())
     return _IDS.sub(lambda own: f"{own[1]}{name}-", found)
 
 
-def _laid_out(figure: Figure) -> None:
-    """Once: `savefig` draws all of it a first time for that. Axes that stand alone need no more than a margin.
+def _compute_layout(figure: Figure) -> None:
+    """Compute the layout of a figure once, since `savefig` would draw everything twice for it.
 
-    A rectangle, even that of the whole figure, has matplotlib measure all texts a second time, to the same end.
+    A single axes needs only a margin. With a rectangle, even that of the figure, matplotlib would measure all texts
+    again.
     """
     if len(figure.axes) == 1:
         figure.set_layout_engine("tight", rect=None)

@@ -1,4 +1,4 @@
-"""What a study found, for people and for scripts: how many runs, what failed, and the spread of each measure."""
+"""Print the results of a study, for people and as JSON: numbers of runs, failures, and the spread of each measure."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import console, new_table, seconds
 
 MOST_KINDS = 8
-MOST_TRENDS = 16  # that are told one by one
+MOST_TRENDS = 16  # trends that are printed one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
 def runs_text(plan: Plan, runs: int) -> str:
-    """How many, and the dimensions: "10 runs (scene 2 × c 5)", "1 run"."""
+    """Return the number of runs and the dimensions: "10 runs (scene 2 × c 5)", "1 run"."""
     shape = " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True))
     return counted(runs, "run") + f" ({visible(shape)})" * bool(shape)
 
 
 def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> None:
-    """The plans, nothing run but the trial."""
+    """Print the plans with the estimates from trial runs."""
     if json:
         each = {name: _estimate_json(plan, found[name]) for name, plan in plans.each.items()}
         print_json({"parts": each} if plans.named else each[""])
@@ -42,10 +42,11 @@ def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> N
         _show_estimate(plan, found[name])
     if plans.named:
         size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
-        print(f"all parts: {counted(plans.runs, 'run')}, about {in_bytes(size)} on disk, {_long(spent)}")
+        print(f"all parts: {counted(plans.runs, 'run')}, about {in_bytes(size)} on disk, {_time_text(spent)}")
 
 
 def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
+    """Return an estimate as JSON."""
     return {
         "dimensions": dict(zip(plan.dims, plan.shape, strict=True)),
         "runs": found.runs,
@@ -59,8 +60,11 @@ def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
 
 
 def _show_estimate(plan: Plan, found: Estimate) -> None:
+    """Print an estimate."""
     print(f"{runs_text(plan, found.runs)} in {counted(found.blocks, 'block')}")
-    print(f"about {in_bytes(found.bytes)} on disk, {_long(found.seconds)} by {counted(found.tried, 'run')} on trial")
+    print(
+        f"about {in_bytes(found.bytes)} on disk, {_time_text(found.seconds)} by {counted(found.tried, 'run')} on trial"
+    )
     if found.failed:
         print(f"{found.failed} of {counted(found.tried, 'run')} on trial failed: {visible(found.reasons[0])}")
     for note in plan.notes:
@@ -68,7 +72,7 @@ def _show_estimate(plan: Plan, found: Estimate) -> None:
 
 
 def show_studies(plans: Plans, found: Study, json: bool) -> None:
-    """What was measured, over all runs that did not fail; of each part."""
+    """Print the measures of all parts over the runs that did not fail."""
     parts = found.parts or {"": found}
     if json:
         each = {name: _study_json(plan, parts[name]) for name, plan in plans.each.items()}
@@ -85,7 +89,8 @@ def show_studies(plans: Plans, found: Study, json: bool) -> None:
 
 
 def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
-    measures = {name: {"unit": unit, **row} for name, unit, row in _spread(plan, found)}
+    """Return the results of one study as JSON."""
+    measures = {name: {"unit": unit, **row} for name, unit, row in _measure_spreads(plan, found)}
     return {
         "folder": str(found.folder),
         "dataset": str(found.folder / DATASET),
@@ -99,7 +104,8 @@ def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
 
 
 def _show_study(plan: Plan, found: Study) -> None:
-    spread = {name: (unit, row) for name, unit, row in _spread(plan, found)}
+    """Print the results of one study."""
+    spread = {name: (unit, row) for name, unit, row in _measure_spreads(plan, found)}
     print(runs_text(plan, found.runs))
     if spread:
         table = new_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
@@ -119,7 +125,7 @@ def _show_study(plan: Plan, found: Study) -> None:
 
 
 def _show_claims(found: Study) -> None:
-    """Which trends hold, of many only how many, and how far numbers are off."""
+    """Print the verdicts of trends, or only their totals if there are many, and the deviation from printed numbers."""
     claims = found.claims
     trends = claims.trends
     if len(trends):
@@ -134,8 +140,8 @@ def _show_claims(found: Study) -> None:
     print(f"wrote {path_text(Path(found.folder) / FILE)}")
 
 
-def _spread(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Of each measure its least, middle and largest value, and in how many runs it is none."""
+def _measure_spreads(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Yield name, unit, and minimum, median, maximum and number of NaN of each measure."""
     for name in (one.name for one in plan.wanted.measures):
         values = found.dataset[name].values
         own = values[np.isfinite(values)]
@@ -143,7 +149,8 @@ def _spread(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]
         yield name, plan.units[name], row | {"nan": int(values.size - own.size)}
 
 
-def _long(value: float) -> str:
+def _time_text(value: float) -> str:
+    """Return a duration in a suitable unit."""
     for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if value >= 2 * factor:
             return f"{value / factor:.3g} {unit}"

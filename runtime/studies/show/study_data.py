@@ -1,4 +1,6 @@
-"""What pictures and pages take of a study's dataset: runs by their coordinates, axes with units, sections of series."""
+"""Provide the data of a study's dataset for figures and pages: runs by coordinates, axes with units, sections of
+series.
+"""
 
 from __future__ import annotations
 
@@ -21,15 +23,16 @@ if TYPE_CHECKING:
 
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"
-MOST_TICKS, MOST_LETTERS = 8, 40  # values that stand at an axis; what is told of a place in a zip
-MANY_COLUMNS, MOST_SAID = 4, 60  # numbers of a zip of which differences are told in place of all; their letters
-MANY = ("start", "draw", "ensemble")  # dimensions of which one asks the spread first
+MOST_TICKS, MOST_LETTERS = 8, 40  # values at an axis; letters of the text of a zip's index
+MANY_COLUMNS, MOST_SAID = 4, 60  # parameters of a zip from which on only differences are shown; their letters
+MANY = ("start", "draw", "ensemble")  # dimensions over which statistics are computed
 
 
 class StudyData:
-    """The dataset of a study, asked by names; UnknownNameError names the nearest."""
+    """The dataset of a study, accessed by names. Raises UnknownNameError with the nearest name."""
 
     def __init__(self, study: Study) -> None:
+        """Read the dataset, titles and texts of a study."""
         self.study, self.dataset = study, study.dataset
         self.title = str(self.dataset.attrs.get("title") or self.dataset.attrs.get("mechanism", ""))
         self.names = study.names
@@ -37,12 +40,12 @@ class StudyData:
         self.texts = values.get(study.folder.name if "" not in values else "", {})  # numbers as the file has them
 
     def shown(self, name: Any) -> str:
-        """A name, or its title, on one line."""
+        """Return the title of a name, or the name, on one line."""
         return one_line(self.names.titles.get(str(name), str(name)))
 
     @property
     def kept(self) -> tuple[str, ...]:
-        """Names of the series that were kept."""
+        """Names of the stored series."""
         return tuple(
             str(name)
             for name, one in self.dataset.data_vars.items()
@@ -50,21 +53,22 @@ class StudyData:
         )
 
     def unit(self, name: str) -> str:
-        """SI, of a variable or a coordinate."""
+        """Return the SI unit of a variable or a coordinate."""
         return str(self.dataset[name].attrs.get("units", ""))
 
     def measure(self, name: str, at: Coords | None = None) -> Any:
-        """A measure as a DataArray, of the runs at some coordinates."""
+        """Return a measure as a DataArray, of the runs at the coordinates `at`."""
         if text(name, "a measure", "the name of a measure") not in self.study.measures:
             raise unknown(f"the study has no measure {name!r}", name, self.study.measures)
-        return self._picked(self.dataset[name], at)
+        return self._select(self.dataset[name], at)
 
     def claimed(
         self, name: str, over: str, by: str | None, at: Coords | None, axis: str
     ) -> list[tuple[float, float, int]]:
-        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line.
+        """Return the claimed numbers of a measure for the runs at `at`: position on the axis, value (SI), index of the
+        line.
 
-        None of one that is about fewer runs than are pooled there: beside a median of others it would say nothing.
+        Claims about fewer runs than those pooled there are left out, since they do not compare with their median.
         """
         try:
             numbers = self.study.claims.numbers
@@ -86,27 +90,28 @@ class StudyData:
         ]
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
-        """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""
+        """Return times, (N,) if all runs have the same, else (…, N), and a stored series (…, N)."""
         if text(name, "a series", "the name of a kept series") not in self.kept:
             raise unknown(f"the study kept no series {name!r}", name, self.kept)
-        found = self._picked(self.dataset[name], at)
+        found = self._select(self.dataset[name], at)
         if OWN_TIMES not in self.dataset:
             return self.dataset["time"].values, found
-        t = self._picked(self.dataset[OWN_TIMES], at).values
+        t = self._select(self.dataset[OWN_TIMES], at).values
         rows = t.reshape(-1, t.shape[-1])
         rows = rows[np.isfinite(rows[:, 0])]
         if len(rows) and alike(rows):
             return rows[0], found
         return t, found
 
-    def _picked(self, found: Any, at: Coords | None) -> Any:
+    def _select(self, found: Any, at: Coords | None) -> Any:
+        """Return the runs of a variable at the coordinates `at`."""
         for name, value in mapping(at, "at", "expected {coordinate: value}").items():
             dimension = self.dimension(found, name)
             found = found.isel({dimension: self.nearest(name, value)})
         return found
 
     def dimension(self, found: Any, name: str) -> str:
-        """A dimension of runs. BadValueError where it has but the one value."""
+        """Return the dimension along which a coordinate varies. Raises BadValueError for one with a single value."""
         known = [str(one) for one in found.dims if one not in SAMPLES]
         if text(name, "a dimension") in known:
             return name
@@ -115,10 +120,10 @@ class StudyData:
             if len(over) == 1:  # a number of a zip or a draw
                 return over[0]
             raise BadValueError(f"{name} does not vary over the runs that are shown")
-        raise _no_dimension(name, known)
+        raise _unknown_dimension(name, known)
 
     def nearest(self, name: str, value: Any) -> int:
-        """The place of a coordinate's value along its dimension: that word, or the nearest number."""
+        """Return the index of a coordinate's value: the equal text, or the nearest number."""
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
@@ -128,9 +133,9 @@ class StudyData:
         return int(np.abs(values - number_of(value, name)).argmin())
 
     def first(self, found: Any) -> str:
-        """What a measure is drawn over if nobody says: the first dimension that is a number's, else one of words.
+        """Return the default dimension for the axis of a measure: the first with numbers, else one with texts.
 
-        Starts and draws have no order: only of a measure that has nothing else.
+        Starts and draws have no order, so they are used only if there is no other dimension.
         """
         dims = [str(one) for one in found.dims]
         numbers = [one for one in dims if one not in MANY and self._is_number(one)]
@@ -140,56 +145,58 @@ class StudyData:
         return next(iter(numbers), next((one for one in words if one != "scene"), next(iter(words), dims[0])))
 
     def is_course(self, name: str) -> bool:
-        """Whether a coordinate's values follow each other, as those of a number: a line may go through them."""
+        """Return whether a coordinate is an ordered number, so that a line may connect its values."""
         return self._is_number(name) and name not in MANY and not self._is_zip(name)
 
     def _is_zip(self, name: str) -> bool:
+        """Return whether a coordinate is the index of a zip."""
         return str(self.dataset[name].attrs.get("long_name", "")).startswith("place in zip")
 
     def _is_number(self, dimension: str) -> bool:
+        """Return whether a dimension has numbers as values."""
         return self.dataset[dimension].values.dtype.kind in "fiu"
 
     def lines(self, found: Any, over: str) -> str | None:
-        """What tells lines apart if nobody says: scenes, else the first dimension of words."""
+        """Return the default dimension that distinguishes lines: scenes, else the first with texts."""
         dims = [str(one) for one in found.dims if one != over]
         words = [one for one in dims if not self._is_number(one)]
         return "scene" if "scene" in dims else next(iter(words), None)
 
     def split(self, found: Any, by: str | None) -> list[tuple[str, Any]]:
-        """What to call it and the runs, for each value of `by`; "" and all for None."""
+        """Return label and runs for each value of `by`; "" and all runs for None."""
         if by is None:
             return [("", found)]
         words, _ = self.labels(found, by, named=True)
         return [(word, found.isel({by: k})) for k, word in enumerate(words)]
 
     def rows(self, found: Any, *kept: str) -> Any:
-        """(runs, …): all other dimensions together as the first one, then these."""
+        """Return the values as (runs, …): all dimensions but `kept` together come first."""
         others = [one for one in found.dims if one not in kept]
         values = found.transpose(*others, *kept).values
         return values.reshape(-1, *values.shape[len(others) :])
 
     def axis(self, name: str) -> tuple[Any, str, list[str] | None]:
-        """Places of a coordinate's values, a label, and words for ticks where they are no numbers."""
+        """Return the positions of a coordinate's values, a label, and texts for ticks, or None for plain numbers."""
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
             return np.arange(len(values)), self.shown(name), [self.shown(one) for one in values]
         factor, shown = drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))
         ticks = list(self.written(name)) if len(values) <= MOST_TICKS else []
-        return values * factor, label(self.shown(name), "" if ticks else shown), ticks or self._together(name)
+        return values * factor, label(self.shown(name), "" if ticks else shown), ticks or self._describe_zip(name)
 
     def place(self, name: str, value: Any) -> float:
-        """Where on that axis a value lies."""
+        """Return the position of a value on the axis of a coordinate."""
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
             return float(self.nearest(name, value))
         return number_of(value, name) * drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
 
     def labels(self, found: Any, dimension: str, named: bool = False) -> tuple[list[str], str]:
-        """A word for each value, "0.3" or with `named` "c = 0.3 mm", and the dimension's label."""
+        """Return a text for each value, "0.3" or with `named` "c = 0.3 mm", and the dimension's label."""
         values = self.dataset[dimension].values
         if values.dtype.kind in "OU":
             return [self.shown(one) for one in values], self.shown(dimension)
-        if (words := self._together(dimension)) is not None:
+        if (words := self._describe_zip(dimension)) is not None:
             return words, self.shown(dimension)
         if written := self.written(dimension):
             return [f"{self.shown(dimension)} = {one}" if named else one for one in written], self.shown(dimension)
@@ -200,19 +207,19 @@ class StudyData:
         return words, label(self.shown(dimension), unit)
 
     def written(self, name: str) -> tuple[str, ...]:
-        """Values of a coordinate as the file has them, with their units; none where it has not."""
+        """Return the values of a coordinate as the file writes them, with units; empty if it does not."""
         own = self.texts.get(name, ())
         return own if len(own) == np.size(self.dataset[name].values) else ()
 
     def at(self, name: str, value: Any) -> str:
-        """The runs that are picked by a coordinate: "scene = without oil", or the nearest number as the file has it."""
+        """Return a selected coordinate in words: "scene = without oil", or the nearest number as the file writes it."""
         word = self.labels(None, name, named=True)[0][self.nearest(name, value)]
         return word if word.startswith(f"{self.shown(name)} = ") else f"{self.shown(name)} = {word}"
 
-    def _together(self, dimension: str) -> list[str] | None:
-        """Of a zip what its numbers are at each place, or what differs there from most of its places.
+    def _describe_zip(self, dimension: str) -> list[str] | None:
+        """Return for each index of a zip its parameters, or those that differ from most other indices.
 
-        None of another dimension, and where neither is short.
+        None for another dimension, and if neither text is short.
         """
         if not self._is_zip(dimension):
             return None
@@ -230,12 +237,12 @@ class StudyData:
         return None
 
     def where(self, place: Mapping[str, int]) -> str:
-        """A scene by its places: "c = 0.3 mm, ω = 2π rad/s"."""
+        """Return a cell in words from its indices: "c = 0.3 mm, ω = 2π rad/s"."""
         own = ((name, k, self.labels(None, name, named=True)[0]) for name, k in place.items())
         return ", ".join(words[k] for _, k, words in own)
 
     def failures(self) -> Iterator[tuple[str, int, str]]:
-        """What runs failed of, how many, and of the first of these where it lies and all that it says."""
+        """Yield each kind of failure, its number of runs, and coordinates and message of the first of these."""
         if not (kinds := self.study.failures):
             return
         found, first = self.dataset["failure"], self.study.first_failures
@@ -253,7 +260,7 @@ class StudyData:
     def sections(
         self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
     ) -> list[tuple[tuple[int, ...], list[Any]]]:
-        """Place of a run among those picked, and values of these series where one goes through a level."""
+        """Return for each selected run its index and the values of series where `section` crosses a level."""
         t, through = self.series(section, at)
         others = [self.series(name, at)[1].values for name in names]
         level, after, falling = number_of(level, "level"), number_of(after, "after"), flag(falling, "falling")
@@ -264,7 +271,7 @@ class StudyData:
         return found
 
     def spreads(self, name: str) -> Iterator[tuple[dict[str, str], Any]]:
-        """Of a measure what its coordinates are, in words, and the numbers over starts and draws there."""
+        """Yield the coordinates of a measure in words, and its values over starts and draws there."""
         found = self.dataset[name]
         dims = [str(one) for one in found.dims if one not in MANY]
         words = {one: self.labels(found, one)[0] for one in dims}
@@ -273,12 +280,14 @@ class StudyData:
             yield {one: words[one][k] for one, k in zip(dims, where, strict=True)}, np.ravel(values[where])
 
     def shown_unit(self, name: str) -> str:
-        """For people."""
+        """Return a unit in typographic form."""
         return pretty(self.unit(name))
 
 
 def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
-    """What differs at each place of a zip from what most of its places have; none where a number has no such value."""
+    """Return for each index of a zip the parameters that differ from those of most indices; empty if one has no such
+    value.
+    """
     usual = {column: Counter(column).most_common(1)[0] for column in columns}
     if any(2 * count <= len(column) for column, (_, count) in usual.items()):
         return []
@@ -289,5 +298,6 @@ def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
     return [", ".join(told) or "unchanged" for told in own]
 
 
-def _no_dimension(name: str, known: list[str]) -> UnknownNameError:
+def _unknown_dimension(name: str, known: list[str]) -> UnknownNameError:
+    """Return the error for an unknown dimension, with the nearest name."""
     return unknown(f"the runs that are shown have no dimension {name!r}", name, tuple(known))

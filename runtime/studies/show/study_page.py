@@ -1,4 +1,4 @@
-"""A study as one page of HTML: what varied, what failed, every measure by its coordinates, figures of all of it."""
+"""Build the HTML page of a study: variations, failures, every measure by its coordinates, and figures."""
 
 from __future__ import annotations
 
@@ -26,51 +26,54 @@ SHOWN_VALUES = 8  # of what varied, in full
 
 @dataclass(frozen=True)
 class StudyReport:
-    """A finished study for people: `to_html` is a page of its own, a notebook shows the same."""
+    """The report of a finished study: `to_html` is a self-contained page, notebooks display the same."""
 
     study: Study
 
     def to_html(self) -> str:
-        """The whole file; it asks for nothing from elsewhere."""
+        """Return the self-contained HTML file."""
         parts, pictures = _parts(self.study), Pictures()
         first = next(iter(parts.values()))
-        every = list(_all(self.study, parts, pictures))
+        every = list(_all_sections(self.study, parts, pictures))
         chapters = _chapters(every, parts) if len(parts) > 1 else ()
         return pictures.filled(page(first.title, _about(parts), every, chapters))
 
     def _repr_html_(self) -> str:
+        """Return the report as HTML for a notebook."""
         parts, pictures = _parts(self.study), Pictures()
         title = f"<h1>{text(next(iter(parts.values())).title)}</h1>"
-        return pictures.filled(article(_all(self.study, parts, pictures), title))
+        return pictures.filled(article(_all_sections(self.study, parts, pictures), title))
 
 
 def _parts(study: Study) -> dict[str, StudyData]:
-    """The study, or those that its file calls its parts, by name."""
+    """Return the data of the study, or of its parts, by name."""
     return {name: StudyData(own) for name, own in (getattr(study, "parts", None) or {"": study}).items()}
 
 
-def _all(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
-    """Claims are of the whole, and first, below what the file says of itself."""
-    yield "In short", lines([*next(iter(parts.values())).names.about, *_totals(study)])
+def _all_sections(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
+    """Yield all sections: the summary, the claims on the whole, then those of each part."""
+    yield "In short", lines([*next(iter(parts.values())).names.about, *_claim_totals(study)])
     yield from claims_sections(study, parts, pictures)
     for name, data in parts.items():
         before = f"{data.shown(name)}: " if name else ""
         if name:
-            yield _part(data, name), lines([_counts(data)])
+            yield _part_heading(data, name), lines([_counts(data)])
         yield from ((before + heading, inside) for heading, inside in sections(data, pictures, name or "study"))
 
 
-def _part(data: StudyData, name: str) -> str:
+def _part_heading(data: StudyData, name: str) -> str:
+    """Return the heading of a part."""
     return f"Part {data.shown(name)}"
 
 
 def _chapters(every: list[Section], parts: dict[str, StudyData]) -> list[str]:
-    """Of headings those that are of the whole, and the first of each part."""
-    of_parts = [_part(data, name) for name, data in parts.items()]
+    """Return the headings that the page links to: those of the whole, and the first of each part."""
+    of_parts = [_part_heading(data, name) for name, data in parts.items()]
     return [name for name, _ in every[: [name for name, _ in every].index(of_parts[0])]] + of_parts
 
 
-def _totals(study: Study) -> list[str]:
+def _claim_totals(study: Study) -> list[str]:
+    """Return the summary of the claims as lines; empty without claims."""
     try:
         return study.claims.totals()
     except GudgeonError:  # its file makes no claims
@@ -78,23 +81,24 @@ def _totals(study: Study) -> list[str]:
 
 
 def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterator[Section]:
-    """Heading and HTML of each part; what is empty is left out of the page. `name`: of its pictures."""
+    """Yield heading and HTML of each section of a part; `name` is the prefix of its figures."""
     study = data.study
-    yield "What varied", table(("", "over", "values", "unit", ""), _varied(data), True)
+    yield "What varied", table(("", "over", "values", "unit", ""), _coordinate_rows(data), True)
     failed = ((str(count), kind, told) for kind, count, told in data.failures())
     yield "Failed runs", table(("runs", "failed of", "the first of them"), failed, True)
     yield "Notes", lines(study.notes)
-    yield "Measures", _measures(data)
+    yield "Measures", _measure_table(data)
     try:
         import gudgeon.studies.show.study_plots  # noqa: F401 (without matplotlib it says what to install)
     except GudgeonError as error:
         yield "Figures", lines([str(error)])
         return
     yield "Figures", gallery(_figures(data), f"{name}-measure", pictures)
-    yield "Series", gallery(_series(data), f"{name}-series", pictures)
+    yield "Series", gallery(_series_figures(data), f"{name}-series", pictures)
 
 
 def _about(parts: dict[str, StudyData]) -> str:
+    """Return runs, failures, mechanism and versions in one line."""
     attributes = next(iter(parts.values())).dataset.attrs
     runs, failed = (sum(getattr(data.study, name) for data in parts.values()) for name in ("runs", "failed"))
     whole = f"{counted(runs, 'run')} in {len(parts)} parts, {failed or 'none'} failed"
@@ -104,13 +108,15 @@ def _about(parts: dict[str, StudyData]) -> str:
 
 
 def _counts(data: StudyData) -> str:
+    """Return runs, dimensions and failures in one line."""
     study = data.study
     sizes = " × ".join(f"{data.shown(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
     failed = f", {study.failed} failed" if study.failed else ", none failed"
     return f"{counted(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
 
 
-def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
+def _coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each varied coordinate: name, dimension, values, unit, meaning."""
     for name, one in data.dataset.coords.items():
         if name in ("time", "sample"):
             continue
@@ -118,10 +124,10 @@ def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
         unit, told = str(one.attrs.get("units", "")), str(one.attrs.get("long_name", ""))
         values = np.ravel(one.values)
         if values.dtype.kind in "OU":
-            yield data.shown(name), over, _listed([data.shown(value) for value in values]), "", told
+            yield data.shown(name), over, _list_values([data.shown(value) for value in values]), "", told
             continue
         if written := data.written(str(name)):
-            yield data.shown(name), over, _listed(list(written)), "", told
+            yield data.shown(name), over, _list_values(list(written)), "", told
             continue
         factor, shown = drawn(float(np.abs(values).max(initial=0.0)), unit)
         few = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
@@ -131,13 +137,13 @@ def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
         yield data.shown(name), over, listed, shown, told
 
 
-def _listed(words: list[str]) -> str:
-    """All of few; of many the first and the last."""
+def _list_values(words: list[str]) -> str:
+    """Return all of a few texts, or the first and the last of many."""
     return ", ".join(words) if len(words) <= SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} of them"
 
 
-def _measures(data: StudyData) -> str:
-    """A row for each place but starts and draws; median, quartiles, and how many runs these are of."""
+def _measure_table(data: StudyData) -> str:
+    """Return the table of measures: a row for each coordinate, with median and quartiles over starts and draws."""
     names, rows, left = data.study.measures, dict[tuple[str, ...], list[str]](), 0
     if not names:
         return ""
@@ -153,7 +159,7 @@ def _measures(data: StudyData) -> str:
             if key not in rows and len(rows) >= MOST_ROWS:
                 left += name == names[0]
                 continue
-            rows.setdefault(key, []).append(_spread(values * factor, spread))
+            rows.setdefault(key, []).append(_spread_cell(values * factor, spread))
     head = [data.labels(data.dataset[names[0]], one)[1] for one in dims]
     head += [label(data.shown(name), unit) for name, unit in zip(names, units, strict=True)]
     over = [data.shown(one) for one in data.dataset[names[0]].dims if one in MANY]
@@ -162,7 +168,8 @@ def _measures(data: StudyData) -> str:
     return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(told, "g-quiet")
 
 
-def _spread(values: Any, spread: bool) -> str:
+def _spread_cell(values: Any, spread: bool) -> str:
+    """Return median and quartiles as a cell, with the number of runs if some have no value."""
     own = values[np.isfinite(values)]
     if not own.size:
         return "–"
@@ -174,7 +181,7 @@ def _spread(values: Any, spread: bool) -> str:
 
 
 def _figures(data: StudyData) -> Iterator[Draw]:
-    """Each measure over the first that varied, by scene; and where two did, a map of these in each scene."""
+    """Yield caption and drawing function of each measure over the first dimension, and maps over the first two."""
     from gudgeon.studies.show.study_plots import StudyPlot
 
     plot = StudyPlot(data.study)
@@ -182,7 +189,7 @@ def _figures(data: StudyData) -> Iterator[Draw]:
         found = data.dataset[name]
         if not found.dims or not np.isfinite(found.values).any():
             continue
-        yield f"{data.shown(name)}: {_pooled(data, found)}", partial(plot.measure, name, published=True)
+        yield f"{data.shown(name)}: {_describe_pooled_runs(data, found)}", partial(plot.measure, name, published=True)
         varied = [str(one) for one in found.dims if one != "scene" and one not in MANY]
         if len(varied) < 2:
             continue
@@ -194,15 +201,15 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             yield told, partial(plot.heat_map, name, *varied[:2], at=at)
 
 
-def _pooled(data: StudyData, found: Any) -> str:
-    """Over which runs the statistics of a measure's figure go."""
+def _describe_pooled_runs(data: StudyData, found: Any) -> str:
+    """Return the runs over which the statistics of a measure's figure are computed, in words."""
     over = data.first(found)
     others = [str(one) for one in found.dims if one not in (over, data.lines(found, over))]
     return f"median, quartiles and extremes over {', '.join(map(data.shown, others))}" if others else "of each run"
 
 
-def _series(data: StudyData) -> Iterator[Draw]:
-    """Bands over time where runs have the same times, else over shares of each run."""
+def _series_figures(data: StudyData) -> Iterator[Draw]:
+    """Yield caption and drawing function of bands of each stored series over time, or over fractions of each run."""
     from gudgeon.studies.show.study_plots import StudyPlot
 
     plot = StudyPlot(data.study)
@@ -214,7 +221,7 @@ def _series(data: StudyData) -> Iterator[Draw]:
         runs = found.size // found.shape[-1]
         by = "scene" if "scene" in found.dims else None
         shares = t.ndim > 1
-        if shares and not (np.nan_to_num(t) > 0.0).any():  # nobody began
+        if shares and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
         told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}{', over shares' * shares}"
         yield told, partial(plot.bands, name, by, share=shares)

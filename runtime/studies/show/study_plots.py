@@ -1,8 +1,9 @@
-"""Figures of a study, `study.plot`: bands of an ensemble, curves over a parameter, sections, maps over two parameters.
+"""Own the figures of a study, `study.plot`: bands of an ensemble, curves over a parameter, sections, maps over two
+parameters.
 
-Each method draws one Axes, made or given, of the runs that `at` picks: {"scene": "dry", "c": 3e-4}, the nearest of a
-number's values. NaN, of runs that failed, is in no statistic.
-At places of an axis are drawn medians with quartiles and extremes, words, and what others found.
+Each method draws one Axes, new or given, of the runs that `at` selects: {"scene": "dry", "c": 3e-4}, the nearest value
+for a number. Statistics leave out NaN of failed runs. On axes of texts the figures show medians with quartiles and
+extremes, and published values.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
-from gudgeon.results.figures.run_plots import new_axes, plain
+from gudgeon.results.figures.run_plots import check_axes, new_axes
 from gudgeon.studies.show.study_data import Coords, StudyData
-from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
+from gudgeon.studies.show.study_signals import low_pass_runs, over_shares, spectra
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 
@@ -30,9 +31,9 @@ if TYPE_CHECKING:
 
     from gudgeon.studies.ensemble.finished import Study
 
-SMALL = 80  # cells of a map beside which numbers can be read
+SMALL = 80  # largest number of cells of a map with legible numbers
 COLUMNS, ROWS = 14, 24  # of a heat map, that have words at its axes
-BESIDE = 0.5  # share of the room of a word in which its dots stand side by side
+BESIDE = 0.5  # fraction of the width of a tick in which its dots are side by side
 QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 AXIS, LINE = 60, 22  # letters that fit side by side under a figure; letters of a line there
 
@@ -41,6 +42,7 @@ class StudyPlot:
     """Figures of one study; every method returns its Axes, `axes.figure.savefig("x.svg")` stores them."""
 
     def __init__(self, study: Study) -> None:
+        """Read the data of a study."""
         self.data = StudyData(study)
 
     def measure(
@@ -53,11 +55,11 @@ class StudyPlot:
         published: Mapping[Any, float] | bool = False,
         ax: Axes | None = None,
     ) -> Axes:
-        """A measure over what was varied (the first number), a line for each value of `by` (scenes).
+        """Plot a measure over a varied coordinate (the first number), with a line for each value of `by` (scenes).
 
-        Lines are medians of all other runs, bands their quartiles and extremes; over words, zips and starts dots and
-        bars. published: marks of what others found, {coordinate: value, SI}; True: the numbers that the study's file
-        claims of these runs, in the lines' colours, none of those that are about a part of what a median is of.
+        Lines are medians over all other runs, bands their quartiles and extremes; over texts, zips and starts dots and
+        bars. published: marks of published values, {coordinate: value, SI}; True: the numbers that the study's file
+        claims of these runs, in the lines' colours, except those about a part of the runs of a median.
         """
         found = self.data.measure(name, at)
         axis = self.data.first(found) if over is None else over
@@ -71,7 +73,7 @@ class StudyPlot:
             stars = {key: number_of(value, "published") for key, value in _pairs(published).items()}
             claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
+            ax = new_axes(5.6, 3.6) if ax is None else check_axes(ax)
             x, x_label, ticks = self.data.axis(axis)
             most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = drawn(max(most), found.attrs.get("units", ""))
@@ -79,13 +81,13 @@ class StudyPlot:
             for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 five = quantiles(self.data.rows(own, over)) * factor
                 if course:
-                    band(ax, x, five, colour, told)
+                    draw_band(ax, x, five, colour, told)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
-            marks(ax, claimed, factor, cycle(len(parts)))
+                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
+            draw_published(ax, claimed, factor, cycle(len(parts)))
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
-            ticks_at(ax, x, ticks)
+            set_ticks(ax, x, ticks)
             self._finish(ax, at, len(parts) > 1 or bool(claimed))
         return ax
 
@@ -98,10 +100,10 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
+        """Plot a stored series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
-        share: over each run's own length, 0 to 1, at the shares of the run with the most samples; runs with others
-        lie on straight lines between theirs. BadValueError for runs with other times than each other, without share.
+        share: over fractions of each run's duration, 0 to 1, at the samples of the longest run; other runs are
+        interpolated linearly. Raises BadValueError for runs with different times without share.
         """
         t, found = self.data.series(series, at)
         if flag(share, "share"):
@@ -113,16 +115,16 @@ class StudyPlot:
             raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
+                draw_band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
             ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
     def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """A kept series over time, every run a curve, in the colour of its value of `by`."""
+        """Plot a stored series over time with a curve for every run, in the colour of its value of `by`."""
         t, found = self.data.series(series, at)
         return self._curves([(t, found)], "t [s]", series, by, at, ax)
 
@@ -135,20 +137,20 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Amplitudes of a kept series over frequency (Hz), as `run.plot.spectrum` has them, for each value of `by`.
+        """Plot amplitudes of a stored series over frequency (Hz), as in `run.plot.spectrum`, for each value of `by`.
 
-        Median, quartiles and extremes of all its runs. BadValueError for samples that are not even, or for runs of one
-        value that have other times than each other.
+        Median, quartiles and extremes over its runs. Raises BadValueError for uneven samples, or for runs of one value
+        with different times.
         """
         t, found = self.data.series(series, at)
         by = self.data.dimension(found, by) if by is not None else None
         own = spectra(t, found, by, series, window)
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(max(peak_of(rows) for _, rows in own), found.attrs.get("units", ""))
             told = [word for word, _ in self.data.split(found, by)]
             for word, (f, rows), colour in zip(told, own, cycle(len(told)), strict=True):
-                band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
+                draw_band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(told) > 1)
         return ax
@@ -164,20 +166,21 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """A kept series as an accelerometer shows it, behind a low-pass of Butterworth with −3 dB at `cutoff` (Hz).
+        """Plot a stored series as an accelerometer shows it, after a Butterworth low-pass with −3 dB at `cutoff` (Hz).
 
-        Every run a curve, in the colour of its value of `by`; `order`, `causal`: as in `run.plot.low_pass`.
+        There is a curve for every run, in the colour of its value of `by`; `order`, `causal`: as in
+        `run.plot.low_pass`.
         """
         t, found = self.data.series(series, at)
         cutoff = positive(cutoff, "cutoff")
-        left = filtered(t, found, cutoff, order, flag(causal, "causal"))
+        left = low_pass_runs(t, found, cutoff, order, flag(causal, "causal"))
         ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
         told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(in_figure(f"{ax.get_title()}: {told}", TITLE))
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """One kept series over another, every run a curve, in the colour of its value of `by`."""
+        """Plot one stored series over another with a curve for every run, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
         factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
         return self._curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
@@ -191,17 +194,18 @@ class StudyPlot:
         at: Coords | None,
         ax: Axes | None,
     ) -> Axes:
+        """Plot a curve for every run over x values, in the colour of its value of `by`."""
         ((x, found),) = pairs
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             x = np.broadcast_to(x, found.shape)
             parts = self.data.split(found, by)
             for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
-                called = known(own.values, told)
+                called = legend_label(own.values, told)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
@@ -220,14 +224,15 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Poincaré's section: kept series x and y where a third one rises (falls) through a level (SI), after a time.
+        """Plot a Poincaré section: series x and y where a third one rises (or falls) through a level (SI), after a
+        time.
 
-        Between samples all lie on monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
+        Between samples all series are monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
         """
         own = self.data.sections(section, [x, y], level, falling, after, at)
         xs, ys = (np.concatenate([pair[k] for _, pair in own]) if own else np.zeros(0) for k in range(2))
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.2, 4.4) if ax is None else plain(ax)
+            ax = new_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (of_x, x_unit), (of_y, y_unit) = (
                 drawn(peak_of(values), self.data.unit(name)) for name, values in ((x, xs), (y, ys))
             )
@@ -248,7 +253,7 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Values of a kept series in the section (see `section`), a dot each, over a parameter."""
+        """Plot the values of a stored series in a section (see `section`) as dots over a parameter."""
         _, found = self.data.series(series, at)
         place = found.dims.index(self.data.dimension(found, over))
         x, x_label, ticks = self.data.axis(over)
@@ -256,38 +261,39 @@ class StudyPlot:
         xs = np.concatenate([np.full(len(values), x[where[place]]) for where, (values,) in own] or [np.zeros(0)])
         ys = np.concatenate([values for _, (values,) in own] or [np.zeros(0)])
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(6.4, 4.0) if ax is None else plain(ax)
+            ax = new_axes(6.4, 4.0) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
-            ticks_at(ax, x, ticks)
+            set_ticks(ax, x, ticks)
             self._finish(ax, at, False)
         return ax
 
     def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """A measure over two dimensions, of all other runs their median; a cell without a number stays empty."""
+        """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty."""
         found = self.data.measure(name, at)
         x, y = self.data.dimension(found, x), self.data.dimension(found, y)
         if x == y:
             raise BadValueError(f"heat_map: {x} is both x and y")
         middle = quantiles(self.data.rows(found, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
-            ax = new_axes(5.8, 4.2) if ax is None else plain(ax)
+            ax = new_axes(5.8, 4.2) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
             (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
-            below, beside = evenly(len(words), COLUMNS), evenly(len(others), ROWS)
-            ticks_at(ax, below, [words[k] for k in below])
+            below, beside = thin_out(len(words), COLUMNS), thin_out(len(others), ROWS)
+            set_ticks(ax, below, [words[k] for k in below])
             ax.set_yticks(beside, [in_figure(others[k], LINE) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
             if middle.size <= SMALL:
-                numbers(ax, middle * factor, image)
+                write_numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
+        """Set title and legend."""
         picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend and ax.get_legend_handles_labels()[0]:
@@ -295,7 +301,7 @@ class StudyPlot:
 
 
 def _pairs(published: Any) -> dict[Any, Any]:
-    """Coordinates and numbers. BadValueError for anything else."""
+    """Return published values as a dict. Raises BadValueError for anything else."""
     try:
         return dict(published or {})
     except (TypeError, ValueError):
@@ -303,42 +309,44 @@ def _pairs(published: Any) -> dict[Any, Any]:
 
 
 def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
-    """(len(which), …) over the first axis, NaN left out; NaN where there is nothing else."""
+    """Return quantiles (len(which), …) over the first axis without NaN; NaN where there is no number."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # all NaN: that is what it says
+        warnings.simplefilter("ignore", RuntimeWarning)  # all values are NaN, and so is the result
         return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
 
 
-def band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0) -> None:
-    """Extremes, quartiles and the median; where there is one run alone its line."""
+def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float = 4.0) -> None:
+    """Draw extremes, quartiles and the median over x; for a single run only its line."""
     low, q1, middle, q3, high = five
     order = np.argsort(x, kind="stable")
     if not np.array_equal(low, high, equal_nan=True):
         ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
         ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
-    ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=known(middle, told))
+    ax.plot(
+        x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=legend_label(middle, text)
+    )
 
 
-def bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
-    """The same where no line goes from one to the next: the median a dot, bars of quartiles and of extremes."""
+def draw_bars(ax: Axes, x: Any, five: Any, colour: str, text: str) -> None:
+    """Draw medians as dots, with bars of quartiles and of extremes, for coordinates that no line connects."""
     low, q1, middle, q3, high = five
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
-    ax.plot(x, middle, "o", ms=5.0, color=colour, label=known(middle, told))
+    ax.plot(x, middle, "o", ms=5.0, color=colour, label=legend_label(middle, text))
 
 
-def known(values: Any, told: str) -> str | None:
-    """What a legend calls it; nothing where there is no number to be seen."""
-    return told if np.isfinite(values).any() else None
+def legend_label(values: Any, text: str) -> str | None:
+    """Return the label of a curve for the legend; None if it has no number."""
+    return text if np.isfinite(values).any() else None
 
 
-def evenly(n: int, most: int) -> range:
-    """Every k-th of n places, so that there are no more than `most`: those that have words at an axis."""
+def thin_out(n: int, most: int) -> range:
+    """Return every k-th of n indices, at most `most` of them, for labels at an axis."""
     return range(0, n, -(-n // most))
 
 
-def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
-    """Words at an axis, long ones on lines, aslant where they would not fit."""
+def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
+    """Set texts at an axis, wrapped, and slanted if they would not fit."""
     if ticks is None:
         return
     lines = [in_figure(word, LINE) for word in ticks]
@@ -349,16 +357,16 @@ def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
             word.set(ha="right", rotation_mode="anchor")
 
 
-def marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
-    """What others found: place, value and line of each; −1: of no line."""
+def draw_published(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
+    """Draw published values: position, value and index of the line of each; −1: no line."""
     for k, (place, value, line) in enumerate(claimed):
         own = IDEAL if line < 0 else colours[line]
         told = "published" if k == 0 else None
         ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=told)
 
 
-def numbers(ax: Axes, values: Any, image: Any) -> None:
-    """In each cell, dark on what is bright."""
+def write_numbers(ax: Axes, values: Any, image: Any) -> None:
+    """Write the number into each cell of a map, dark on bright colours."""
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55

@@ -1,4 +1,7 @@
-"""A study's kept series, run by run: over shares, spectra, low-passes, sections; runs that failed have none."""
+"""Process the stored series of a study run by run: resampling over fractions of the run, spectra, low-passes, sections.
+
+Failed runs have no series.
+"""
 
 from __future__ import annotations
 
@@ -11,23 +14,23 @@ from gudgeon.language.shown import one_line
 from gudgeon.results.series import low_pass, spectrum
 
 NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
-SAME = 1e-9  # of a run: so far apart, samples are at the same share of it
+SAME = 1e-9  # tolerance of fractions of a run that count as equal
 
 
 def alike(rows: Any) -> bool:
-    """Whether runs, (runs, N) times, have samples at the same times: ends that follow a number a millionth off do."""
+    """Return whether all runs of times (runs, N) have the same samples, within NEAR of an interval."""
     first = rows[0]
     step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
     return bool(np.isclose(rows, first, rtol=1e-12, atol=NEAR * abs(float(step)), equal_nan=True).all())
 
 
 def over_shares(t: Any, found: Any) -> tuple[Any, Any] | None:
-    """Shares (M,) of the run, those of the one with the most samples, and all runs (…, M) there; None without any.
+    """Return fractions (M,) of the run, those of the longest run, and the series of all runs there (…, M).
 
-    A run with other shares lies on straight lines between its own samples; beyond them it is NaN.
+    None without any run. A run with other samples is interpolated linearly; it is NaN beyond its samples.
     """
     times = np.broadcast_to(t, found.shape).reshape(-1, found.shape[-1])
-    own = [_shares(row[np.isfinite(row)]) for row in times]
+    own = [_scaled_times(row[np.isfinite(row)]) for row in times]
     at = max(own, key=len, default=np.zeros(0))
     if not len(at):
         return None
@@ -41,22 +44,26 @@ def over_shares(t: Any, found: Any) -> tuple[Any, Any] | None:
     return at, found.isel({found.dims[-1]: slice(len(at))}).copy(data=left.reshape(*found.shape[:-1], len(at)))
 
 
-def _shares(t: Any) -> Any:
-    """Times of a run from 0 to 1; none of one that has no length."""
+def _scaled_times(t: Any) -> Any:
+    """Return the times of a run scaled to 0 … 1; empty for a run without a duration."""
     return (t - t[0]) / (t[-1] - t[0]) if len(t) > 1 and t[-1] > t[0] else np.zeros(0)
 
 
 def spectra(t: Any, found: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
-    """Frequencies (M,) and amplitudes (runs, M) of each value of `by`, or of all runs. BadValueError: see below."""
+    """Return frequencies (M,) and amplitudes (runs, M) for each value of `by`, or for all runs.
+
+    Raises BadValueError for runs with different sample times.
+    """
     times = np.broadcast_to(t, found.shape)
     values = [(times, found.values)]
     if by is not None:
         k = found.dims.index(by)
         values = [(np.take(times, i, axis=k), np.take(found.values, i, axis=k)) for i in range(found.shape[k])]
-    return [_of_runs(*own, name, window) for own in values]
+    return [_spectrum_of_runs(*own, name, window) for own in values]
 
 
-def _of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
+def _spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
+    """Return frequencies (M,) and amplitudes (runs, M) of some runs."""
     rows = [(t[good], x[good]) for t, x in _rows(times, values) if (good := np.isfinite(t) & np.isfinite(x)).any()]
     if not rows:
         return np.zeros(1), np.full((1, 1), np.nan)
@@ -68,8 +75,8 @@ def _of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]
     return each[0][0], np.array([amplitudes for _, amplitudes in each])
 
 
-def filtered(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any:
-    """The same runs behind a low-pass; NaN where they have no samples."""
+def low_pass_runs(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any:
+    """Return the series after a low-pass; NaN where they have no samples."""
     left = np.full(found.shape, np.nan)
     for own, out in zip(_rows(np.broadcast_to(t, found.shape), found.values), _rows(left), strict=True):
         good = np.isfinite(own[0]) & np.isfinite(own[1])
@@ -79,14 +86,14 @@ def filtered(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any
 
 
 def _rows(*arrays: Any) -> Any:
-    """(N,) of each array, run by run."""
+    """Return an iterator over the runs, with (N,) of each array."""
     return zip(*(one.reshape(-1, one.shape[-1]) for one in arrays), strict=True)
 
 
 def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
-    """Values of other series, (k,) each, where one rises (falls) through a level after a time.
+    """Return the values of other series, (k,) each, where one rises (or falls) through a level after a time.
 
-    Between samples all lie on PCHIP's monotone cubics.
+    Between samples all series are monotone cubics (PCHIP).
     """
     from scipy.interpolate import PchipInterpolator
 
@@ -97,12 +104,12 @@ def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bo
     path = PchipInterpolator(t, below)
     starts = np.flatnonzero((below[:-1] < 0.0) & (below[1:] >= 0.0))
     roots = path.roots(discontinuity=False, extrapolate=False)
-    at = np.array([_in_part(roots, t[k], t[k + 1]) for k in starts])
+    at = np.array([_root_between(roots, t[k], t[k + 1]) for k in starts])
     at = at[at >= after] if len(at) else at
     return [PchipInterpolator(t, own[good])(at) for own in others]
 
 
-def _in_part(roots: Any, begin: float, end: float) -> float:
-    """The root between two samples; the later one where rounding lost it."""
+def _root_between(roots: Any, begin: float, end: float) -> float:
+    """Return the root between two samples, or the later sample if rounding lost it."""
     own = roots[(roots >= begin) & (roots <= end)]
     return float(own[0]) if len(own) else float(end)

@@ -1,4 +1,4 @@
-"""What `gudgeon bench` and `gudgeon map` print and write with: tables, CSV, numbers as tables and maps show them."""
+"""Print tables and write files for `gudgeon bench` and `gudgeon map`: tables, CSV, formats of numbers."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ WIDTH = 100  # of everything that is printed
 
 
 def console() -> Console:
-    """As wide as the terminal; into a file 100 columns."""
+    """Return a console as wide as the terminal; for a file 100 columns wide."""
     from gudgeon.language.shown import plain_console
 
     return plain_console(None if sys.stdout.isatty() else WIDTH)
 
 
 def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
-    """Numbers to the right, the columns in `left` to the left and folded where they are long."""
+    """Return an empty table with numbers to the right; the columns in `left` are to the left and wrapped."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -42,7 +42,7 @@ def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
 
 
 def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
-    """A line a row, six digits."""
+    """Write rows as CSV with six digits."""
     text = io.StringIO()
     writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     writer.writeheader()
@@ -54,13 +54,14 @@ def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
 def write_files(
     table: Path, rows: Sequence[dict[str, Any]], draw: Callable[[], Figure]
 ) -> tuple[list[Path], OutputError | None]:
-    """The table and beside it the picture, which `draw` draws: what was written, and an error for what was not.
+    """Write the table and, next to it, the figure that `draw` returns; return written files and the error for others.
 
-    It is to be raised once all is shown: what took minutes to measure is not lost with a full disk.
+    The caller raises the error after printing, so that results are not lost with a full disk.
     """
     written, failed = [], None
 
     def picture(path: Path) -> None:
+        """Draw and save the figure."""
         from gudgeon.results.figures.plots import save_figure
 
         save_figure(draw(), path)
@@ -78,7 +79,7 @@ def write_files(
 
 
 def share(value: float) -> str:
-    """A share: 12 %, 0.30 %, 4e-7."""
+    """Return a fraction as text: 12 %, 0.30 %, 4e-7."""
     if math.isnan(value):
         return "–"
     if 1e-4 <= value < 100:
@@ -87,12 +88,12 @@ def share(value: float) -> str:
 
 
 def rough_share(value: float) -> str:
-    """The same in a cell of a map, where what is small is just small."""
+    """Return a fraction as text for a cell of a map, where small values are "< 0.01 %"."""
     return "< 0.01 %" if value < 1e-4 else share(value)
 
 
 def seconds(value: float) -> str:
-    """A step or a short time: below 1 ms in µs, so that a column of steps reads in one unit."""
+    """Return a short time as text; below 1 ms in µs, so that a column of steps has one unit."""
     for factor, unit in ((1e9, "ns"), (1e6, "µs"), (1e3, "ms"), (1.0, "s")):
         if abs(value) * factor < 999.5:
             return f"{value * factor:.3g} {unit}"
@@ -100,5 +101,5 @@ def seconds(value: float) -> str:
 
 
 def clearance(value: float) -> str:
-    """A radial clearance in mm, as drawings have it; "no play" for NaN."""
+    """Return a radial clearance as text in mm, as in drawings; "no play" for NaN."""
     return "no play" if math.isnan(value) else f"{value * 1e3:.3g} mm"
