@@ -169,9 +169,7 @@ def _examine_joint(
             angle = np.arctan2(other[f"{name}.ey"][at], other[f"{name}.ex"][at]) - theta
             along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
         normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
-    rigid = (
-        name in run.source.rigid
-    )  # closed at δ = 0, where its force does no work along the normal
+    rigid = name in run.source.rigid  # closed at δ = 0, where its force does no work along the normal
     touching = (other.state[at, k] > 0) if rigid else joint.dry & (other[f"{name}.delta"][at] > 0.0)
     slip = (solid[f"{name}.Ft"] * other[f"{name}.vt"])[at]
     in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
