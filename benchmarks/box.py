@@ -120,9 +120,9 @@ def row(point: Point, cell: Cell) -> dict[str, object]:
     """Return the line of the table for a point."""
     e = cell.error
     numbers = (cell.seconds, cell.energy, cell.penetration, e.motion, e.path, e.force)
-    told = " ".join(f"{name}={value!r}" for name, value in point.parameters.items())
+    message = " ".join(f"{name}={value!r}" for name, value in point.parameters.items())
     first = (code_digest(), point.scene, point.geometry, point.index, cell.status.value, cell.reason)
-    return dict(zip(HEAD, (*first, *(f"{x:.3g}" for x in numbers), told), strict=True))
+    return dict(zip(HEAD, (*first, *(f"{x:.3g}" for x in numbers), message), strict=True))
 
 
 def judge_points(todo: list[Point], threads: int, rtol: float) -> Iterator[tuple[Point, Cell]]:

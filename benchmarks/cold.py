@@ -66,12 +66,12 @@ def start(name: str, scene: str, kind: str, folder: str) -> dict[str, float]:
     with subprocess.Popen(
         [sys.executable, "-c", START, name, scene], env=environment, stdout=subprocess.PIPE, text=True
     ) as process:
-        told = process.stdout.readline() if process.stdout else ""
+        message = process.stdout.readline() if process.stdout else ""
         first = perf_counter() - begin
         process.wait()
     if process.returncode:
         raise SystemExit(process.returncode)
-    return {**json.loads(told), "all": first, "optimized": perf_counter() - begin}
+    return {**json.loads(message), "all": first, "optimized": perf_counter() - begin}
 
 
 def _copy_edited(name: str, folder: str) -> str:
@@ -97,8 +97,8 @@ def main() -> None:
     print(f"{machine()}; s, the fastest of {repeats}; wall, and processor time of Python and of the compiler\n")
     for kind in KINDS:
         print(f"{kind:<28}" + "".join(f"{name:>16}" for name in COLUMNS))
-        for name, scene, asked in SCENES:
-            row = {**least(name, scene, kind, repeats), "asked": WARM if kind == "warm" else asked}
+        for name, scene, requested in SCENES:
+            row = {**least(name, scene, kind, repeats), "asked": WARM if kind == "warm" else requested}
             print(f"{name + ' ' + scene:<28}" + "".join(f"{row[c]:>16.2f}" for c in COLUMNS), flush=True)
         print()
 

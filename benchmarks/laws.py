@@ -18,8 +18,8 @@ from pathlib import Path
 
 from gudgeon.commands.law_plot import chosen_numbers
 from gudgeon.generator.kernels.program import Program, make_program
-from gudgeon.generator.kernels.shared import SharedCall
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, house
+from gudgeon.generator.kernels.shared import SharedFunctionCall
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, bundled_laws
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.targets.c.functions import shared_call, statements
 from gudgeon.loading.compiler import find_compiler, flags
@@ -112,7 +112,7 @@ def call_of(program: Program, law: Law) -> tuple[str, list[str]]:
     pin = program.pins[0]
     if law.role == "mixed":
         return f"const double delta = at[0];\n{statements(pin.share)}\nout[0] = share;", ["delta"]
-    own: SharedCall = pin.laws[law.role]
+    own: SharedFunctionCall = pin.laws[law.role]
     names = [a.name for a in own.kernel.arguments if a.name in law.variables]
     results = [f"&out[{k}]" for k in range(len(law.results))]
     return shared_call(own, [f"at[{k}]" for k in range(len(names))], results), names
@@ -144,8 +144,8 @@ def timed(law: Law, folder: Path) -> tuple[float, float]:
     found = []
     for what, results in ((call, len(law.results)), ("out[0] = at[0];", 1)):
         (folder / "time.c").write_text(harness(what, names, results, len(source.slots)), encoding="utf-8")
-        told = [*find_compiler(), *flags(portable=False), *include_flags(), "time.c", "-lm", "-o", "time"]
-        subprocess.run(told, cwd=folder, check=True, capture_output=True, text=True)
+        message = [*find_compiler(), *flags(portable=False), *include_flags(), "time.c", "-lm", "-o", "time"]
+        subprocess.run(message, cwd=folder, check=True, capture_output=True, text=True)
         done = subprocess.run([str(folder / "time")], check=True, capture_output=True, text=True)
         spent, total = map(float, done.stdout.split())
         if not math.isfinite(total):
@@ -154,7 +154,7 @@ def timed(law: Law, folder: Path) -> tuple[float, float]:
     return found[0], found[1]
 
 
-def has_a_function(law: Law) -> bool:
+def has_function(law: Law) -> bool:
     """Return whether the law has a function: rigid contacts have none."""
     return not law.rigid
 
@@ -162,7 +162,7 @@ def has_a_function(law: Law) -> bool:
 def lines(names: list[str]) -> Iterator[str]:
     """Yield the lines of the table by role."""
     yield f"  {'role':<9}{'law':<24}{'ns':>7}{'nothing':>9}"
-    some = [law for law in house().values() if (not names or law.name in names) and has_a_function(law)]
+    some = [law for law in bundled_laws().values() if (not names or law.name in names) and has_function(law)]
     for law in sorted(some, key=lambda one: ([*RESULTS].index(one.role), one.name)):
         with tempfile.TemporaryDirectory() as folder:
             own, nothing = timed(law, Path(folder))

@@ -199,10 +199,10 @@ def _measure_outside(simulation: Simulation, t_end: float, repeats: int) -> None
     }
     found = in_turns(works, repeats)
     ratios = found["one"] / found["pool"], found["batch 1"] / found["batch 2"], machine(repeats)
-    told = "".join(f"{x:{width}.2f}" for x, width in zip(ratios, (11, 12, 16), strict=True))
-    told += f"{100.0 * waiting_fraction(one, 4 * clearances, 2):8.1f} %"
+    message = "".join(f"{x:{width}.2f}" for x, width in zip(ratios, (11, 12, 16), strict=True))
+    message += f"{100.0 * waiting_fraction(one, 4 * clearances, 2):8.1f} %"
     ms = 1e3 / RUNS_OUTSIDE
-    print(f"  {'nine_bar_press, ' + simulation.source.scene:<36} {ms * in_c:10.2f} {ms * other:8.2f}{told}")
+    print(f"  {'nine_bar_press, ' + simulation.source.scene:<36} {ms * in_c:10.2f} {ms * other:8.2f}{message}")
 
 
 def series(repeats: int) -> None:
@@ -235,7 +235,7 @@ def main() -> None:
     options = parser.parse_args()
     parts = {side_by_side: options.beside, outside: options.outside, series: options.series}
     if any(parts.values()):
-        for part in (part for part, wanted in parts.items() if wanted):
+        for part in (part for part, expected in parts.items() if expected):
             part(options.repeats)
         return
     simulation = gudgeon.load("nine_bar_press", scene="lubricated", quick=False)

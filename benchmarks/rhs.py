@@ -194,8 +194,11 @@ def machine() -> str:
     model, vectors = platform.processor() or platform.machine(), ""
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
-        told = dict(_split_line(line) for line in cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines())
-        model, vectors = told.get("model name", model), widest(told.get("flags", told.get("Features", "")).split())
+        message = dict(_split_line(line) for line in cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines())
+        model, vectors = (
+            message.get("model name", model),
+            widest(message.get("flags", message.get("Features", "")).split()),
+        )
     return f"{model}, {os.cpu_count()} cores" + f", {vectors}" * bool(vectors)
 
 

@@ -102,7 +102,7 @@ def presses() -> list[Presses]:
 def batches(repeats: int) -> None:
     """Print the processor time of runs in batches."""
     print("  nine_bar_press, rtol 1e-4                   runs   CPU ms a run: beside  alone")
-    for told, scene, columns, t_end in presses():
+    for message, scene, columns, t_end in presses():
         simulation, n = gudgeon.load("nine_bar_press", scene=scene), len(columns["c"])
         least = {True: math.inf, False: math.inf}
         lanes.WORTH = 0.0  # however short a batch is
@@ -117,7 +117,7 @@ def batches(repeats: int) -> None:
                 side_by_side=beside,
             )
             least[beside] = min(least[beside], process_time() - before)
-        print(f"  {told:<40} {n:7d}{1e3 * least[True] / n:22.3f}{1e3 * least[False] / n:7.3f}", flush=True)
+        print(f"  {message:<40} {n:7d}{1e3 * least[True] / n:22.3f}{1e3 * least[False] / n:7.3f}", flush=True)
 
 
 def peak_memory() -> float:

@@ -74,7 +74,7 @@ TAKEN = {
 }
 
 
-def taken(app, docname, source):  # type: ignore[no-untyped-def]
+def used(app, docname, source):  # type: ignore[no-untyped-def]
     """Fill the pages of TAKEN with the text of their files, with links as from docs/."""
     if docname not in TAKEN:
         return
@@ -103,8 +103,8 @@ def running(app, config):  # type: ignore[no-untyped-def]
     folder.mkdir(parents=True, exist_ok=True)
     if app.tags.has("text"):
         return
-    for said, _ in WRITES.findall((here / "gallery.md").read_text("utf-8")):
-        line = [sys.executable, "-m", "gudgeon", *said.split()]
+    for specified, _ in WRITES.findall((here / "gallery.md").read_text("utf-8")):
+        line = [sys.executable, "-m", "gudgeon", *specified.split()]
         subprocess.run(line, cwd=folder, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -149,7 +149,7 @@ def setup(app):  # type: ignore[no-untyped-def]
     app.add_html_math_renderer("mathml", (inline_math, None), (displayed_math, None))
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
     app.connect("source-read", linked)
-    app.connect("source-read", taken)
+    app.connect("source-read", used)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
     app.connect("source-read", indexed)

@@ -97,12 +97,12 @@ enum ImpactColumn { IMPACT_t_on, IMPACT_t_off, IMPACT_deltadot, IMPACT_F_peak, I
 /*
  * First columns of a row of the step record; the state of all bodies, the discrete state and the contact codes follow.
  */
-enum TapeColumn { TAPE_JUMPED, TAPE_T, N_TAPE_HEAD };
+enum RecordColumn { RECORD_JUMPED, RECORD_T, N_RECORD_HEAD };
 
 /* Columns of each joint with play in a row of the envelope; the row begins with its time. */
-enum TraceColumn {
-    TRACE_F_low, TRACE_t_F_low, TRACE_F_high, TRACE_t_F_high, TRACE_ex_out, TRACE_ey_out,
-    TRACE_t_out, TRACE_ex, TRACE_ey, N_TRACE_COLUMNS
+enum EnvelopeColumn {
+    ENVELOPE_F_low, ENVELOPE_t_F_low, ENVELOPE_F_high, ENVELOPE_t_F_high, ENVELOPE_ex_out, ENVELOPE_ey_out,
+    ENVELOPE_t_out, ENVELOPE_ex, ENVELOPE_ey, N_ENVELOPE_COLUMNS
 };
 
 /* Works that are integrated with the state: of drives, of force elements, of joints with play. */

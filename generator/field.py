@@ -130,8 +130,8 @@ class Field:
         if self.kinds is None:
             return self.fields
         kinds = self.kinds()
-        chosen = [str(node["law"])] if self.kind == LAW and "law" in node else list(node)
-        return tuple(f for kind in [k for k in chosen if k in kinds] or kinds for f in kinds[kind].fields)
+        selected = [str(node["law"])] if self.kind == LAW and "law" in node else list(node)
+        return tuple(f for kind in [k for k in selected if k in kinds] or kinds for f in kinds[kind].fields)
 
 
 def with_dimensions(fields: Iterable[Field], written: Mapping[str, Any]) -> list[Field]:

@@ -44,7 +44,7 @@ def following(address: str, of: Quantity, where: Location) -> Quantity:
     return Quantity(address, Name(of.address), of.dimension, where, (of,))
 
 
-def at_onset(force: Quantity) -> Quantity:
+def value_at_onset(force: Quantity) -> Quantity:
     """Return the value of an expression of the penetration at δ = 0 as a quantity of its own."""
     value = replaced(force.value, {"delta": Number(0.0, "0")})
     return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, kept=True)
@@ -353,10 +353,10 @@ def make_scene(mechanism: Mechanism, name: str) -> Scene:
         else own
         for key, own in mechanism.parameters.items()
     }
-    chosen = {address: spec.materials.get(address, choice.material) for address, choice in mechanism.choices.items()}
+    selected = {address: spec.materials.get(address, choice.material) for address, choice in mechanism.choices.items()}
     instead = {
-        own.address: following(own.address, mechanism.materials[chosen[address]].numbers[what], own.where)
+        own.address: following(own.address, mechanism.materials[selected[address]].numbers[what], own.where)
         for address, choice in mechanism.choices.items()
         for what, own in choice.numbers.items()
     }
-    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events, spec.peaks, chosen, instead)
+    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events, spec.peaks, selected, instead)

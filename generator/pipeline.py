@@ -11,7 +11,7 @@ from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model, make_model
-from gudgeon.generator.equations.notes import refuse_massless
+from gudgeon.generator.equations.notes import check_masses
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.mechanism import Mechanism, Scene, make_scene
 from gudgeon.generator.reader.read import Overrides, Seconds, read_scene, stage
@@ -36,7 +36,7 @@ def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
         model = replace(make_model(scene), targets=TARGETS)
     with stage("rank of the rows", seconds):
         model = model.without(find_redundancy(model, describe(model)))
-    refuse_massless(model)
+    check_masses(model)
     refuse_singular_masses(model, describe(model))
     return model
 

@@ -55,17 +55,17 @@ class Events:
         """Return `event`, a value in brackets, joined with the texts after it that belong into its parentheses."""
         if not _is_plain(event) or _count_open(event.value) <= 0:
             return event
-        still_open, taken, last = _count_open(event.value), 0, event
+        still_open, used, last = _count_open(event.value), 0, event
         for _ in range(MOST_PIECES):
-            piece = self._peek(taken)
-            if not _is_plain(piece) or in_mapping and not _is_nothing(self._peek(taken + 1)):
+            piece = self._peek(used)
+            if not _is_plain(piece) or in_mapping and not _is_nothing(self._peek(used + 1)):
                 break
-            still_open, last, taken = still_open + _count_open(piece.value), piece, taken + 1 + in_mapping
+            still_open, last, used = still_open + _count_open(piece.value), piece, used + 1 + in_mapping
             if still_open <= 0 or still_open > MOST_OPEN and not in_mapping:
                 break
         if still_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
             return event
-        for _ in range(taken):
+        for _ in range(used):
             self._ahead.popleft()
         event.value = self._text[event.start_mark.index : last.end_mark.index]
         event.end_mark = last.end_mark

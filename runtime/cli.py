@@ -17,7 +17,7 @@ from typer.models import CommandInfo
 
 from gudgeon.commands import completion
 from gudgeon.commands import options as opt
-from gudgeon.commands.told import tell_warnings, told
+from gudgeon.commands.outcome import message, print_warnings_once
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.language.deprecations import STRESS
 
@@ -30,9 +30,9 @@ class Commands(TyperGroup):
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the section of commands."""
         every = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
-        told = [(name, one.get_short_help_str(WHOLE)) for name, one in every if one and not one.hidden]
+        message = [(name, one.get_short_help_str(WHOLE)) for name, one in every if one and not one.hidden]
         with formatter.section("Commands"):
-            formatter.write_dl(told)
+            formatter.write_dl(message)
 
 
 app = typer.Typer(
@@ -53,7 +53,7 @@ def _root(version: opt.Version = False) -> None:
 
 
 @app.command()
-@told
+@message
 def run(
     file: opt.File,
     scene: opt.Scenes = None,
@@ -117,7 +117,7 @@ def run(
 
 
 @app.command()
-@told
+@message
 def check(
     file: opt.File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
@@ -137,7 +137,7 @@ def check(
 
 
 @app.command()
-@told
+@message
 def emit(
     file: opt.File,
     folder: Annotated[
@@ -160,7 +160,7 @@ def emit(
 
 
 @app.command()
-@told
+@message
 def equations(
     file: opt.File,
     target: opt.Pages,
@@ -179,7 +179,7 @@ def equations(
 
 
 @app.command("laws")
-@told
+@message
 def force_laws(
     name: opt.LawName = None,
     plot: opt.Plot = None,
@@ -197,7 +197,7 @@ def force_laws(
 
 
 @app.command()
-@told
+@message
 def new(
     name: opt.Name,
     like: opt.Like = None,
@@ -215,7 +215,7 @@ def new(
 
 
 @app.command("import")
-@told
+@message
 def import_(
     file: opt.Foreign, target: opt.Mechanism = None, files_as_json: opt.FilesJson = False, quiet: opt.Quiet = False
 ) -> int:
@@ -229,7 +229,7 @@ def import_(
 
 
 @app.command()
-@told
+@message
 def exercise(
     file: opt.File,
     target: opt.Sheet,
@@ -252,7 +252,7 @@ def exercise(
 
 
 @app.command()
-@told
+@message
 def draw(
     file: opt.File,
     scene: opt.OneScene = "ideal",
@@ -276,7 +276,7 @@ def draw(
 
 
 @app.command()
-@told
+@message
 def schema(
     study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: opt.Laws = None
 ) -> int:
@@ -290,7 +290,7 @@ def schema(
 
 
 @app.command()
-@told
+@message
 def bench(
     file: opt.File,
     scene: opt.Scenes = None,
@@ -324,7 +324,7 @@ def bench(
 
 @app.command("stress", hidden=True)
 @app.command("map")
-@told
+@message
 def verdicts(
     context: typer.Context,
     file: opt.File,
@@ -363,7 +363,7 @@ def verdicts(
 
 
 @app.command()
-@told
+@message
 def study(
     file: opt.StudyFile,
     finished: opt.Finished = None,
@@ -406,5 +406,5 @@ def asked_for(app: typer.Typer) -> typer.Typer:
 
 def main() -> None:
     """Run the command line."""
-    tell_warnings()
+    print_warnings_once()
     asked_for(app)()

@@ -13,7 +13,7 @@ import os
 import signal
 import sys
 
-from gudgeon.waiting.ctrl_c import ENDING, INTERRUPTED, is_the_program, last_word, nothing_more
+from gudgeon.waiting.ctrl_c import ENDING, INTERRUPTED, declare_program, ignore_ctrl_c, print_interrupted
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # errors of writing that are reported in one line
 
@@ -21,7 +21,7 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # errors of writing
 def main() -> None:
     """Run the command `gudgeon`; this is its entry point."""
     _prepare_streams()
-    is_the_program()
+    declare_program()
     os.environ["MPLBACKEND"] = "agg"  # nothing is shown in a window, whatever is set
     ended: list[int] = []
 
@@ -36,7 +36,7 @@ def main() -> None:
     try:
         _run_command()
     except SystemExit as end:
-        nothing_more()  # a command that says itself what an interrupt left ends here too
+        ignore_ctrl_c()  # a command that says itself what an interrupt left ends here too
         sys.exit(128 + ended[0] if ended and end.code == INTERRUPTED else end.code)
 
 
@@ -51,7 +51,7 @@ def _run_command() -> None:
             sys.stdout.flush()
             gc.freeze()  # the process ends: no need to search for garbage
     except KeyboardInterrupt:
-        last_word()
+        print_interrupted()
         sys.exit(INTERRUPTED)
     except OSError as error:
         if error.filename is not None or error.errno not in (*FULL, errno.EPIPE):

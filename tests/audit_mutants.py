@@ -108,8 +108,8 @@ def is_reported(simulation: Simulation, t_end: float, **settings: Any) -> tuple[
         run = simulation.simulate(t_end, output=SAMPLES, **settings)
     except gudgeon.GudgeonError as error:
         return str(error).splitlines()[0], None
-    told = [note for note in run.diagnostics.notes if note.startswith("audit:")]
-    return "; ".join(told), run.q
+    message = [note for note in run.diagnostics.notes if note.startswith("audit:")]
+    return "; ".join(message), run.q
 
 
 def mutations(text: str, rng: random.Random) -> tuple[str, str] | None:
@@ -176,22 +176,22 @@ class Scene:
                 other = mutant(self.simulation, Path(folder), (file, *edit), loops=self.folder / "engine.o")
             except (AssertionError, subprocess.SubprocessError):
                 return say(("does not compile", ""))
-            told = is_reported(other, self.t_end)[0]
-            if told:
-                say(("reported", told))
+            message = is_reported(other, self.t_end)[0]
+            if message:
+                say(("reported", message))
             try:
                 off = differences(results(other.simulate(self.t_end, output=SAMPLES, audit=False)), self.right)
             except gudgeon.GudgeonError:
                 off = {"no result": math.inf}
-        say(self._judged(off, told))
+        say(self._judged(off, message))
 
-    def _judged(self, off: dict[str, float], told: str) -> tuple[str, str]:
+    def _judged(self, off: dict[str, float], message: str) -> tuple[str, str]:
         """The outcome of a mutant whose results differ so much, and which the audit reports so."""
         worst = max(off, key=lambda name: off[name] / self.limit.get(name, CHANGED))
         changes = not off[worst] <= self.limit.get(worst, CHANGED)
         if not changes:
-            return ("changes nothing, reported" if told else "changes nothing"), told
-        return ("reported", told) if told else ("not reported", f"{worst} {off[worst]:.3g}")
+            return ("changes nothing, reported" if message else "changes nothing"), message
+        return ("reported", message) if message else ("not reported", f"{worst} {off[worst]:.3g}")
 
 
 def _draws(scenes: list[Scene], seed: int) -> Iterator[tuple[Scene, str, tuple[str, str]]]:
@@ -242,11 +242,11 @@ def run(count: int, seed: int, jobs: int, show: bool, seconds: float = math.inf)
                 draw = next(draws)
                 under_way.append((draw, _begin(*draw)))
             (scene, file, edit), begun = under_way.popleft()
-            outcome, told = _outcome(*begun)
+            outcome, message = _outcome(*begun)
             outcomes[outcome] += 1
             if show or outcome == "not reported":
                 change = f"{edit[0].strip()}  ->  {edit[1].strip()}"
-                print(f"{outcome}: {scene.name} {file}: {change}  {told}", flush=True)
+                print(f"{outcome}: {scene.name} {file}: {change}  {message}", flush=True)
         for _, begun in under_way:
             begun[0].kill()
     return outcomes
@@ -260,8 +260,8 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--show", action="store_true")
     parser.add_argument("--seconds", type=float, default=math.inf)
-    asked = parser.parse_args()
-    outcomes = run(asked.count, asked.seed, asked.jobs, asked.show, asked.seconds)
+    requested = parser.parse_args()
+    outcomes = run(requested.count, requested.seed, requested.jobs, requested.show, requested.seconds)
     print(", ".join(f"{outcome}: {number}" for outcome, number in sorted(outcomes.items())))
     reported, missed = outcomes["reported"], outcomes["not reported"]
     print(f"reported of those that change a result: {reported / max(reported + missed, 1):.3f}")

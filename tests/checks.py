@@ -53,12 +53,12 @@ def lubricated() -> Iterable[Row]:
     press = gudgeon.load(PRESS, scene="lubricated")
     run = press.simulate(output=[0.0, *want["t"]], step=want["step"], parameters=numbers)
     test = "test_golden.py::test_lubricated_press_reaches_the_golden_figures"
-    for what, pairs, asked in (
+    for what, pairs, requested in (
         ("y and v", (("S9.y", "y9"), ("S9.vy", "v9")), "1e-6"),
         ("forces", (("A.F", "F_A"), ("B.F", "F_B")), "1e-4"),
     ):
         found = max(float(abs(run[name][1:] / np.array(want[key]) - 1.0).max()) for name, key in pairs)
-        yield f"lubricated press, {what} (relative)", "golden figures of two independent codes", found, asked, test
+        yield f"lubricated press, {what} (relative)", "golden figures of two independent codes", found, requested, test
 
 
 def first_contacts() -> Iterable[Row]:
@@ -104,7 +104,7 @@ def energy() -> Iterable[Row]:
 def order() -> Iterable[Row]:
     """Slopes of error over step; an interpolant of order p errs by O(h^(p + 1)) between the ends of steps."""
     rodas, dop = "test_rodas5p_has_order_5_and_its_interpolant_4", "test_dop853_has_order_8_and_its_interpolant_7"
-    for method, scene, steps, inside, asked, test in (
+    for method, scene, steps, inside, requested, test in (
         ("rk4", "swing", (60, 4000, 12), False, "4 ± .15", "test_rk4_has_order_4"),
         ("rk4", "swing", (60, 4000, 12), True, "4 ± .15", "test_rk4_has_order_4"),
         ("rodas5p", "swing", (12, 1600, 14), False, "5 ± .15", rodas),
@@ -114,7 +114,7 @@ def order() -> Iterable[Row]:
     ):
         found = test_methods.observed_order(scene, method, 1.0, steps, inside)
         what = f"observed order of {method}{', between its steps' * inside}"
-        yield what, "the run at rtol 1e-14", found, asked, f"test_methods.py::{test}"
+        yield what, "the run at rtol 1e-14", found, requested, f"test_methods.py::{test}"
 
 
 def onsets() -> Iterable[Row]:
@@ -310,9 +310,9 @@ GROUPS: tuple[Callable[[], Iterable[Row]], ...] = (
 def main() -> None:
     print("| what | against | found | asked | test |\n|---|---|---|---|---|")
     for group in GROUPS:
-        for what, against, found, asked, test in group():
+        for what, against, found, requested, test in group():
             number = f"{found:.1e}" if abs(found) < 0.1 else f"{found:.5g}"
-            print(f"| {what} | {against} | {number} | {asked} | `{test}` |", flush=True)
+            print(f"| {what} | {against} | {number} | {requested} | `{test}` |", flush=True)
 
 
 if __name__ == "__main__":

@@ -23,10 +23,10 @@ def one_run(crank: Simulation) -> tuple[Result, dict[str, float]]:
     later = crank.simulate(output=np.linspace(0.02, 0.03, 5), start=run.final)
     judged = gudgeon.examine(crank, run, gudgeon.load("slider_crank", scene="ideal"))
     worn = gudgeon.wear(crank, run, "wristpin", k="1e-4", hardness="2 GPa")
-    told = {"force": run.diagnostics.peaks[0].F, "q": float(start.q[0]), "t": float(later.t[-1])}
-    told |= {"onsets": float(len(run.impacts)), "residual": judged.diagnostics.energy_residual}
-    told |= {"volume": worn.bearing.volume, "peak": run.peak("slider.ax").max}
-    return judged, told
+    message = {"force": run.diagnostics.peaks[0].F, "q": float(start.q[0]), "t": float(later.t[-1])}
+    message |= {"onsets": float(len(run.impacts)), "residual": judged.diagnostics.energy_residual}
+    message |= {"volume": worn.bearing.volume, "peak": run.peak("slider.ax").max}
+    return judged, message
 
 
 def many_runs(crank: Simulation) -> tuple[Batch, float]:
@@ -40,8 +40,8 @@ def many_runs(crank: Simulation) -> tuple[Batch, float]:
 def many_studied(folder: Path) -> float:
     """A study on the disk."""
     measures = {"top": {"max": "swing"}}
-    asked = {"mechanism": "pendulum", "t_end": "1 s", "parameters": {"g": [5, 9]}, "measures": measures}
-    study: Study = gudgeon.study(asked, folder / "x.study", threads=1)
+    requested = {"mechanism": "pendulum", "t_end": "1 s", "parameters": {"g": [5, 9]}, "measures": measures}
+    study: Study = gudgeon.study(requested, folder / "x.study", threads=1)
     again = gudgeon.load_study(folder / "x.study")
     return float(study.dataset["top"].max()) + again.runs
 
@@ -49,21 +49,21 @@ def many_studied(folder: Path) -> float:
 def main(folder: Path) -> int:
     """All of it; 0 where nothing is missing."""
     crank: Simulation = gudgeon.load("slider_crank", scene="dry")
-    run, told = one_run(crank)
+    run, message = one_run(crank)
     batch, place = many_runs(crank)
     run.save(folder / "x.nc")
     run.to_csv(folder / "x.csv")
-    told["x"] = largest(Result.load(folder / "x.nc"), "slider.x") + place
-    told["study"] = many_studied(folder)
-    told["exponent"] = gudgeon.load("pendulum").lyapunov(1.0).exponent
+    message["x"] = largest(Result.load(folder / "x.nc"), "slider.x") + place
+    message["study"] = many_studied(folder)
+    message["exponent"] = gudgeon.load("pendulum").lyapunov(1.0).exponent
     try:
         crank.simulate(-1.0)
     except SolverError as failed:
         print(failed.time, failed.partial)
     except InputError as wrong:
         print(wrong.message, wrong.where, wrong.hint)
-    print(*told, len(batch))
-    return 0 if all(np.isfinite(value) for value in told.values()) else 1
+    print(*message, len(batch))
+    return 0 if all(np.isfinite(value) for value in message.values()) else 1
 
 
 if __name__ == "__main__":

@@ -99,8 +99,8 @@ def measure(activity: Activity, moments: int, rng: np.random.Generator) -> bool:
         f" {np.median(waits) if waits else 0.0:6.3f} s, {late} later than {BAR} s, {len(wrong)} wrong",
         flush=True,
     )
-    for told in wrong[:5]:
-        print(f"{'':>14}{told}", flush=True)
+    for message in wrong[:5]:
+        print(f"{'':>14}{message}", flush=True)
     return not late and not wrong
 
 

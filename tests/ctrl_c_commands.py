@@ -124,19 +124,19 @@ def interrupt(folder: Path, words: str, moment: float, found: Found) -> None:
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGINT)
     sent = time.perf_counter()
-    _, said = process.communicate()
+    _, specified = process.communicate()
     found.longest = max(found.longest, time.perf_counter() - sent)
     status, wrong = process.returncode, [*what_is_wrong(folder / "here"), *broken_cache(folder / "cache")]
-    ours = "gudgeon/entry.py" in said or "gudgeon:" in said
-    if status == -signal.SIGINT or (status and "Traceback" in said and not ours):
+    ours = "gudgeon/entry.py" in specified or "gudgeon:" in specified
+    if status == -signal.SIGINT or (status and "Traceback" in specified and not ours):
         found.counts[PYTHON] += 1  # before its handler is there, or while it imports what every program does
-        wrong += [] if moment < 0.5 else [f"ended with {status}: {said[-300:]!r}"]
+        wrong += [] if moment < 0.5 else [f"ended with {status}: {specified[-300:]!r}"]
     else:
         found.counts[STOPPED if status else DONE] += 1
-        if status not in (0, INTERRUPTED) or "Traceback" in said or "Exception ignored" in said:
-            wrong.append(f"ended with {status}: {said[-600:]!r}")
-        if status == INTERRUPTED and "interrupted" not in said:
-            wrong.append(f"does not say that it was interrupted: {said[-300:]!r}")
+        if status not in (0, INTERRUPTED) or "Traceback" in specified or "Exception ignored" in specified:
+            wrong.append(f"ended with {status}: {specified[-600:]!r}")
+        if status == INTERRUPTED and "interrupted" not in specified:
+            wrong.append(f"does not say that it was interrupted: {specified[-300:]!r}")
     found.wrong += [f"{moment:.3f} s: {text}" for text in wrong]
 
 
@@ -145,8 +145,8 @@ def lasts(folder: Path, words: str, number: int) -> float:
     write_files(folder, number)
     before = time.perf_counter()
     process = begin(folder, words)
-    _, said = process.communicate()
-    assert process.returncode == 0, said
+    _, specified = process.communicate()
+    assert process.returncode == 0, specified
     return time.perf_counter() - before
 
 
@@ -166,8 +166,8 @@ def measure(name: str, folder: Path, moments: int, rng: np.random.Generator) -> 
         f" {found.longest:.2f} s from signal to end; {len(found.wrong)} wrong",
         flush=True,
     )
-    for told in found.wrong[:8]:
-        print(f"{'':>8}{told}", flush=True)
+    for message in found.wrong[:8]:
+        print(f"{'':>8}{message}", flush=True)
     return not found.wrong
 
 

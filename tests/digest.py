@@ -79,11 +79,13 @@ def _batch(simulation: gudgeon.Simulation, method: str) -> Arrays:
 
 def digest(arrays: Arrays) -> str:
     """Of names, types, shapes and bytes."""
-    told = sha256()
+    message = sha256()
     for name, values in sorted(arrays.items()):
         if name not in COUNTS:
-            told.update(f"{name} {values.dtype.str} {values.shape}".encode() + np.ascontiguousarray(values).tobytes())
-    return told.hexdigest()[:16]
+            message.update(
+                f"{name} {values.dtype.str} {values.shape}".encode() + np.ascontiguousarray(values).tobytes()
+            )
+    return message.hexdigest()[:16]
 
 
 def differences(new: Arrays, old: Arrays) -> list[str]:
@@ -139,22 +141,22 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--save", type=Path)
     parser.add_argument("--against", type=Path)
-    asked = parser.parse_args()
-    before = dict(np.load(asked.against)) if asked.against else {}
+    requested = parser.parse_args()
+    before = dict(np.load(requested.against)) if requested.against else {}
     kept: Arrays = {}
     differ, count = 0, 0
-    for where, arrays in cases(asked.names):
+    for where, arrays in cases(requested.names):
         old = {key.split("|")[1]: value for key, value in before.items() if key.startswith(f"{where}|")}
-        told, lines = digest(arrays), list[str]()
-        if asked.against and digest(old) != told:
+        message, lines = digest(arrays), list[str]()
+        if requested.against and digest(old) != message:
             lines = differences(arrays, old) if old else ["not in the file"]
             differ += 1
-        print(f"{told}  {where}", *lines, sep="\n    ", flush=True)
+        print(f"{message}  {where}", *lines, sep="\n    ", flush=True)
         kept |= {f"{where}|{name}": values for name, values in arrays.items()}
         count += 1
-    if asked.save:
-        np.savez_compressed(asked.save, **kept)  # type: ignore[arg-type]
-    print(f"{count} cases" + (f", {differ} differ" if asked.against else ""))
+    if requested.save:
+        np.savez_compressed(requested.save, **kept)  # type: ignore[arg-type]
+    print(f"{count} cases" + (f", {differ} differ" if requested.against else ""))
     sys.exit(1 if differ else 0)
 
 

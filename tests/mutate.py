@@ -111,7 +111,7 @@ GROUPS = {
     "starts": (
         (
             "runtime/assembly/closure.py",
-            "runtime/assembly/followed.py",
+            "runtime/assembly/guess_warnings.py",
             "runtime/assembly/mobility.py",
             "runtime/assembly/journals.py",
             "runtime/assembly/rank.py",
@@ -171,7 +171,7 @@ MEANS_NOTHING = {
     "generator/reduction/geometry.py:99: '1' -> '2': parent, child, sign = (first, second, 1) if second.body == body "
     "else (second, first, -1)": "a slide's coordinate in another unit: the same motion",
     "generator/reduction/tree.py:46: '+' -> '-': placed[other] = placed[body] + 1": "where chains are cut, so which trees are among the candidates",
-    "runtime/assembly/followed.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away": "the same remainder",
+    "runtime/assembly/guess_warnings.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away": "the same remainder",
     "runtime/model/arrays.py:91: 'not' -> '': elif type(values) is np.ndarray and values.dtype is dtype and "
     "values.size <= most and not values.flags.c_contiguous:": "which of two ways an array is copied on",
     "generator/reduction/shared_points.py:63: '1' -> '2': crossing[other.name] = 1 if one in side else -1": "of a share only the sign is printed",
@@ -206,7 +206,7 @@ class Mutant:
         lines[self.line - 1] = old[: self.start] + self.text + old[self.end :]
         return "".join(lines)
 
-    def told(self, source: str) -> str:
+    def message(self, source: str) -> str:
         """One line for people."""
         line = source.splitlines()[self.line - 1]
         change = f"{line[self.start : self.end]!r} -> {self.text!r}"
@@ -214,7 +214,7 @@ class Mutant:
 
     def nothing(self, source: str) -> str:
         """Why it means nothing, if that is known."""
-        return MEANS_NOTHING.get(self.told(source).replace(f":{self.line}:", ":", 1), "")
+        return MEANS_NOTHING.get(self.message(source).replace(f":{self.line}:", ":", 1), "")
 
 
 def of_python(group: str, file: str, source: str) -> Iterator[Mutant]:
@@ -257,8 +257,8 @@ def mutants(groups: list[str], count: int, seed: int) -> list[Mutant]:
 
 def without_line() -> list[str]:
     """What of MEANS_NOTHING is of no line any more."""
-    parts = {told: (told.split(":", 1)[0], told.split(": ", 2)[2]) for told in MEANS_NOTHING}
-    return [told for told, (file, line) in parts.items() if line not in (ROOT / file).read_text(encoding="utf-8")]
+    parts = {message: (message.split(":", 1)[0], message.split(": ", 2)[2]) for message in MEANS_NOTHING}
+    return [message for message, (file, line) in parts.items() if line not in (ROOT / file).read_text(encoding="utf-8")]
 
 
 def failed(group: str, folder: Path, processes: int) -> bool:
@@ -303,8 +303,8 @@ def main() -> int:
     parser.add_argument("--only", nargs="+", type=int, help="of those that are drawn, by their numbers")
     parser.add_argument("--processes", type=int, default=2, help="for the tests of one mutant")
     options = parser.parse_args()
-    for told in without_line():
-        print(f"MEANS_NOTHING has no such line any more: {told}")
+    for message in without_line():
+        print(f"MEANS_NOTHING has no such line any more: {message}")
     survived, nothing, run = list[str](), list[str](), 0
     drawn = mutants(options.group, options.count, options.seed)
     with tempfile.TemporaryDirectory() as temporary:
@@ -320,14 +320,14 @@ def main() -> int:
             if options.only and k not in options.only:
                 continue
             source = (folder / mutant.file).read_text(encoding="utf-8")
-            told, why = mutant.told(source), mutant.nothing(source)
+            message, why = mutant.message(source), mutant.nothing(source)
             if why:
-                nothing.append(f"{told}: {why}")
+                nothing.append(f"{message}: {why}")
                 print(f"{k}/{len(drawn)} NOTHING  {nothing[-1]}", flush=True)
                 continue
             run, seen = run + 1, noticed(mutant, folder, options.processes)
-            print(f"{k}/{len(drawn)} {'noticed ' if seen else 'SURVIVED'} {told}", flush=True)
-            survived += [] if seen else [told]
+            print(f"{k}/{len(drawn)} {'noticed ' if seen else 'SURVIVED'} {message}", flush=True)
+            survived += [] if seen else [message]
     print(f"\n{run - len(survived)} of {run} were noticed, and {len(nothing)} mean nothing; what survived:")
     print("\n".join(survived))
     return 0

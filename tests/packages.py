@@ -99,7 +99,7 @@ class Place:
 
     def runs_without_a_compiler(self) -> str:
         """The version, and the press; a mechanism of one's own is refused with a sentence."""
-        said = self.run(["gudgeon", "--version"])
+        specified = self.run(["gudgeon", "--version"])
         self.run(["gudgeon", "run", "nine_bar_press", "--t-end", "5 ms"])
         for scene in ("dry", "lubricated"):
             self.run(["python", "-c", MOVED.format(f"'nine_bar_press', '{scene}'", 5e-3, "run.t[-1] == 5e-3")])
@@ -110,7 +110,7 @@ class Place:
             assert "no C compiler" in str(error) and "Traceback" not in str(error), error
         else:
             raise AssertionError("a compiler was found on a path that has none")
-        return said.strip()
+        return specified.strip()
 
     def runs_with_one(self, path: str) -> None:
         """A linkage of one's own, derived and compiled."""
@@ -123,23 +123,23 @@ def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--python", nargs="+", default=there_are())
-    asked = parser.parse_args().python
+    requested = parser.parse_args().python
     compiler = str(Path(shutil.which("cc") or "/usr/bin/cc").parent)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         made, source = wheel(folder / "wheel"), sdist(folder / "sdist")
         print(f"{made.name}  {made.stat().st_size / 1e6:.2f} MB\n{source.name}  {source.stat().st_size / 1e6:.2f} MB")
-        for k, python in enumerate(asked):
+        for k, python in enumerate(requested):
             place = Place(python, folder / str(k))
             place.install("--constraint", str(ROOT / "constraints.txt"), str(made))
-            said = place.runs_without_a_compiler()
+            specified = place.runs_without_a_compiler()
             place.install("--no-deps", "--force-reinstall", str(source))
             place.runs_with_one(compiler)
-            print(f"{python}: {said}: the wheel without a compiler, the sdist with one", flush=True)
+            print(f"{python}: {specified}: the wheel without a compiler, the sdist with one", flush=True)
         from tests.minimum import try_every_command
 
-        versions = try_every_command(asked[0], folder / "minimum", source, compiler)
-        print(f"{asked[0]}: every command with {versions}", flush=True)
+        versions = try_every_command(requested[0], folder / "minimum", source, compiler)
+        print(f"{requested[0]}: every command with {versions}", flush=True)
     return 0
 
 

@@ -11,6 +11,6 @@ import pytest
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 
 
-def missing(told: str) -> Any:
+def missing(message: str) -> Any:
     """A skip; where CI runs a failure."""
-    return pytest.fail(told) if os.environ.get("CI") else pytest.skip(told)
+    return pytest.fail(message) if os.environ.get("CI") else pytest.skip(message)

@@ -70,8 +70,8 @@ def test_counts_come_first_and_are_in_no_digest() -> None:
         ("q", (0, 0), -0.0, "signs of zeros or bits of NaN"),
     ],
 )
-def test_each_array_is_told_by_its_kind(name: str, place: Any, value: Any, told: str) -> None:
-    assert differences(changed(run(), name, place, value), run()) == [f"{name}: {told}"]
+def test_each_array_is_told_by_its_kind(name: str, place: Any, value: Any, message: str) -> None:
+    assert differences(changed(run(), name, place, value), run()) == [f"{name}: {message}"]
 
 
 def test_forms_and_refusals() -> None:

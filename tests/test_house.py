@@ -88,13 +88,13 @@ def test_the_engine_is_plain_c(file: Path) -> None:
 def test_the_engines_readme_names_each_of_its_files_once() -> None:
     """With a word on it; and each room, in front of its files."""
     text = (ROOT / "engine" / "README.md").read_text(encoding="utf-8")
-    told = re.findall(r"^- `([\w./]+)`: \S.*$", text, re.M)
-    assert sorted(told) == sorted(file.relative_to(ROOT / "engine").as_posix() for file in ENGINE)
+    message = re.findall(r"^- `([\w./]+)`: \S.*$", text, re.M)
+    assert sorted(message) == sorted(file.relative_to(ROOT / "engine").as_posix() for file in ENGINE)
     rooms = re.split(r"^`(\w+/)`: \S.*$", text, flags=re.M)
     for room, files in zip(rooms[1::2], rooms[2::2], strict=True):
         assert all(file.startswith(room) for file in re.findall(r"^- `([\w./]+)`", files, re.M)), room
     named = set(re.findall(r"`(\w+/[\w.]+)`", text))
-    assert named <= {*told, "generated/"} and max(map(len, text.splitlines())) <= 120
+    assert named <= {*message, "generated/"} and max(map(len, text.splitlines())) <= 120
 
 
 def test_what_is_derived_is_committed_and_the_engine_once() -> None:

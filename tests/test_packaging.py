@@ -45,10 +45,10 @@ def test_every_folder_with_python_is_a_package() -> None:
 
 
 def test_everything_asked_for_is_pinned() -> None:
-    asked = [*PROJECT["project"]["dependencies"], *PROJECT["build-system"]["requires"]]
+    requested = [*PROJECT["project"]["dependencies"], *PROJECT["build-system"]["requires"]]
     for extra in PROJECT["project"]["optional-dependencies"].values():
-        asked += extra
-    names = {normal(re.match(r"[\w.-]+", line)[0]) for line in asked} - {"gudgeon"}  # type: ignore[index]
+        requested += extra
+    names = {normal(re.match(r"[\w.-]+", line)[0]) for line in requested} - {"gudgeon"}  # type: ignore[index]
     assert names - set(pins()) == set()
 
 
@@ -84,9 +84,9 @@ def test_the_wheel_holds_templates_mechanisms_and_generated(tmp_path: Path) -> N
     held = set(zipfile.ZipFile(wheel).namelist())
     kinds = (".py", ".typed", ".js", ".css", ".html", ".jinja", ".yaml", ".c", ".h", ".xz", ".md")
     source = copy / "src"
-    wanted = {path.relative_to(source).as_posix() for path in (source / "gudgeon").rglob("*") if path.suffix in kinds}
-    assert wanted - held == set()
-    stray = {name for name in held - wanted if ".dist-info/" not in name}
+    expected = {path.relative_to(source).as_posix() for path in (source / "gudgeon").rglob("*") if path.suffix in kinds}
+    assert expected - held == set()
+    stray = {name for name in held - expected if ".dist-info/" not in name}
     assert stray == set()
 
 
@@ -102,7 +102,7 @@ def imported(folder: str) -> set[str]:
     return found - sys.stdlib_module_names - {"gudgeon"}
 
 
-def asked(lines: list[str]) -> set[str]:
+def requested(lines: list[str]) -> set[str]:
     return {re.match(r"[\w.-]+", line)[0].lower() for line in lines}  # type: ignore[index]
 
 
@@ -115,17 +115,22 @@ def test_what_is_asked_for_is_what_is_imported() -> None:
     project = PROJECT["project"]
     used = {PACKAGES.get(name, name) for name in imported("runtime") | imported("generator")}
     extras = project["optional-dependencies"]
-    optional = set().union(*(asked(extras[name]) for name in set(extras) - {"all", "test", "bench", "site", "cover"}))
-    assert asked(project["dependencies"]) - used == set()
+    optional = set().union(
+        *(requested(extras[name]) for name in set(extras) - {"all", "test", "bench", "site", "cover"})
+    )
+    assert requested(project["dependencies"]) - used == set()
     assert optional - used == BESIDE
-    assert used - asked(project["dependencies"]) - optional == {"scikit-sundae", "_cffi_backend"}  # a peer; cffi's own
+    assert used - requested(project["dependencies"]) - optional == {
+        "scikit-sundae",
+        "_cffi_backend",
+    }  # a peer; cffi's own
 
 
 def test_the_pythons_that_are_told_are_those_that_are_tried() -> None:
     """By `make packages`, from the oldest that is asked for."""
-    told = re.findall(r"Python :: (3\.\d+)", "\n".join(PROJECT["project"]["classifiers"]))
-    assert [f"python{one}" for one in told] == list(PYTHONS)[: len(told)]
-    assert PROJECT["project"]["requires-python"] == f">={told[0]}"
+    message = re.findall(r"Python :: (3\.\d+)", "\n".join(PROJECT["project"]["classifiers"]))
+    assert [f"python{one}" for one in message] == list(PYTHONS)[: len(message)]
+    assert PROJECT["project"]["requires-python"] == f">={message[0]}"
 
 
 def test_who_cites_is_told_the_version_and_the_licence_that_there_are() -> None:

@@ -16,8 +16,8 @@ from tests.programs import needs_compiler
 
 ROOT = Path(__file__).resolve().parents[1]
 QUOTED = ("commands", "limits", "checks", "speed")
-TOLD = ("README.md", *(f"docs/{name}.md" for name in QUOTED))
-README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
+MESSAGES = ("README.md", *(f"docs/{name}.md" for name in QUOTED))
+README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in MESSAGES)
 Gudgeon = Callable[[str], Result]
 
 
@@ -42,8 +42,8 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
     assert len(blocks("python")) >= 1 and len(blocks("yaml")) >= 1 and len(blocks("sh")) >= 1
     assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "diff"))
-    wanted = {"check", "draw", "run", "emit", "equations", "laws", "exercise", "bench", "map"}
-    assert {shlex.split(line)[1] for line in COMMANDS} == wanted
+    expected = {"check", "draw", "run", "emit", "equations", "laws", "exercise", "bench", "map"}
+    assert {shlex.split(line)[1] for line in COMMANDS} == expected
 
 
 @needs_compiler

@@ -111,8 +111,10 @@ def test_where_there_is_no_compiler_one_is_installed(clone: Path, tmp_path: Path
     tools.mkdir()
     for name in ("sh", "dirname", "cat", "cksum", "tr", "grep", "uname", "mkdir", "rm"):
         (tools / name).symlink_to(str(shutil.which(name)))
-    asked = setup(clone, CC="", PATH=str(tools))
-    assert [".[cc,all]" in line for line in installs(asked)] == [True] and setup(clone, CC="", PATH=str(tools)) == []
+    requested = setup(clone, CC="", PATH=str(tools))
+    assert [".[cc,all]" in line for line in installs(requested)] == [True] and setup(
+        clone, CC="", PATH=str(tools)
+    ) == []
     assert ".[all]" in "".join(installs(setup(clone)))  # one has come
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.ledger import Story
+from gudgeon.contract.reduction_log import ReductionLog
 
 SEEN = "#pragma GCC visibility push(default)\n"  # a library hides what does not say this
 
@@ -25,7 +25,7 @@ def tiny(factor: int = 2, **changes: object) -> KernelSource:
         "simulate": {},
         "operations": {},
         "gravity": False,
-        "story": Story(),
+        "story": ReductionLog(),
     }
     for name in KernelSource.__dataclass_fields__:
         fields.setdefault(name, ())

@@ -93,10 +93,10 @@ def boundary_js() -> str:
     used = set(re.findall(r"\bBoundary\.(\w+)", scripts))
     used.update(*(re.findall(r"\w+", several) for several in re.findall(r"{([^{}]*)} = Boundary\b", scripts)))
     for name in IN_JAVASCRIPT:
-        names, told = columns(known[name]), dict[str, object](known[name])
+        names, message = columns(known[name]), dict[str, object](known[name])
         if names:
-            told = {list(known[name])[-1]: len(names), _list_name(name): names}
-        lines += [f"    {member}: {json.dumps(value)}," for member, value in told.items() if member in used]
+            message = {list(known[name])[-1]: len(names), _list_name(name): names}
+        lines += [f"    {member}: {json.dumps(value)}," for member, value in message.items() if member in used]
     return "\n".join([*lines, "};", ""])
 
 

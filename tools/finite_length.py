@@ -95,8 +95,8 @@ def main() -> None:
     size = np.hypot(force[..., 0], force[..., 1])
     away = np.hypot(*np.moveaxis(law_forces(numbers) - force, -1, 0))
     share, turning = away / size.max(axis=2, keepdims=True), (away / size)[:, :, TURNS]
-    told = WITHIN[:, None] & (EPS < 0.955)
-    for where, rows in (("L/D .2 to 2, eps to .95", told), ("all", np.ones_like(told))):
+    message = WITHIN[:, None] & (EPS < 0.955)
+    for where, rows in (("L/D .2 to 2, eps to .95", message), ("all", np.ones_like(message))):
         print(f"{where}: {share.max(axis=2)[rows].max():.2%} of the largest force, rotation {turning[rows].max():.2%}")
     print(f"least V/(S q^2 a0): {least(numbers).min():.4f}")
 

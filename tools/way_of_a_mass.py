@@ -16,7 +16,7 @@ import sympy as sp
 from gudgeon.generator.equations.model import make_model
 from gudgeon.generator.mechanism import Quantity
 from gudgeon.generator.reader.read import read_scene
-from gudgeon.generator.symbols.numbers import SlotEntry
+from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.language.tokens import Token
 from gudgeon.language.tree import Number
 from gudgeon.loading.find import find_mechanism, read_bytes
@@ -37,7 +37,7 @@ def is_mass(value: Any) -> bool:
             return value.value == VALUE
         case Token():
             return value.text == MARKED
-        case Quantity() | SlotEntry():
+        case Quantity() | ParameterEntry():
             return value.address == ADDRESS
         case sp.Symbol():
             return value.name == SYMBOL

@@ -90,13 +90,13 @@ def found(case: Case) -> Found:
             "clearance": case.clearance if len(set(case.clearances)) == 1 else case.clearances,
             "mechanism": Path(case.file).name.removesuffix(".yaml"),
             "scene": case.scene,
-            "parameters": told(case),
+            "parameters": message(case),
         },
     )
     return Found(case, data, peaks(case, simulation, method), told_beside(case, simulation) if case.rows else "")
 
 
-def told(case: Case) -> str:
+def message(case: Case) -> str:
     """Return the parameters that differ from the file, as text."""
     return ", ".join(f"{name} = {value!r}" for name, value in case.parameters.items())
 

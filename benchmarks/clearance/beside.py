@@ -40,17 +40,17 @@ class Figure:
     """
 
     what: str
-    told: str
+    message: str
     now: float
     within: float = 1.0
 
     @property
     def now_told(self) -> str:
         """Return the present value with as many digits as in README.md."""
-        digits = self.told.partition("e")[0].partition(".")[2]
-        if self.told == "0":
+        digits = self.message.partition("e")[0].partition(".")[2]
+        if self.message == "0":
             return f"{self.now:.0e}" if self.now else "0"
-        if "e" not in self.told:
+        if "e" not in self.message:
             return f"{self.now:.{len(digits)}f}"
         mantissa, exponent = f"{self.now:.{len(digits)}e}".split("e")
         return f"{mantissa}e{int(exponent)}"
@@ -59,8 +59,8 @@ class Figure:
     def holds(self) -> bool:
         """Return whether the present value agrees."""
         if self.within == 1.0:
-            return self.now_told == self.told
-        return 1.0 / self.within < self.now / float(self.told) < self.within
+            return self.now_told == self.message
+        return 1.0 / self.within < self.now / float(self.message) < self.within
 
 
 def found(rates: Rates, y: Any, times: np.ndarray, **how: Any) -> np.ndarray:
@@ -92,7 +92,7 @@ def far(a: np.ndarray, b: np.ndarray, unit: float) -> np.ndarray:
     return np.asarray(np.hypot(*(a - b).T) / unit)
 
 
-def film_apart(eps: float) -> float:
+def film_difference(eps: float) -> float:
     """Return the largest relative difference of forces between Nowald's film and the quadrature of the second code, at
     ε.
     """
@@ -101,8 +101,8 @@ def film_apart(eps: float) -> float:
     for speed in (0.0, 10.0, 1000.0):
         for angle in np.linspace(0.0, 2.0 * math.pi, 25):
             rate = film.gap * speed * np.array([math.cos(angle), math.sin(angle)])
-            wanted = law(e, rate, 0.0, turning).force
-            most = max(most, float(np.hypot(*(2.0 * film.force(e, rate, turning) - wanted)) / np.hypot(*wanted)))
+            expected = law(e, rate, 0.0, turning).force
+            most = max(most, float(np.hypot(*(2.0 * film.force(e, rate, turning) - expected)) / np.hypot(*expected)))
     return most
 
 
@@ -117,7 +117,7 @@ def rotor_rigid() -> Iterator[Figure]:
     yield Figure(
         "Nowald's film and a quadrature, of the force, ε 0.01 to 0.95",
         "3e-8",
-        max(map(film_apart, (0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95))),
+        max(map(film_difference, (0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95))),
     )
     times, e = kept("rotor_rigid")
     early = times <= 0.3
@@ -274,7 +274,7 @@ def main() -> int:
     for name in options.names or COMPARED:
         for figure in COMPARED[name]():
             missed += not figure.holds
-            print(f"{name}: {figure.what}: {figure.told}, now {figure.now_told}", flush=True)
+            print(f"{name}: {figure.what}: {figure.message}, now {figure.now_told}", flush=True)
     return 1 if missed else 0
 
 

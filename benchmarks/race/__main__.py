@@ -74,10 +74,10 @@ class Best:
 def machine_facts() -> dict[str, str]:
     """Return machine, compiler, versions and load to which the times belong."""
     command = compiler.find_compiler()
-    said = subprocess.run([*command, "--version"], capture_output=True, text=True, env=compiler.plain()).stdout
+    specified = subprocess.run([*command, "--version"], capture_output=True, text=True, env=compiler.plain()).stdout
     return {
         "machine": f"{machine()}, {platform.system()}",
-        "compiler": said.splitlines()[0].strip() if said else "unknown",
+        "compiler": specified.splitlines()[0].strip() if specified else "unknown",
         "python": platform.python_version(),
         "processes that wanted a core before the race began, a minute's mean": f"{os.getloadavg()[0]:.1f}",
         "packages": race_record.versions(),

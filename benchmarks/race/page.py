@@ -107,12 +107,12 @@ def table(record: Record, work: str, measure: str) -> list[str]:
 def facts(record: Record, work: str = "") -> list[str]:
     """Return the facts of a problem, or of the machine."""
     prefix = f"{work}, " if work else ""
-    chosen = {
+    selected = {
         name.removeprefix(prefix): value
         for name, value in record.facts.items()
         if (name.startswith(prefix) if work else name.partition(", ")[0] not in MEASURES)
     }
-    return [f"- {name}: {value}" for name, value in chosen.items()]
+    return [f"- {name}: {value}" for name, value in selected.items()]
 
 
 def blocks(record: Record) -> dict[str, str]:

@@ -7,7 +7,7 @@
 #include "../scene/calls.h"
 
 enum {
-    NOT_YET = 0, UNTRIED = 1, TRIED = 2,  /* of a step: none is requested yet; not tried in the lanes; tried there */
+    NOT_YET = 0, NOT_TRIED = 1, TRIED = 2,  /* of a step: none is requested yet; not tried in the lanes; tried there */
     MISSED = 3                            /* tried in the lanes, and its stages were not found */
 };
 

@@ -11,7 +11,7 @@ enum { ABREAST = LANES };
 enum { ABREAST = 4 * LANES };
 #endif
 
-/* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
+/* CombinedObserver runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *b;
     const Single *one;
@@ -148,7 +148,7 @@ static void scatter_step(const Flow *flow, int k, Step *step)
     step->stages_lane = (const double *)x->k + k;
     step->dense_lane = (const double *)x->dense + k;
     step->seen_lane = (const double *)x->seen + k;
-    step->dense_ready = x->dense_ready && !x->no_dense[k] ? ELSEWHERE : 0;
+    step->dense_ready = x->dense_ready && !x->no_dense[k] ? IN_LANE : 0;
     step->lanes = LANES;
     step->n_seen = x->n_seen;
     for (int s = 0; s < x->n_seen; s++)
@@ -174,7 +174,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
     (void)method;
     run->counts.evaluations += !run->series.ready;
-    run->series.ready = ELSEWHERE;
+    run->series.ready = IN_LANE;
     run->series.lane = (const double *)flow->x.series.terms + k;
     run->series.lanes = LANES;
     run->series.reach = flow->x.series.reach[k];
@@ -184,7 +184,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 /* Copy counts and iteration data of a trial in lane k to its run, as the run itself would have counted them. */
 static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 {
-    static const int of[KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
+    static const int of[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
         [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
     const int stages = of[method];
     (void)flow, (void)k;
@@ -197,7 +197,7 @@ static void scatter_trial(const Flow *flow, int k, int method, Integrator *run)
 #endif
     if (method >= BY_RODAS5P && !run->newton.ready) {
         run->counts.jacobians++;
-        run->newton.ready = ELSEWHERE;
+        run->newton.ready = IN_LANE;
     }
 }
 #endif

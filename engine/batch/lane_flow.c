@@ -101,7 +101,7 @@ static int try_together(Flow *flow, int method, int *lists)
         unload_lane(flow, k);
         if (!lost)
             scatter(flow, k, method);
-        some += resume_run(flow, flow->loaded[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
+        some += resume_run(flow, flow->loaded[k], lost ? NOT_TRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
 }
@@ -112,8 +112,8 @@ static int try_together(Flow *flow, int method, int *lists)
  */
 static int advance_lanes(Flow *flow, int *lists)
 {
-    int some = 0, most = 0, count[KINDS];
-    for (int method = 0; method < KINDS; method++) {
+    int some = 0, most = 0, count[LANE_KINDS];
+    for (int method = 0; method < LANE_KINDS; method++) {
         count[method] = lanes_of_method(flow, method);
         most = count[method] > count[most] ? method : most;
     }
@@ -123,7 +123,7 @@ static int advance_lanes(Flow *flow, int *lists)
         if (!has_run(flow, i))
             continue;
         unload_lane(flow, i);
-        some += resume_run(flow, i, UNTRIED, lists);
+        some += resume_run(flow, i, NOT_TRIED, lists);
     }
     return some;
 }

@@ -35,14 +35,14 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
 /* Compute the rates dy of all lanes. */
 static int rates(LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
-    show_states(&run->discrete, y);
+    copy_inner_states(&run->discrete, y);
     motion(t, y, &run->discrete, p, dy, rhs);
-    rates_of_states(rhs, dy);
+    copy_inner_rates(rhs, dy);
     return 0;
 }
 
 /* Compute the steps dq, dv to the closures; lanes without one are marked as rare. Returns `open`. */
-static LaneBits can_close(LaneIntegrator *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p,
+static LaneBits has_closing_step(LaneIntegrator *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p,
     Lanes *dq, Lanes *dv, Lanes *worst)
 {
     singular_thresholds(&run->discrete);

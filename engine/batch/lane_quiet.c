@@ -41,7 +41,7 @@ static void load_quiet_lane(
 /* Return the scale of the times of steps for rounding, s, as open_attempt() does. */
 static Lanes scale_of(const Quiet *quiet, const LaneIntegrator *x)
 {
-    return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(LONG_RUN)), lanes_fabs(x->t));
+    return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(x->t));
 }
 
 /* Accept the tried steps that need no action of their run, and choose the next lengths h. Returns their lanes. */
@@ -49,9 +49,9 @@ static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneSt
 {
     const Lanes t = x->t + step->h;
     const LaneBits now = quiet->open & step->taken & (step->error <= x->control.accept) & (t < quiet->sample)
-        & (step->h < quiet->t_end - x->t) & (step->h >= SHORT_STEP * scale_of(quiet, x))
+        & (step->h < quiet->t_end - x->t) & (step->h >= SHORT_STEP_FRACTION * scale_of(quiet, x))
         & ~not_finite(step->y, step->dy, N_Y);
-    note_works(x, now, step->y);
+    add_works(x, now, step->y);
     for (int j = 0; j < N_Y; j++) {
         x->y[j] = pick(now, step->y[j], x->y[j]);
         x->dy[j] = pick(now, step->dy[j], x->dy[j]);
@@ -59,11 +59,11 @@ static LaneBits accept_quiet_steps(Quiet *quiet, LaneIntegrator *x, const LaneSt
     for (int j = 0; j < N_WORK; j++)
         x->rhs.power[j] = pick(now, step->rhs.power[j], x->rhs.power[j]);
     x->t = pick(now, t, x->t);
-    note_speed(x);
+    update_speeds(x);
     update_error_weights(x);
     quiet->reach = pick(now, x->series.reach, quiet->reach);
     const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->series.reach;
-    *h = pick(now, pick(next > left * SAME_LENGTH, left, next), *h);
+    *h = pick(now, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
     for (int k = 0; k < LANES; k++) {
         quiet->steps[k] -= now[k];
         quiet->open[k] = -(quiet->steps[k] < quiet->unseen[k]);

@@ -5,13 +5,13 @@
 #include "../both/series.h"
 
 /* Reject the steps whose error, known only at their end, is too large. */
-static void refuse_late(const LaneIntegrator *run, LaneStep *step)
+static void reject_late(const LaneIntegrator *run, LaneStep *step)
 {
     step->taken &= ~(step->error > run->control.accept);
 }
 
 /* Do nothing: lanes store no end of a step. */
-static void forget_end(const LaneIntegrator *run) { (void)run; }
+static void discard_end(const LaneIntegrator *run) { (void)run; }
 
 #include "../both/taylor.h"
 

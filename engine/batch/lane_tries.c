@@ -6,7 +6,7 @@
 #include "../both/distance.h"
 
 /* Discard the data of the stages of the previous step. */
-static void forget_stages(LaneStep *step)
+static void discard_stages(LaneStep *step)
 {
     step->n_seen = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
@@ -25,7 +25,7 @@ static void forget_stages(LaneStep *step)
  * Determine the lanes that accept the step, that fail, and whose stages were not found. Returns whether none accepts
  * it.
  */
-static int is_refused(LaneIntegrator *run, LaneStep *step)
+static int is_step_refused(LaneIntegrator *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !TAYLOR
     step->missed = run->newton.missed;
@@ -45,7 +45,7 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
     run->discrete.rare |= not_finite(step->y, NULL, N_Y);
     memcpy(before, step->y, sizeof before);
     project_rows(run, step->t + step->h, step->y, p);
-    run->discrete.rare |= distance_from_rows(run, before, step->y) > FAR_FROM_ROWS;
+    run->discrete.rare |= distance_from_constraints(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
     rates(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     run->discrete.rare |= not_finite(step->dy, NULL, N_Y);
     return 0;
@@ -85,8 +85,8 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
         const Lanes rate = rhs->clearance[i].deltadot;
         step->rate[i][0] = lanes_min_of(step->rate[i][0], rate);
         step->rate[i][1] = lanes_max_of(step->rate[i][1], rate);
-        seen[SEEN_FORCES + i] = square_of_force(rhs, i);
-        seen[SEEN_RATES + i] = rate;
+        seen[STAGE_FORCES + i] = square_of_force(rhs, i);
+        seen[STAGE_GAP_RATES + i] = rate;
     }
 }
 
@@ -107,9 +107,9 @@ static int is_not_a_number(LaneIntegrator *run, Lanes error)
 }
 
 /* Linearize all lanes and factorize Newton's matrix for h gamma = hg. Returns 0. */
-static int make_linear(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
+static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 {
-    show_states(&run->discrete, run->y);
+    copy_inner_states(&run->discrete, run->y);
     linearize(run->t, run->y, run->y + N_X, &run->discrete, p, run->dy + N_X, &run->rhs, &run->newton.linear,
         &run->discrete.rare);
     newton_factor(hg, &run->newton.linear, &run->discrete.rare);
@@ -122,7 +122,7 @@ static int make_linear(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 
 #if IMPLICIT_STAGES
 /* Factorize Newton's matrix at a complex h gamma. Returns 0. */
-static int make_pair(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *pair)
+static int factor_complex_matrix(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLinear *pair)
 {
     pair->p = run->newton.linear.p;
     pair->value = run->newton.linear.value;
@@ -131,18 +131,18 @@ static int make_pair(LaneIntegrator *run, Lanes eta, Lanes eta_i, LaneComplexLin
 }
 
 /* Do nothing: gather_past() has loaded the iteration history. */
-static void look_around(LaneIntegrator *run) { (void)run; } /* gather_past has */
+static void load_iteration_history(LaneIntegrator *run) { (void)run; } /* gather_past has */
 
 /* Count n right-hand sides in the active lanes. */
-static void count_rates(LaneIntegrator *run, LaneBits active, int n)
+static void count_stage_rates(LaneIntegrator *run, LaneBits active, int n)
 {
     run->newton.evaluations += pick(active, all_of(n), all_of(0.0));
 }
 
 /* Begin an iteration of the stages: count n right-hand sides and reset the data of the stages in the active lanes. */
-static void begin_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, int n)
+static void begin_iteration(LaneIntegrator *run, LaneStep *step, LaneBits active, int n)
 {
-    count_rates(run, active, n);
+    count_stage_rates(run, active, n);
     step->n_seen = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = pick(active, all_of(INFINITY), step->lowest[k]);
@@ -157,7 +157,7 @@ static void begin_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, int
 }
 
 /* Store the data of a stage in the active lanes; lanes that have found their stages keep theirs. */
-static void note_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneRhsOutputs *rhs,
+static void record_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneRhsOutputs *rhs,
     double node)
 {
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const seen = step->seen[step->n_seen];
@@ -172,8 +172,8 @@ static void note_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, cons
         const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
         step->rate[i][0] = pick(active, low, old[0]);
         step->rate[i][1] = pick(active, high, old[1]);
-        seen[SEEN_FORCES + i] = pick(active, square_of_force(rhs, i), seen[SEEN_FORCES + i]);
-        seen[SEEN_RATES + i] = pick(active, rate, seen[SEEN_RATES + i]);
+        seen[STAGE_FORCES + i] = pick(active, square_of_force(rhs, i), seen[STAGE_FORCES + i]);
+        seen[STAGE_GAP_RATES + i] = pick(active, rate, seen[STAGE_GAP_RATES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = pick(active, lanes_min_of(step->least[k], y[k]), step->least[k]);
@@ -182,7 +182,7 @@ static void note_pass(LaneIntegrator *run, LaneStep *step, LaneBits active, cons
 }
 
 /* Mark the lanes whose stages were not found. Returns 0. */
-static int stages_lost(LaneIntegrator *run, LaneBits lost)
+static int mark_missed_stages(LaneIntegrator *run, LaneBits lost)
 {
     run->newton.missed = lost & ~run->discrete.rare;
     return 0;
@@ -225,7 +225,7 @@ static int count_possible_events(const LaneIntegrator *run, const LaneStep *step
 }
 
 /* Make the dense output of dop853 if more than one lane needs it; failing lanes leave it to their run. */
-static void make_dense(LaneIntegrator *run, const LaneParameters *p, LaneStep *step)
+static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, LaneStep *step)
 {
     const LaneBits rare = run->discrete.rare;
     if (!any_of(step->taken) || count_possible_events(run, step) < 2)
@@ -249,6 +249,6 @@ static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParame
     step->taken &= ~step->lost;
 #if !TAYLOR
     if (method == BY_DOP853)
-        make_dense(run, p, step);
+        compute_dense_output(run, p, step);
 #endif
 }

@@ -231,7 +231,7 @@ typedef struct {
     Lanes dense[N_DENSE][N_Y];
     int dense_ready, n_seen;
     double node[N_STAGES];
-    Lanes seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
+    Lanes seen[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
         rate[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
     LaneBits taken, lost, missed, no_dense;

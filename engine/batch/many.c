@@ -1,6 +1,6 @@
 /*
  * The time loop of one run and of ensembles, one run after the other: start, steps and report of each without Python.
- * Several threads may work on one Batch, each on its own runs with its own Integrator. Results do not depend on the
+ * CombinedObserver threads may work on one Batch, each on its own runs with its own Integrator. Results do not depend on the
  * other runs.
  */
 #include "batch.h"
@@ -13,9 +13,9 @@ static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 static void request_cancellation_by(const Batch *b, Cancellation *cancellation)
 {
     if (b->ask)
-        start_cancellation(cancellation, b->ask, b->caller, b->every);
+        start_polling(cancellation, b->ask, b->caller, b->every);
     else
-        start_cancellation(cancellation, is_ending, (void *)b, POLL_INTERVAL_S);
+        start_polling(cancellation, is_ending, (void *)b, POLL_INTERVAL_S);
 }
 
 /* Return whether run j has begun and its start was computed here from the same data as that of run i. */
@@ -215,7 +215,7 @@ static int next_single(const Batch *b, long i, int tried, void *integrator)
     int status = 0;
     if (tried != NOT_YET) {
         run->step.method = run->choice.method;
-        if (tried != UNTRIED)
+        if (tried != NOT_TRIED)
             reset_singular_policy(run);
         const int found = tried == TRIED ? 0 : tried == MISSED ? NOT_FOUND : try_step(run, p, &run->step);
         if (!is_step_accepted(run, found, p, &run->step, &status))

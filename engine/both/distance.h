@@ -2,26 +2,26 @@
  * Measures of a trial step: its stiffness, and the distance of its end from the constraint equations before the
  * projection, an error that no estimate contains.
  */
-#define FAR_FROM_ROWS 10.0 /* tolerances: largest distance of a step's end from the constraint equations */
-#define DIGITS_OF_ROWS 1e-10 /* of a coordinate or velocity: changes that may be rounding */
+#define MAX_CONSTRAINT_DRIFT 10.0 /* tolerances: largest distance of a step's end from the constraint equations */
+#define ROUNDING_DIGITS 1e-10 /* of a coordinate or velocity: changes that may be rounding */
 
 /*
  * Return the distance of a step's end from the constraint equations, in tolerances, from the states before and after
  * its projection.
  */
-static Real distance_from_rows(const IntegratorOf *run, const Real *before, const Real *y)
+static Real distance_from_constraints(const IntegratorOf *run, const Real *before, const Real *y)
 {
     Real most = real_of(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
-        most = real_max((real_abs(y[k] - before[k]) - DIGITS_OF_ROWS * real_abs(y[k])) * run->norm.weight[k], most);
+        most = real_max((real_abs(y[k] - before[k]) - ROUNDING_DIGITS * real_abs(y[k])) * run->norm.weight[k], most);
     return most;
 }
 
 /*
- * Return the index in the state of component k (0 ... N_FELT - 1) on which the motion depends. These are coordinates,
+ * Return the index in the state of component k (0 ... N_MOTION - 1) on which the motion depends. These are coordinates,
  * velocities and inner states of laws, but no works.
  */
 static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
 /* Store h rho: the length of a step times the largest rate that its stages show. */
-static inline void note_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }
+static inline void record_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }

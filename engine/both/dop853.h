@@ -122,7 +122,7 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     Real y[N_Y];
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0;
-    forget_stages(step);
+    discard_stages(step);
     for (int i = 0; i < N_Y; i++)
         step->k[0][i] = run->dy[i];
     for (int s = 1; s < DOP853_STAGES; s++) {
@@ -140,20 +140,20 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     step->error = dop853_error(run, step);
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
-    if (is_refused(run, step))
+    if (is_step_refused(run, step))
         return 0;
     /* rho h of the last two stages: beyond about 6 the step is bounded by stability */
     Real change = real_of(0.0), way = real_of(0.0);
     const int status_last = finish_step(run, step, p);
     if (status_last)
         return status_last;
-    for (int k = 0; k < N_FELT; k++) {
+    for (int k = 0; k < N_MOTION; k++) {
         const int i = felt(k);
         const Real by = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - step->k[DOP853_STAGES - 1][i]) * by, change);
         way = real_max(real_abs(step->y[i] - y[i]) * by, way);
     }
-    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     return 0;
 }
 

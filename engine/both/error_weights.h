@@ -2,7 +2,7 @@
 #include "speed.h"
 
 /* Add the works of an accepted step to the energy scale, J. y: the state at its end. */
-static void note_works(IntegratorOf *run, Mask taken, const Real *y)
+static void add_works(IntegratorOf *run, Mask taken, const Real *y)
 {
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
         const Real more = run->norm.energy_scale + real_abs(y[k] - run->y[k]);

@@ -7,7 +7,7 @@ static void project_rows(IntegratorOf *run, Real t, Real *y, const ParametersOf 
     Mask open = is_not((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
         Real dq[N_X], dv[N_X], worst;
-        open = can_close(run, open, t, y, p, dq, dv, &worst);
+        open = has_closing_step(run, open, t, y, p, dq, dv, &worst);
         if (!any_of(open))
             return;
         for (int k = 0; k < N_X; k++) {

@@ -22,10 +22,10 @@ static void RADAU(guess)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
 /* Factorize the real matrix and the complex ones for a step of length h. Returns a status. */
 static int RADAU(factor)(IntegratorOf *run, Real h, ComplexLinearOf *pairs, const ParametersOf *p)
 {
-    int status = make_linear(run, h * (1.0 / RADAU_TABLE.gamma), p);
+    int status = factor_newton_matrix(run, h * (1.0 / RADAU_TABLE.gamma), p);
     for (int k = 0; 2 * k + 1 < RADAU_STAGES && !status; k++) {
         const double re = RADAU_TABLE.pair[k][0], im = RADAU_TABLE.pair[k][1], square = re * re + im * im;
-        status = make_pair(run, h * (re / square), h * (-im / square), &pairs[k]);
+        status = factor_complex_matrix(run, h * (re / square), h * (-im / square), &pairs[k]);
     }
     return status;
 }
@@ -87,7 +87,7 @@ static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], 
 {
     Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
     RhsOutputsOf rhs;
-    begin_pass(run, step, active, RADAU_STAGES);
+    begin_iteration(run, step, active, RADAU_STAGES);
     for (int i = 0; i < N_CLEARANCES; i++) {
         most[i] = real_abs(run->rhs.clearance[i].Fx) + real_abs(run->rhs.clearance[i].Fy);
         change[i] = real_of(0.0);
@@ -98,7 +98,7 @@ static int RADAU(rates)(IntegratorOf *run, Real h, Mask active, Real (*z)[N_Y], 
         const int status = rates(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
         if (status)
             return status;
-        note_pass(run, step, active, y, &rhs, RADAU_TABLE.node[s]);
+        record_pass(run, step, active, y, &rhs, RADAU_TABLE.node[s]);
         for (int i = 0; i < N_CLEARANCES; i++) {
             const Real Fx = rhs.clearance[i].Fx, Fy = rhs.clearance[i].Fy;
             if (!has_film(i))
@@ -201,11 +201,11 @@ static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
     int status = RADAU(factor)(run, h, pairs, p);
     if (status)
         return status;
-    look_around(run);
+    load_iteration_history(run);
     RADAU(guess)(run, h, step->k);
     status = RADAU(stages)(run, h, pairs, p, step, &lost);
     if (!status)
-        status = stages_lost(run, lost);
+        status = mark_missed_stages(run, lost);
     if (status)
         return status;
     for (int i = 0; i < N_Y; i++) {
@@ -216,12 +216,12 @@ static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
         step->y[i] = run->y[i] + step->k[RADAU_STAGES - 1][i];
     }
     step->error = RADAU(error)(run, h, run->dy, bend, r, u);
-    for (int k = 0; k < N_FELT; k++) { /* J u = u/eta - r */
+    for (int k = 0; k < N_MOTION; k++) { /* J u = u/eta - r */
         const int i = felt(k);
         change = real_max(real_abs(by * u[i] - r[i]) * run->norm.weight[i], change);
         way = real_max(real_abs(u[i]) * run->norm.weight[i], way);
     }
-    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     const Mask large = step->error > run->control.accept;
     if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];
@@ -231,10 +231,10 @@ static int RADAU(try)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
         status = rates(run, run->t, y, p, dy, &rhs);
         if (status)
             return status;
-        count_rates(run, large, 1);
+        count_stage_rates(run, large, 1);
         step->error = pick(large, RADAU(error)(run, h, dy, bend, r, u), step->error);
     }
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
-    return is_refused(run, step) ? 0 : finish_step(run, step, p);
+    return is_step_refused(run, step) ? 0 : finish_step(run, step, p);
 }

@@ -103,8 +103,8 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
     Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = real_of(0.0), way = real_of(0.0);
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0;
-    forget_stages(step);
-    int status = make_linear(run, hg, p);
+    discard_stages(step);
+    int status = factor_newton_matrix(run, hg, p);
     if (status)
         return status;
     for (int i = 0; i < N_Y; i++)
@@ -122,7 +122,7 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         rodas5p_right(s, h, f, step->k, r);
         newton_solve(&run->newton.linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages are at one time: f changes between them by J times their difference */
-            for (int k = 0; k < N_FELT; k++) {
+            for (int k = 0; k < N_MOTION; k++) {
                 const int i = felt(k);
                 change = real_max(real_abs(f[i] - before[i]) * run->norm.weight[i], change);
                 way = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], way);
@@ -135,6 +135,6 @@ static int rodas5p_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
-    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
-    return is_refused(run, step) ? 0 : finish_step(run, step, p);
+    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    return is_step_refused(run, step) ? 0 : finish_step(run, step, p);
 }

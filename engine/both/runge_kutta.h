@@ -40,7 +40,7 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const P
     Real y[N_Y], change = real_of(0.0), way = real_of(0.0), worst = real_of(0.0);
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0, step->error = worst;
-    forget_stages(step);
+    discard_stages(step);
     for (int i = 0; i < N_Y; i++)
         step->k[0][i] = run->dy[i];
     for (int s = 1; s <= of->stages; s++) {
@@ -72,15 +72,15 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const P
     step->error = real_max(step->error, worst);
     if (is_not_a_number(run, step->error))
         return NOT_FINITE;
-    if (is_refused(run, step))
+    if (is_step_refused(run, step))
         return 0;
-    for (int k = 0; k < N_FELT; k++) { /* h rho from two states at the end: of the last stage and of the step */
+    for (int k = 0; k < N_MOTION; k++) { /* h rho from two states at the end: of the last stage and of the step */
         const int i = felt(k);
         const Real by = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - step->k[of->stages - 1][i]) * by, change);
         way = real_max(real_abs(step->y[i] - y[i]) * by, way);
     }
-    note_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
     return 0;
 }
 

@@ -1,5 +1,5 @@
 /* Copy the inner states of a state y to the contact states, where the laws read them. */
-static inline void show_states(DiscreteStateOf *discrete, const Real *y)
+static inline void copy_inner_states(DiscreteStateOf *discrete, const Real *y)
 {
 #if LAW_STATES
     for (int k = 0; k < N_STATES; k++)
@@ -10,7 +10,7 @@ static inline void show_states(DiscreteStateOf *discrete, const Real *y)
 }
 
 /* Copy the rates of the inner states from the contacts to dy. */
-static inline void rates_of_states(const RhsOutputsOf *rhs, Real *dy)
+static inline void copy_inner_rates(const RhsOutputsOf *rhs, Real *dy)
 {
 #if LAW_STATES
     for (int k = 0; k < N_STATES; k++)

@@ -92,13 +92,13 @@ static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
     if (free)
         h = real_min(h, run->series.reach);
     step->t = run->t, step->dense_ready = 0;
-    forget_stages(step);
-    note_stability(run, real_of(0.0));
+    discard_stages(step);
+    record_stability(run, real_of(0.0));
     for (int again = 0;; again = 1) {
         step->h = h;
         taylor_both(run, h, step->y, rate);
         step->error = free ? h / run->series.reach : real_of(0.0); /* root of the error: accepted up to 1 */
-        if (!again && is_refused(run, step))
+        if (!again && is_step_refused(run, step))
             return 0;
         status = finish_step(run, step, p);
         if (!free)
@@ -109,9 +109,9 @@ static int taylor_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf 
             break;
         run->series.reach = pick(large, real_min(run->series.reach, taylor_reach_of_all(run)), run->series.reach);
         h = real_min(h, run->series.reach);
-        forget_end(run);
+        discard_end(run);
     }
     step->error = real_max(step->error, defect);
-    refuse_late(run, step);
+    reject_late(run, step);
     return status;
 }

@@ -169,7 +169,7 @@ static int update_modes(Model *m)
         const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
-        const double least = slowest_impact((const Parameters *)m->p, i);
+        const double least = min_approach_speed((const Parameters *)m->p, i);
         m->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
         m->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }

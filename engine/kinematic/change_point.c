@@ -20,7 +20,7 @@ static int is_ill_conditioned(const Position *at)
 }
 
 /* Follow the branch from one regular position to time t, forwards or backwards. Returns a status. */
-static int follow_to(Course *run, double t, const Position *from, Position *to)
+static int follow_to(KinematicRun *run, double t, const Position *from, Position *to)
 {
     double h = t - from->t;
     *to = *from;
@@ -45,7 +45,7 @@ static int follow_to(Course *run, double t, const Position *from, Position *to)
  * Compute 2 PASS_NODES regular positions: node[2 j] and node[2 j + 1] are j + 1 intervals d (s) before and after t.
  * Returns a status.
  */
-static int follow_to_nodes(Course *run, double t, double d, const Position *here, Position *node)
+static int follow_to_nodes(KinematicRun *run, double t, double d, const Position *here, Position *node)
 {
     int status = follow_to(run, t - d, here, &node[0]);
     if (!status)
@@ -88,7 +88,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
         to->s_second[k] = interpolate_middle(node, PASS_NODES, &node->s_second[k]);
     }
 #endif
-    constraints(beyond_jump(t), to->q, p, phi);
+    constraints(after_jump(t), to->q, p, phi);
     to->phi = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
         to->phi = larger_or_nan(to->phi, fabs(phi[r]));
@@ -98,7 +98,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
  * Compute the position at time t, at or near a change point, on the smooth branch that leads there from `here`. Returns
  * 0, or a status if no branch continues, or the polynomials do not agree.
  */
-static int pass_change_point(Course *run, double t, const Position *here, Position *to)
+static int pass_change_point(KinematicRun *run, double t, const Position *here, Position *to)
 {
     const double fastest = angle_norm(here->v, run->extent);
     double d = PASS_TURN / fastest;
@@ -122,7 +122,7 @@ static int pass_change_point(Course *run, double t, const Position *here, Positi
 }
 
 /* Solve the position at time t from a near one, also at a change point. Returns a status. */
-static int solve_position_near(Course *run, double t, const Position *from, Position *to, double *moved)
+static int solve_position_near(KinematicRun *run, double t, const Position *from, Position *to, double *moved)
 {
     const int status = solve_position_at(run, t, from, to, moved);
     if (!status || status == STOPPED || pass_change_point(run, t, from, to))
@@ -135,7 +135,7 @@ static int solve_position_near(Course *run, double t, const Position *from, Posi
  * Begin at given q and v (N_Q), also at a change point, where the velocities must be those of the smooth branch.
  * Returns a status.
  */
-static int set_position_near(Course *run, double t, const double *q, const double *v, Position *here)
+static int set_position_near(KinematicRun *run, double t, const double *q, const double *v, Position *here)
 {
     Position passed;
     double differs[N_Q];

@@ -16,7 +16,7 @@ typedef struct {
 } SampledPosition;
 
 /* Evaluate the event functions at a position. */
-static void evaluate_events(Course *run, SampledPosition *view)
+static void evaluate_events(KinematicRun *run, SampledPosition *view)
 {
     RhsOutputs rhs = {0};
     double a[N_Q];
@@ -34,7 +34,7 @@ enum { N_PLACE = N_X };
 /* Compute the remaining Newton step at a position, and the rates of the position as it is. Returns a status. */
 static int newton_step(Position *at, const Parameters *p, double *step)
 {
-    return close_step(beyond_jump(at->t), at->s, p, step, at->s_rate, &at->phi);
+    return close_step(after_jump(at->t), at->s, p, step, at->s_rate, &at->phi);
 }
 #else
 enum { N_PLACE = N_Q };
@@ -46,9 +46,9 @@ enum { N_PLACE = N_Q };
 static int newton_step(Position *at, const Parameters *p, double *step)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
-    constraints(beyond_jump(at->t), at->q, p, phi);
-    const int status = project(beyond_jump(at->t), at->q, phi, p, step);
-    return status ? status : solve_velocities(beyond_jump(at->t), at->q, p, at->v);
+    constraints(after_jump(at->t), at->q, p, phi);
+    const int status = project(after_jump(at->t), at->q, phi, p, step);
+    return status ? status : solve_velocities(after_jump(at->t), at->q, p, at->v);
 }
 #endif
 
@@ -69,14 +69,14 @@ static void speeds_of(const Position *at, double extent, double *speed)
  * Perturb a position by its rounding errors, with signs by the bits of `mask`, and compute its velocities. Near a
  * singular position, Newton's last step shows that rounding counts for more.
  */
-static void perturb_position(const Course *run, const Position *here, int mask, Position *other)
+static void perturb_position(const KinematicRun *run, const Position *here, int mask, Position *other)
 {
     double step[N_PLACE + 1], *q = positions_of(other);
     *other = *here;
     const int open = !newton_step(other, run->p, step);
     for (int k = 0; k < N_PLACE; k++) {
-        const double size = ROUNDINGS * DBL_EPSILON * max_of(is_turn(k) ? 1.0 : run->extent, fabs(q[k]));
-        q[k] += (k & mask ? -1.0 : 1.0) * (size + (open && isfinite(step[k]) ? LEFT * fabs(step[k]) : 0.0));
+        const double size = ACCUMULATED_ULPS * DBL_EPSILON * max_of(is_turn(k) ? 1.0 : run->extent, fabs(q[k]));
+        q[k] += (k & mask ? -1.0 : 1.0) * (size + (open && isfinite(step[k]) ? CLOSING_STEPS * fabs(step[k]) : 0.0));
     }
     if (newton_step(other, run->p, step))
         memcpy(rates_of(other), rates_of(here), N_PLACE * sizeof *q);
@@ -84,9 +84,9 @@ static void perturb_position(const Course *run, const Position *here, int mask, 
 
 /*
  * Return by how much rounding errors of positions and velocities change event function i; 0 where they include a pole.
- * Several combinations of signs are tried.
+ * CombinedObserver combinations of signs are tried.
  */
-static double event_uncertainty(const Course *run, SampledPosition *here, int i)
+static double event_uncertainty(const KinematicRun *run, SampledPosition *here, int i)
 {
     const Position *at = &here->at;
     double of_q[N_Q] = {0.0}, of_v[N_Q] = {0.0}, speed[2];
@@ -96,7 +96,7 @@ static double event_uncertainty(const Course *run, SampledPosition *here, int i)
         Position other;
         perturb_position(run, at, mask, &other);
 #if POSITIONS_IN_TREE
-        if (arrive(beyond_jump(other.t), other.s, other.s_rate, run->p, other.s_second, other.q, other.v,
+        if (arrive(after_jump(other.t), other.s, other.s_rate, run->p, other.s_second, other.q, other.v,
                 other.a, &other.phi))
             continue;
 #endif
@@ -107,14 +107,14 @@ static double event_uncertainty(const Course *run, SampledPosition *here, int i)
     }
     speeds_of(at, run->extent, speed);
     for (int k = 0; k < N_Q; k++)
-        of_v[k] += ROUNDINGS * DBL_EPSILON * speed[k % 3 == 2];
+        of_v[k] += ACCUMULATED_ULPS * DBL_EPSILON * speed[k % 3 == 2];
     error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, run->p, here->error);
     here->has_error = 1;
     return here->error[N_WATCHED - N_USER_EVENTS + i];
 }
 
 /* Return the value of event function i, whose last sign is `branch`, or 0 if it is below its uncertainty. */
-static double resolved_value(const Course *run, SampledPosition *here, int i, int branch)
+static double resolved_value(const KinematicRun *run, SampledPosition *here, int i, int branch)
 {
     const double f = here->event[i];
     return branch * f > 0.0 || !(fabs(f) <= event_uncertainty(run, here, i)) ? f : 0.0;
@@ -126,7 +126,7 @@ static double resolved_value(const Course *run, SampledPosition *here, int i, in
  * at the ends of this and the n - 1 later parts, the last status.
  */
 typedef struct {
-    Course *run;
+    KinematicRun *run;
     signed char *branch;
     double *t;
     int *event;
@@ -165,7 +165,7 @@ static double value_before(double end, double x)
 /*
  * Evaluate the event function at time t for locate_zero(), and store the position at the matching end of the bracket.
  */
-static int evaluate_event(void *context, double t, Place *now)
+static int evaluate_event(void *context, double t, Sample *now)
 {
     Search *of = context;
     SampledPosition view = of->low;
@@ -185,7 +185,7 @@ static int locate_event(Search *of, int i, const SampledPosition *b, double *t, 
     const ZeroTolerance near = {.width = max_of(1e-13 * (to - from), 4.0 * DBL_EPSILON * fabs(to))};
     Bracket of_zero = {{{from, value_before(end, of->here.event[i]), NAN}, {to, value_before(end, end), NAN}}, 2};
     of->low = of->here, of->high = *b, of->i = i;
-    const int status = locate_zero(evaluate_event, of, &near, MOST_PLACES, guess_zero(&of_zero, 2), &of_zero);
+    const int status = locate_zero(evaluate_event, of, &near, MAX_POINTS, guess_zero(&of_zero, 2), &of_zero);
     if (status)
         return status;
     *t = of_zero.at[1].s;
@@ -300,7 +300,7 @@ static int is_undecided(Search *of, SampledPosition *b)
 }
 
 /*
- * Classify the part from `here` to the last of `end` for first_part(): 1 if `status` ends the search, -1 to halve it.
+ * Classify the part from `here` to the last of `end` for halve_parts(): 1 if `status` ends the search, -1 to halve it.
  */
 static int judge_part(void *context, double a, double b, int small)
 {
@@ -332,7 +332,7 @@ static int search_interval(Search *of, double t1)
         evaluate_events(of->run, of->end);
         of->n = 1;
         of->h = of->end->at.t - of->here.at.t;
-        (void)first_part(of->here.at.t, of->end->at.t, SMALLEST_PART * of->h, judge_part, of);
+        (void)halve_parts(of->here.at.t, of->end->at.t, SMALLEST_PART * of->h, judge_part, of);
         status = of->status;
     }
     return status;
@@ -347,7 +347,7 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
     const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
     long *done)
 {
-    Course *run = integrator;
+    KinematicRun *run = integrator;
     SampledPosition end[DEEPEST + 2];
     Search of = {.run = run, .branch = branch, .t = at, .event = event, .capacity = capacity, .start = start,
         .stop = stop, .end = end};

@@ -7,10 +7,10 @@
  * Compute accelerations and powers by the equations of motion. A positive status is a constraint equation, numbered
  * after the N_ROWS equations of project().
  */
-static int solve_motion(Course *run, const Position *here, double *a, RhsOutputs *rhs)
+static int solve_motion(KinematicRun *run, const Position *here, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation, USUAL_SHARES};
-    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &discrete, run->p, a, rhs);
+    const int status = dynamics(after_jump(here->t), here->q, here->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }
 
@@ -18,7 +18,7 @@ static int solve_motion(Course *run, const Position *here, double *a, RhsOutputs
  * Solve Phi(q, t) = 0 by Newton's method until the correction no longer decreases. moved: incremented by the
  * corrections; left: the last one, rad or fraction of the size. Returns a status.
  */
-static int close_linkage(const Course *run, double t, double *q, double *moved, double *last_correction)
+static int close_linkage(const KinematicRun *run, double t, double *q, double *moved, double *last_correction)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
@@ -65,19 +65,19 @@ static int solve_velocities(double t, const double *q, const Parameters *p, doub
  * Solve position and velocities at time t from a near position; complete_position() adds the accelerations. moved: the
  * correction of the first guess. Returns a status.
  */
-static int solve_position_at(const Course *run, double t, const Position *from, Position *to, double *moved)
+static int solve_position_at(const KinematicRun *run, double t, const Position *from, Position *to, double *moved)
 {
     *moved = 0.0;
     to->t = t;
     to->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         to->q[k] = from->q[k] + (t - from->t) * from->v[k];
-    const int status = close_linkage(run, beyond_jump(t), to->q, moved, &to->last_correction);
-    return status ? status : solve_velocities(beyond_jump(t), to->q, run->p, to->v);
+    const int status = close_linkage(run, after_jump(t), to->q, moved, &to->last_correction);
+    return status ? status : solve_velocities(after_jump(t), to->q, run->p, to->v);
 }
 
 /* Complete a position for a sample: accelerations, |Phi| and |Phi_dot|. Returns a status. */
-static int complete_position(Course *run, Position *here)
+static int complete_position(KinematicRun *run, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     RhsOutputs rhs;
@@ -86,7 +86,7 @@ static int complete_position(Course *run, Position *here)
     const int status = solve_motion(run, here, here->a, &rhs);
     if (status)
         return status;
-    constraints(beyond_jump(here->t), here->q, run->p, phi);
+    constraints(after_jump(here->t), here->q, run->p, phi);
     here->phi = here->phi_dot = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
         here->phi = larger_or_nan(here->phi, fabs(phi[r]));
@@ -96,14 +96,14 @@ static int complete_position(Course *run, Position *here)
 }
 
 /* Set the position at time t to given q and v (N_Q) and complete it. Returns a status. */
-static int set_position(Course *run, double t, const double *q, const double *v, Position *here)
+static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     here->t = t;
     here->interpolated = 0;
     memcpy(here->q, q, sizeof here->q);
     memcpy(here->v, v, sizeof here->v);
-    constraints(beyond_jump(t), q, run->p, phi); /* equations may depend on each other there */
-    here->last_correction = project(beyond_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
+    constraints(after_jump(t), q, run->p, phi); /* equations may depend on each other there */
+    here->last_correction = project(after_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
     return complete_position(run, here);
 }

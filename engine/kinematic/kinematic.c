@@ -38,25 +38,25 @@ typedef struct {
     double t_passed; /* the first of them, s */
     double *step_record; /* rows of t, q, v at the ends of steps, fetched by Python; NULL: not recorded */
     long n_recorded, capacity;
-} Course;
+} KinematicRun;
 
 /* Return the size of the memory of a kinematic analysis, bytes. */
-size_t gudgeon_kinematic_size(void) { return sizeof(Course); }
+size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
 
 /*
- * Initialize a kinematic analysis. reach, extent: see Course. `ask` is called with `caller` every `every` seconds
+ * Initialize a kinematic analysis. reach, extent: see KinematicRun. `ask` is called with `caller` every `every` seconds
  * (0: at each step) and cancels the analysis if it returns nonzero.
  */
 void gudgeon_kinematic_begin(
     void *integrator, double reach, double extent, double t_end, int (*ask)(void *), void *caller, double every)
 {
-    Course *run = integrator;
-    *run = (Course){.reach = reach, .extent = extent, .t_end = t_end};
-    start_cancellation(&run->cancellation, ask, caller, every);
+    KinematicRun *run = integrator;
+    *run = (KinematicRun){.reach = reach, .extent = extent, .t_end = t_end};
+    start_polling(&run->cancellation, ask, caller, every);
 }
 
 /* Begin the motion anew at the next call, from the position given there. */
-void gudgeon_kinematic_restart(void *integrator) { ((Course *)integrator)->motion_begun = 0; }
+void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->motion_begun = 0; }
 
 /*
  * Report progress: times of motion and works (t[2], s), the time gained by the last steps (s), and the number of these
@@ -64,7 +64,7 @@ void gudgeon_kinematic_restart(void *integrator) { ((Course *)integrator)->motio
  */
 void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps)
 {
-    const Course *run = integrator;
+    const KinematicRun *run = integrator;
     t[0] = run->motion.t;
     t[1] = run->work_begun ? run->work.t : NAN;
     *gained = run->monitor.gain;
@@ -75,7 +75,7 @@ void gudgeon_kinematic_progress(const void *integrator, double *t, double *gaine
 /* Return how many samples were interpolated at or near a change point; t: the time of the first one, s. */
 long gudgeon_kinematic_interpolated(const void *integrator, double *t)
 {
-    const Course *run = integrator;
+    const KinematicRun *run = integrator;
     *t = run->t_passed;
     return run->passed;
 }
@@ -83,7 +83,7 @@ long gudgeon_kinematic_interpolated(const void *integrator, double *t)
 /* Record positions at the ends of steps into `capacity` rows; NULL: stop recording. */
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
 {
-    Course *run = integrator;
+    KinematicRun *run = integrator;
     run->step_record = rows;
     run->capacity = capacity;
     run->n_recorded = 0;
@@ -92,14 +92,14 @@ void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
 /* Return the number of rows recorded since the last call; the next row is written to the first one. */
 long gudgeon_kinematic_recorded(void *integrator)
 {
-    Course *run = integrator;
+    KinematicRun *run = integrator;
     const long n = run->n_recorded;
     run->n_recorded = 0;
     return n;
 }
 
 /* Record a position, if recording is requested. */
-static void record_position(Course *run, const Position *here)
+static void record_position(KinematicRun *run, const Position *here)
 {
     if (!run->step_record)
         return;
@@ -180,13 +180,13 @@ static int are_constraints_finite(double t, const Position *here, const Paramete
  * than `reach`, or the positions do not agree with the velocities. Near a dead centre, another branch appears as such a
  * jump. Returns a status.
  */
-static int make_step(Course *run, StepLength *stride, double t1, Position *here)
+static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *here)
 {
     const double straight = 0.002 * run->reach;
     for (;;) {
         Position there, passed;
         double moved = 0.0, bent = 0.0;
-        if (given_up(&run->cancellation))
+        if (is_cancelled(&run->cancellation))
             return STOPPED;
         const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
         const int status = next > here->t ? solve_position_at(run, next, here, &there, &moved) : NEWTON_FAILED;
@@ -219,7 +219,7 @@ static int make_step(Course *run, StepLength *stride, double t1, Position *here)
  * Follow the motion to t1 in steps, record their ends and monitor progress. steps: incremented by their number. Returns
  * a status.
  */
-static int advance(Course *run, double t1, Position *here, long *steps)
+static int advance(KinematicRun *run, double t1, Position *here, long *steps)
 {
     StepLength stride = {t1 - here->t, 0};
     while (here->t < t1) {
@@ -244,7 +244,7 @@ static int advance(Course *run, double t1, Position *here, long *steps)
 int gudgeon_kinematic(void *integrator, long n, const double *t, const double *parameters, double *q, double *v,
     double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
-    Course *run = integrator;
+    KinematicRun *run = integrator;
     Position *here = &run->motion;
     run->p = (const Parameters *)parameters;
     *done = 0;

@@ -5,10 +5,10 @@
  * Compute powers and tree accelerations by the equations of motion. A positive status is a constraint equation,
  * numbered after the N_LOOPS closures.
  */
-static int solve_motion(Course *run, const Position *here, double *a, RhsOutputs *rhs)
+static int solve_motion(KinematicRun *run, const Position *here, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation};
-    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &discrete, run->p, a, rhs);
+    const int status = reduced_dynamics(after_jump(here->t), here->s, here->s_rate, &discrete, run->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
 }
 
@@ -17,7 +17,7 @@ static int solve_motion(Course *run, const Position *here, double *a, RhsOutputs
  * there. Corrections are measured in rad, slides as fractions of the mechanism's size. moved: incremented by the
  * corrections.
  */
-static int close_linkage(const Course *run, double t, Position *at, double *moved)
+static int close_linkage(const KinematicRun *run, double t, Position *at, double *moved)
 {
     double step[N_X + 1], before = INFINITY;
     at->last_correction = 0.0;
@@ -57,7 +57,7 @@ static int is_unbounded(const Position *from, double h, double extent)
  * Solve the position at time t from a near one. First guess: s + h s' + h^2 s''/2, or s + h s' if s'' is unbounded.
  * moved: the correction of the guess. Returns a status.
  */
-static int solve_position_at(const Course *run, double t, const Position *from, Position *to, double *moved)
+static int solve_position_at(const KinematicRun *run, double t, const Position *from, Position *to, double *moved)
 {
     const double h = t - from->t, bend = is_unbounded(from, h, run->extent) ? 0.0 : 0.5 * h;
     *moved = 0.0;
@@ -65,20 +65,20 @@ static int solve_position_at(const Course *run, double t, const Position *from, 
     to->interpolated = 0;
     for (int k = 0; k < N_X; k++)
         to->s[k] = from->s[k] + h * (from->s_rate[k] + (bend != 0.0 ? bend * from->s_second[k] : 0.0));
-    const double then = beyond_jump(t);
+    const double then = after_jump(t);
     const int status = close_linkage(run, then, to, moved);
     return status ? status
         : arrive(then, to->s, to->s_rate, run->p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
 }
 
 /* Do nothing: a position in tree coordinates is complete. */
-static int complete_position(const Course *run, const Position *here) { return (void)run, (void)here, 0; }
+static int complete_position(const KinematicRun *run, const Position *here) { return (void)run, (void)here, 0; }
 
 /*
  * Set the position at time t to given q and v (N_Q). Where closures depend on each other, the equations of motion give
  * the accelerations. Returns a status.
  */
-static int set_position(Course *run, double t, const double *q, const double *v, Position *here)
+static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *here)
 {
     const Parameters *p = run->p;
     double step[N_X + 1], rates[N_X + 1];
@@ -86,8 +86,8 @@ static int set_position(Course *run, double t, const double *q, const double *v,
     here->last_correction = 0.0;
     here->interpolated = 0;
     reduce_state(t, q, v, p, here->s, here->s_rate);
-    if (!close_step(beyond_jump(t), here->s, p, step, rates, &here->phi)
-        && !arrive(beyond_jump(t), here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
+    if (!close_step(after_jump(t), here->s, p, step, rates, &here->phi)
+        && !arrive(after_jump(t), here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
         return 0;
     RhsOutputs rhs;
     here->last_correction = INFINITY;

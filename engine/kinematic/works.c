@@ -3,7 +3,7 @@
  * Compute the powers, W, and the accelerations of all bodies at a position. Returns a status as complete_position()
  * does.
  */
-static int compute_powers(Course *run, Position *here, double *power)
+static int compute_powers(KinematicRun *run, Position *here, double *power)
 {
     RhsOutputs rhs;
 #if POSITIONS_IN_TREE
@@ -23,7 +23,7 @@ static int compute_powers(Course *run, Position *here, double *power)
  * differences are rounding, rad/s. Returns NOT_FINITE if a power is undefined, with its time in work[0].
  */
 static int integrate_work(
-    Course *run, const Position *a, const Position *b, double least, double *work, int *jumped)
+    KinematicRun *run, const Position *a, const Position *b, double least, double *work, int *jumped)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
@@ -71,7 +71,7 @@ static double kinetic_energy_at(const Parameters *p, const Position *at)
  * energy is the work of the drives' impulse. halvings: number left for the whole step. Returns a status.
  */
 static int integrate_work_over_jumps(
-    Course *run, const Position *a, const Position *b, double least, int *halvings, double *work)
+    KinematicRun *run, const Position *a, const Position *b, double least, int *halvings, double *work)
 {
     double part[N_WORK] = {0.0}, moved;
     int jumped = 0;
@@ -104,7 +104,7 @@ static int integrate_work_over_jumps(
 }
 
 /* Add the works of one step, J. Changes of speed by less than 1e-9 of it are not jumps. Returns a status. */
-static int work_of_step(Course *run, const Position *a, const Position *b, double *work)
+static int work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {
     int halvings = MAX_SPLITS;
     const double speed = larger_or_nan(angle_norm(a->v, run->extent), angle_norm(b->v, run->extent));
@@ -118,7 +118,7 @@ static int work_of_step(Course *run, const Position *a, const Position *b, doubl
 int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *parameters, const double *q,
     const double *v, double *work, long *done)
 {
-    Course *run = integrator;
+    KinematicRun *run = integrator;
     Position here = run->work;
     run->p = (const Parameters *)parameters;
     *done = 0;

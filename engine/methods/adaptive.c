@@ -14,7 +14,7 @@ static void update_event_signs_inside(Integrator *run, Step *step, double fracti
     int unknown = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
         unknown |= run->discrete.event_sign[i] == 0;
-    if (!unknown || event < 0 || !(event < N_CLEARANCES || is_friction) || make_dense(run, p, step))
+    if (!unknown || event < 0 || !(event < N_CLEARANCES || is_friction) || compute_dense_output(run, p, step))
         return;
     for (int part = 1; part < N_SIGN_PARTS; part++) {
         double y[N_Y], dy[N_Y];
@@ -39,7 +39,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
         return status;
     find_inner_peaks(run, step, fraction, p);
     flip_ignored_branches(run, step);
-    note_works(run, 1, step->y);
+    add_works(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
         run->dy[k] = step->dy[k];
@@ -51,10 +51,10 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     count_step(run, !!step->method->stiff);
     discard_linearization(run);
     discard_series(run);
-    note_speed(run);
+    update_speeds(run);
     update_error_weights(run);
     for (int i = 0; i < N_CLEARANCES; i++)
-        note_turn(run, i, run->rhs.clearance[i].deltadot);
+        update_compression(run, i, run->rhs.clearance[i].deltadot);
     const double drift = run->residuals.phi_dot_max; /* at a jump of a drive, rates are those before the impulse */
     status = record_accepted_state(run, p);
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
@@ -82,7 +82,7 @@ static int sample_step(Integrator *run, Step *step, double t_new, const Paramete
     for (; *out->done < out->n && out->t[*out->done] < t_new; ++*out->done) {
         const double t = out->t[*out->done];
         double now[N_Y];
-        const int status = make_dense(run, p, step);
+        const int status = compute_dense_output(run, p, step);
         if (status)
             return status;
         interpolate(run, step, (t - step->t) / step->h, now);
@@ -105,7 +105,7 @@ static int record_inside_step(Integrator *run, Step *step, double fraction, int 
     const double offset = max_of(JUMP_OFFSET * fraction, located);
     if (!run->step_record.rows)
         return 0;
-    int status = make_dense(run, p, step);
+    int status = compute_dense_output(run, p, step);
     for (int k = !run->step_record.jumped; k < RECORD_PARTS + jumps && !status; k++) {
         const double s = k == 0 ? offset : k == RECORD_PARTS ? fraction - offset : fraction * k / RECORD_PARTS;
         const double t = step->t + s * step->h;
@@ -161,7 +161,7 @@ static int is_dense_output_missing(Integrator *run, Step *step, const Parameters
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
     const int needed = step->dense_ready == FAILED || out->t[*out->done] < step->t + step->h;
-    const int failed = needed && make_dense(run, p, step);
+    const int failed = needed && compute_dense_output(run, p, step);
     restore_evaluations(run, evaluations);
     return failed;
 }
@@ -228,9 +228,9 @@ static int needs_step(Integrator *run, int last, const Parameters *p, const Samp
         return 0;
     if (run->cancellation.stop)
         *status = STOPPED;
-    else if (lists_full(run))
+    else if (has_full_lists(run))
         *status = EVENTS_FULL;
-    else if (run->control.fixed <= 0.0 && stalls(run, t_end))
+    else if (run->control.fixed <= 0.0 && is_stalled(run, t_end))
         *status = diagnose_stall(run, STALLED, p);
     else
         open_attempt(run, t_end, p);

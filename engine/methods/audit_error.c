@@ -96,7 +96,7 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
         if (step->passed[k])
             return;
     if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE
-        || make_dense(run, p, step))
+        || compute_dense_output(run, p, step))
         return; /* the first step projects a start that violates the constraints */
     const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
@@ -113,7 +113,7 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
         error[k] = h * mean[k];
     double worst = stiff ? INFINITY : largest_error(run, step, error, limit, &most);
     if (worst > 1.0) {
-        if (make_linear(run, h, p))
+        if (factor_newton_matrix(run, h, p))
             return;
         newton_solve(&run->newton.linear, h, 0.0, mean, error);
         worst = largest_error(run, step, error, limit, &most);

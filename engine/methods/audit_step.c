@@ -49,7 +49,7 @@ static double scaled_defect(Integrator *run, const Step *step, const double *y, 
             if (size > defect * limit)
                 defect = size / limit, least = size * AUDIT_DEFECT / limit;
         }
-        if (pass || defect <= 1.0 || !step->method->stiff || has_films() || make_linear(run, h, p))
+        if (pass || defect <= 1.0 || !step->method->stiff || has_films() || factor_newton_matrix(run, h, p))
             break;
         newton_solve(&run->newton.linear, h, 0.0, missed, off);
     }
@@ -132,7 +132,7 @@ static void check_inside(Integrator *run, Step *step, double theta, int drawn, c
     const double t = step->t + theta * step->h;
     double y[N_Y], dy[N_Y], all[N_S];
     RhsOutputs rhs;
-    if (make_dense(run, p, step))
+    if (compute_dense_output(run, p, step))
         return;
     if (run->counts.steps == 0) { /* the first step projects a start that violates the constraints */
         interpolate(run, step, theta, y);
@@ -156,7 +156,7 @@ static int event_has_zero(Integrator *run, Step *step, double fraction, int i, c
     const double before = run->rhs.event[i], after = step->rhs.event[i];
     double nearest = INFINITY;
     RhsOutputs rhs;
-    for (int n = 0; n < AUDIT_HALVINGS && make_dense(run, p, step) == 0; n++) {
+    for (int n = 0; n < AUDIT_HALVINGS && compute_dense_output(run, p, step) == 0; n++) {
         const double middle = 0.5 * (low + high);
         if (state_at(run, step, middle, p, y, dy, &rhs))
             return 0;

@@ -9,7 +9,7 @@ static int set_initial_branches(Integrator *run, const Parameters *p)
         for (int i = 0; i < N_USER_EVENTS; i++)
             zeros |= run->discrete.event_sign[i] == 0;
         const double ahead = fraction * run->control.h; /* s */
-        const int status = zeros ? events_ahead(run, run->t, ahead, run->y, run->dy, p, value) : 0;
+        const int status = zeros ? evaluate_events_ahead(run, run->t, ahead, run->y, run->dy, p, value) : 0;
         if (status || !zeros)
             return fraction > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)
@@ -92,7 +92,7 @@ static int begin_run(Integrator *run, const Parameters *p)
         double all[N_S];
         to_absolute(run->t, run->y, &run->discrete, p, all);
         if (drives_jump(run->t, all, all + N_Q, p))
-            project_state(run, ahead_of(run->t), run->y, p);
+            project_state(run, just_after(run->t), run->y, p);
     }
     const int status = begin_state(run, p);
     if (DRIVE_IMPULSES)
@@ -113,7 +113,7 @@ static int begin_adaptive(Integrator *run, double left, const Parameters *p)
     if (!status)
         status = update_branches(run, -1, p);
     set_speed_floors(run, left, p);
-    note_speed(run);
+    update_speeds(run);
     /* error weights are its inverse */
     run->norm.energy_scale = max_of(initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
     set_inner_state_weights(run, p);

@@ -93,7 +93,7 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
 {
     int where;
     const double ends = max_of(largest_film_force(&step->rhs, &where), largest_film_force(&run->rhs, &where));
-    const double fraction = make_dense(run, p, step)
+    const double fraction = compute_dense_output(run, p, step)
         ? -1.0 : relative_film_error_at(run, step, step->method->between, ends, p);
     if (fraction < 0.0)
         return 0.0;

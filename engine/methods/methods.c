@@ -71,18 +71,18 @@ static void copy_from_lane(const double *lane, int lanes, int rows, double (*to)
             to[k][i] = lane[(k * N_Y + i) * lanes];
 }
 
-static void forget_samples(Integrator *run); /* watch/roots.c */
+static void discard_samples(Integrator *run); /* watch/roots.c */
 
 /* Compute the dense output of a step once, and return 0 or the status: an additional stage may not be computable. */
-static int make_dense(Integrator *run, const Parameters *p, Step *step)
+static int compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
-    const int there = step->dense_ready == ELSEWHERE;
-    if (step->dense_ready == HERE)
+    const int there = step->dense_ready == IN_LANE;
+    if (step->dense_ready == IN_RUN)
         return 0;
     if (step->dense_ready == FAILED)
         return step->dense_status;
-    step->dense_ready = HERE;
-    forget_samples(run);
+    step->dense_ready = IN_RUN;
+    discard_samples(run);
     if (there) {
         copy_from_lane(step->dense_lane, step->lanes, N_DENSE, step->dense);
         count_evaluations(run, step->method->more);

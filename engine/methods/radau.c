@@ -4,7 +4,7 @@
  * Factorize Newton's matrix at the complex number eta + i eta_i, for the linearization of the run. Return 0 or
  * NOT_FINITE.
  */
-static int make_pair(Integrator *run, double eta, double eta_i, ComplexLinear *pair)
+static int factor_complex_matrix(Integrator *run, double eta, double eta_i, ComplexLinear *pair)
 {
     pair->p = run->newton.linear.p;
     pair->value = run->newton.linear.value;
@@ -12,20 +12,20 @@ static int make_pair(Integrator *run, double eta, double eta_i, ComplexLinear *p
 }
 
 /* Update the iteration history before a step. */
-static void look_around(Integrator *run) { update_iteration_history(run); }
+static void load_iteration_history(Integrator *run) { update_iteration_history(run); }
 
 /* Do nothing: for one run, rates() counts its evaluations. */
-static void count_rates(Integrator *run, int active, int n) { (void)run, (void)active, (void)n; }
+static void count_stage_rates(Integrator *run, int active, int n) { (void)run, (void)active, (void)n; }
 
 /* Begin an iteration of the stages: discard what the last iteration recorded of the stages. */
-static void begin_pass(Integrator *run, Step *step, int active, int n)
+static void begin_iteration(Integrator *run, Step *step, int active, int n)
 {
     (void)run, (void)active, (void)n;
-    forget_stages(step);
+    discard_stages(step);
 }
 
 /* Record the state and the outputs of the right-hand side at a stage of an iteration. */
-static void note_pass(Integrator *run, Step *step, int active, const double *y, const RhsOutputs *rhs, double node)
+static void record_pass(Integrator *run, Step *step, int active, const double *y, const RhsOutputs *rhs, double node)
 {
     (void)active;
     record_stage_state(step, y);
@@ -33,7 +33,7 @@ static void note_pass(Integrator *run, Step *step, int active, const double *y, 
 }
 
 /* Return the status of a step whose iteration of stages failed (`lost`): the step is rejected. */
-static int stages_lost(Integrator *run, int lost) { return (void)run, lost ? NOT_FOUND : 0; }
+static int mark_missed_stages(Integrator *run, int lost) { return (void)run, lost ? NOT_FOUND : 0; }
 
 #include "../both/radau.h"
 

@@ -7,17 +7,17 @@
  * Linearize the equations at the run's state once, and factorize Newton's matrix for hg = h gamma (s). Return 0 or the
  * status. A linearization counts once in a step.
  */
-static int make_linear(Integrator *run, double hg, const Parameters *p)
+static int factor_newton_matrix(Integrator *run, double hg, const Parameters *p)
 {
-    if (run->newton.ready != HERE) {
-        show_states(&run->discrete, run->y);
+    if (run->newton.ready != IN_RUN) {
+        copy_inner_states(&run->discrete, run->y);
         const int lost = linearize_state(run->t, run->y, &run->discrete, p, run->dy + N_X, &run->rhs,
             &run->newton.linear);
         if (lost)
             return lost;
         if (!run->newton.ready)
             count_jacobian(run);
-        run->newton.ready = HERE;
+        run->newton.ready = IN_RUN;
     }
     return newton_factor(hg, &run->newton.linear) ? NOT_FINITE : 0;
 }

@@ -49,15 +49,15 @@ typedef struct {
 static StageValues stage_values(const Step *step, int k)
 {
     return step->seen_lane
-        ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
-        : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_SEEN)};
+        ? (StageValues){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_STAGE_VALUES) * step->lanes}
+        : (StageValues){&step->seen[0][k], AT_LEAST_ONE(N_STAGE_VALUES)};
 }
 
 /* Return the value of the i-th stage. */
 static double stage_value(StageValues of, int i) { return of.first[i * of.stride]; }
 
 /* Discard what is stored of the stages of a step. */
-static void forget_stages(Step *step)
+static void discard_stages(Step *step)
 {
     step->n_seen = 0;
     step->seen_lane = NULL;
@@ -89,8 +89,8 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
         const Clearance *joint = &rhs->clearance[i];
         step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
         step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
-        seen[SEEN_FORCES + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
-        seen[SEEN_RATES + i] = joint->deltadot;
+        seen[STAGE_FORCES + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
+        seen[STAGE_GAP_RATES + i] = joint->deltadot;
     }
 }
 
@@ -109,7 +109,7 @@ static void record_stage_state(Step *step, const double *y)
  * Compute the corrections dq, dv that close the constraints at a state, if `open`. *worst: the largest residual. Return
  * whether the corrections are finite.
  */
-static int can_close(Integrator *run, int open, double t, const double *y, const Parameters *p,
+static int has_closing_step(Integrator *run, int open, double t, const double *y, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
     return open && !closing_of_state(t, y, &run->discrete, p, dq, dv, worst) && all_finite(dq, N_X)
@@ -178,7 +178,7 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 static int is_not_a_number(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
 /* Return whether the error of a step exceeds the accepted one. */
-static int is_refused(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
+static int is_step_refused(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
  * Project the end of a step onto the constraints and closed contacts, and evaluate the right-hand side there. A large
@@ -193,11 +193,11 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
     project_if_needed(run, step->t + step->h, step->y, p);
-    const double missed = distance_from_rows(run, before, step->y);
-    if (missed > max_of(FAR_FROM_ROWS, CONSTRAINT_ROUNDING / tolerance_of(run)) && run->counts.steps > 0
+    const double missed = distance_from_constraints(run, before, step->y);
+    if (missed > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / tolerance_of(run)) && run->counts.steps > 0
         && run->control.attempt.n_strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
     project_closed_contacts(run, step->t + step->h, step->y, p);
-    const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
+    const int status = evaluate_rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }

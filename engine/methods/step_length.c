@@ -31,18 +31,18 @@
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
 #define MIN_PARTING 0.1         /* of a step: an earlier separation does not shorten it */
 enum { PATIENCE = 8, MAX_PATIENCE = 4096,
-    WORTHWHILE = 400 /* steps with a method after which the next return to it is as easy as the first */,
+    LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
     MAX_AGAINST = 3 /* successive steps against the explicit method until the change */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
-#define WORTH 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
+#define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
 #define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
-#define SLACK 2.5     /* h rho below which the explicit method is cheaper */
+#define MAX_EXPLICIT_STABILITY 2.5     /* h rho below which the explicit method is cheaper */
 #define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
 #define ORDER_DECAY 0.95    /* factor on that order after each step */
 
@@ -85,7 +85,7 @@ static void change_method(Integrator *run)
 {
     const int stiff = run->choice.method->stiff;
     if (!stiff)
-        run->choice.patience = run->choice.since > WORTHWHILE ? PATIENCE
+        run->choice.patience = run->choice.since > LASTING_STEPS ? PATIENCE
             : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
     run->choice.method = stiff ? EXPLICIT : run->choice.implicit;
@@ -128,16 +128,16 @@ static void choose_method(Integrator *run, const Parameters *p)
 {
     /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
-        && run->control.h < WORTH * run->control.h_stiff;
+        && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.stability;
-    const int against = stiff ? stability < SLACK : stability > run->choice.method->bounded || slower;
+    const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
     run->choice.n_against = against ? run->choice.n_against + 1 : 0;
     run->choice.since++;
     if (!run->choice.automatic || run->choice.n_against < (stiff ? run->choice.patience : MAX_AGAINST))
         return;
     const double rate = stiff ? largest_rate(run, p) : 0.0;
-    if (rate * run->control.h < SLACK)
+    if (rate * run->control.h < MAX_EXPLICIT_STABILITY)
         change_method(run);
     else
         run->choice.n_against = -RECONSIDER_STEPS;
@@ -159,7 +159,7 @@ static double approximate_power(double x, double n) { return rough_exp2(n * roug
 static double limited_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
 
 /* Return the factor on the length of a rejected step for the next attempt. Two successive errors show their order. */
-static double shrink(Integrator *run, const Step *step)
+static double shrink_factor(Integrator *run, const Step *step)
 {
     Attempt *now = &run->control.attempt;
     double order = error_order(run, step);
@@ -221,7 +221,7 @@ static void next_length(Integrator *run, const Step *step, int again, int whole)
     if (!step->method->stiff && stability > 1.0)
         factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
     factor = min_of(factor, observed_growth(run, step, again));
-    const double most = again ? 1.0 /* [1] */ : step->is_searched ? MAX_GROWTH_EVENTS : MAX_GROWTH;
+    const double most = again ? 1.0 /* [1] */ : step->has_zero_bracket ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(most, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
     record_first_step(run, step);
@@ -281,7 +281,7 @@ static double fixed_step_length(Integrator *run, double t_end, double *end)
         if (*end > run->t || *end == t_end)
             break;
     }
-    h = *end - run->t < h * SAME_LENGTH ? *end - run->t : h;
+    h = *end - run->t < h * EQUAL_LENGTH_RATIO ? *end - run->t : h;
     if (control->h >= h)
         return h;
     *end = run->t + control->h;
@@ -294,7 +294,7 @@ static double fixed_step_length(Integrator *run, double t_end, double *end)
  */
 static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
-    const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
+    const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), MAX_RUN_SCALE_S), fabs(run->t));
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
         h = fixed_step_length(run, t_end, &end);
@@ -303,7 +303,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
         h = limit_by_flight(
             run, limit_by_separation(run, min_of(limit_by_rejected(run, h), flight_step_limit(run, NULL, p))), p);
-        h = h > left * SAME_LENGTH ? left : h;
+        h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
         .lane = run->choice.method->lane, .film_error_norm = INFINITY};
@@ -373,13 +373,13 @@ static int is_step_accepted(Integrator *run, int tried, const Parameters *p, Ste
     }
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
-        const int is_short = now->h < SHORT_STEP * now->far;
-        *status = note_short_step(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
+        const int is_short = now->h < SHORT_STEP_FRACTION * now->far;
+        *status = is_stuck_in_short_steps(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;
     count_rejected(run);
-    now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink(run, step);
+    now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink_factor(run, step);
     if (now->h > least)
         return retry_step(run);
     if (N_SWITCHES > 0 && tried == NOT_FINITE && run->discrete.held) {

@@ -16,27 +16,27 @@ static int taylor_order(double fraction)
     return order > TAYLOR_ORDERS ? TAYLOR_ORDERS : order < MIN_TAYLOR_ORDER ? MIN_TAYLOR_ORDER : (int)order;
 }
 
-/* Several components of the state in one vector register. */
+/* CombinedObserver components of the state in one vector register. */
 typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
 /* Do nothing: for one run, step->error is tested after the step. */
-static void refuse_late(const Integrator *run, const Step *step) { (void)run, (void)step; }
+static void reject_late(const Integrator *run, const Step *step) { (void)run, (void)step; }
 
 /* Subtract the second evaluation at the end of a step: both count as one, as in lanes. */
-static void forget_end(Integrator *run) { count_evaluations(run, -1); }
+static void discard_end(Integrator *run) { count_evaluations(run, -1); }
 
 #include "../both/taylor.h"
 
 /* Compute the series at the state of the run, and the longest step of it, once for all steps tried there. */
 static int expand_series(Integrator *run, const Parameters *p)
 {
-    if (run->series.ready == HERE)
+    if (run->series.ready == IN_RUN)
         return 0;
     const int n = run->series.order, status = taylor_series(run->t, run->y, p, n, run->series.terms);
     if (status)
         return status;
-    count_evaluations(run, run->series.ready != ELSEWHERE);
+    count_evaluations(run, run->series.ready != IN_LANE);
     run->series.reach = taylor_reach(run);
-    run->series.ready = HERE;
+    run->series.ready = IN_RUN;
     return 0;
 }
 
@@ -57,12 +57,12 @@ static int taylor_try(Integrator *run, double h, const Parameters *p, Step *step
 static void fetch_series(Integrator *run)
 {
     const double *from = run->series.lane;
-    if (run->series.ready != ELSEWHERE)
+    if (run->series.ready != IN_LANE)
         return;
     for (int k = 0; k <= run->series.order; k++)
         for (int i = 0; i < N_Y; i++)
             run->series.terms[k][i] = from[(k * TAYLOR_Y + i) * run->series.lanes];
-    run->series.ready = HERE;
+    run->series.ready = IN_RUN;
 }
 
 /* Compute the coefficients of the series by fractions of the step, which interval bounds need. */

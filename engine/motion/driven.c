@@ -29,7 +29,7 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
 }
 
 /* Evaluate the contacts of joints with play at a state, without accelerations. Returns a status. */
-int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
+int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     TreeState at;
     const int status = tree_state(t, y, discrete, p, &at);
@@ -87,7 +87,7 @@ void from_absolute(double t, const double *all, DiscreteState *discrete, const P
 {
     TreeState at;
     reduce_state(t, all, all + N_Q, p, at.q, at.v);
-    seat_chains(t, at.q + N_X, discrete, p);
+    solve_driven_loops(t, at.q + N_X, discrete, p);
     for (int k = 0; k < N_X; k++) {
         y[k] = at.q[k];
         y[N_X + k] = at.v[k];

@@ -1,7 +1,7 @@
 /*
  * Build the state that the tree's kernels read from q and v of a call; driven loops are solved at t. Returns a status.
  */
-static int outside_state(
+static int close_tree_state(
     double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *at)
 {
     double y[N_Y];
@@ -9,7 +9,7 @@ static int outside_state(
         y[k] = q[k];
         y[N_X + k] = v[k];
     }
-    seat_chains(t, q + N_X, discrete, p);
+    solve_driven_loops(t, q + N_X, discrete, p);
     return tree_state(t, y, discrete, p, at);
 }
 
@@ -18,7 +18,7 @@ void gudgeon_expand(double t, const double *q, const double *v, const double *p,
 {
     DiscreteState now = {0};
     TreeState at = {0};
-    outside_state(t, q, v, &now, (const Parameters *)p, &at);
+    close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
     expand(t, at.q, at.v, (const Parameters *)p, all_q, all_v);
 }
 
@@ -39,7 +39,7 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
     RhsOutputs rhs;
     TreeState at;
     read_discrete_state(discrete, &now);
-    int status = outside_state(t, q, v, &now, (const Parameters *)p, &at);
+    int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
     if (status)
         return status;
     status = reduced_dynamics(t, at.q, at.v, &now, (const Parameters *)p, a, &rhs);
@@ -55,7 +55,7 @@ void gudgeon_closures(double t, const double *q, const double *v, const double *
 {
     DiscreteState now = {0};
     TreeState at = {0};
-    outside_state(t, q, v, &now, (const Parameters *)p, &at);
+    close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
     closures(t, at.q, (const Parameters *)p, phi);
     closure_rates(t, at.q, at.v, (const Parameters *)p, phi_dot);
 }
@@ -65,7 +65,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 {
     DiscreteState now = {0};
     TreeState at;
-    const int status = outside_state(t, q, q, &now, (const Parameters *)p, &at);
+    const int status = close_tree_state(t, q, q, &now, (const Parameters *)p, &at);
     return status ? status : reduced_project(t, at.q, r, (const Parameters *)p, x);
 }
 
@@ -78,7 +78,7 @@ int gudgeon_reduced_rescue(
     RhsOutputs rhs;
     TreeState at;
     read_discrete_state(discrete, &now);
-    const int status = outside_state(t, q, v, &now, (const Parameters *)p, &at);
+    const int status = close_tree_state(t, q, v, &now, (const Parameters *)p, &at);
     return status ? status : solve_by_absolute(t, at.q, at.v, &now, (const Parameters *)p, a, &rhs);
 }
 
@@ -90,7 +90,7 @@ int gudgeon_reduced_rescue(
 int gudgeon_chains(double t, double *q, const double *p, double *v)
 {
     DiscreteState now = {0};
-    seat_chains(t, q, &now, (const Parameters *)p);
+    solve_driven_loops(t, q, &now, (const Parameters *)p);
     for (int k = 0; k < N_CHAIN; k++)
         q[k] = now.chain.q[k];
     for (int k = 0; k < 3 * N_CHAIN; k++)
@@ -111,7 +111,7 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
     DiscreteState now = {0};
     RhsOutputs rhs;
     read_discrete_state(discrete, &now);
-    seat_chains(t, q + N_X, &now, p);
+    solve_driven_loops(t, q + N_X, &now, p);
     const double speed = hypot(now.chain.v[0], 1e-6), ahead = 0.1 / speed;
     for (int k = 0; k < N_X; k++) {
         y[k] = q[k];

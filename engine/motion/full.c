@@ -5,7 +5,7 @@ int motion_here(double t, const double *y, DiscreteState *discrete, const Parame
 }
 
 /* Evaluate the contacts of joints with play at a state. Returns a status. */
-int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
+int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
     return state_equation(t, y, discrete, p, dy, rhs);

@@ -9,7 +9,7 @@
 #include "../both/motion.h"
 
 /* Evaluate the contacts of joints with play at a state, without accelerations. Returns a status. */
-int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
+int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     return reduced_dynamics(t, y, y + N_X, discrete, p, NULL, rhs);
 }

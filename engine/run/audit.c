@@ -243,7 +243,7 @@ static double event_location_tolerance(const Integrator *run)
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
 }
 
-static int make_dense(Integrator *run, const Parameters *p, Step *step);
+static int compute_dense_output(Integrator *run, const Parameters *p, Step *step);
 static int state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs);
 
@@ -256,7 +256,7 @@ static int has_just_jumped(Integrator *run, Step *step, double t, int k, const P
     const double fraction = (t - event_location_tolerance(run) - step->t) / step->h;
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    return fraction <= 0.0 || make_dense(run, p, step) || state_at(run, step, fraction, p, y, dy, &rhs)
+    return fraction <= 0.0 || compute_dense_output(run, p, step) || state_at(run, step, fraction, p, y, dy, &rhs)
         || run->discrete.branch[k] * rhs.g[k] >= 0.0;
 }
 

@@ -43,7 +43,7 @@ int poll_cancellation(Cancellation *token)
 }
 
 /* Start polling `ask(caller)` every `every` seconds; ask NULL: never. */
-void start_cancellation(Cancellation *token, int (*ask)(void *), void *caller, double every)
+void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double every)
 {
     *token = (Cancellation){.ask = ask, .caller = caller, .every = every};
 }

@@ -23,7 +23,7 @@ typedef struct {
 } ProgressMonitor;
 
 double seconds_now(void);
-void start_cancellation(Cancellation *token, int (*ask)(void *), void *caller, double every);
+void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double every);
 int has_stalled(ProgressMonitor *monitor, double t, double t_end);
 long steps_before_check(const ProgressMonitor *monitor);
 
@@ -34,7 +34,7 @@ static inline void defer_stop(Cancellation *token) { token->hold = 1; }
 static inline void allow_stop(Cancellation *token) { token->hold = 0; }
 
 /* Count a right-hand side, poll the caller if due, and return whether the computation must stop. */
-static inline int given_up(Cancellation *token)
+static inline int is_cancelled(Cancellation *token)
 {
     return ++token->count > token->poll_after && poll_cancellation(token);
 }

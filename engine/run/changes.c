@@ -38,7 +38,7 @@ static int has_unchanged_sign(Integrator *run, int i, const double *before, cons
 {
     double value[N_USER_EVENTS];
     return memcmp(before, run->discrete.branch, sizeof run->discrete.branch)
-        && !events_ahead(run, run->t, event_location_tolerance(run), run->y, run->dy, p, value)
+        && !evaluate_events_ahead(run, run->t, event_location_tolerance(run), run->y, run->dy, p, value)
         && run->discrete.event_sign[i] * value[i] > 0.0;
 }
 #else
@@ -88,7 +88,7 @@ static void cross_event(Integrator *run, int k, const Parameters *p)
     if (k < N_CLEARANCES && !gives(k))
         return; /* update_contacts() changes all rigid contacts */
     if (k < N_CLEARANCES)
-        cross_contact(run, k, slowest_impact(p, k));
+        cross_contact(run, k, min_approach_speed(p, k));
     else if (k < N_CLEARANCES + N_SWITCHES) {
         const int switch_index = k - N_CLEARANCES;
         run->discrete.branch[switch_index] *= -1.0;
@@ -187,13 +187,13 @@ static int pass_drive_jumps_here(Integrator *run, const Parameters *p)
     int some = 0;
     for (int k = 0; k < N_SWITCHES; k++)
         before[k] = run->discrete.branch[k];
-    int status = update_branches_just_after(run, ahead_of(run->t), -1, p);
+    int status = update_branches_just_after(run, just_after(run->t), -1, p);
     for (int k = 0; k < N_SWITCHES; k++)
         some |= before[k] != run->discrete.branch[k];
     if (status || !some)
         return status;
     apply_drive_impulse(run, p);
-    status = update_branches_just_after(run, ahead_of(run->t), -1, p);
+    status = update_branches_just_after(run, just_after(run->t), -1, p);
     if (!status)
         status = rates(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)

@@ -39,7 +39,7 @@ static void start_contacts(Integrator *run, double t, const double *latched)
 static void set_contact_codes(Integrator *run, const signed char *state)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        run->contacts.compressing[i] = state[i] == CODE_IMPACT;
+        run->contacts.is_compressing[i] = state[i] == CODE_IMPACT;
 }
 
 /*
@@ -102,7 +102,7 @@ static void close_joint(Integrator *run, int i, double t, double deltadot, doubl
 {
     run->discrete.contact[i].closed = 1;
     run->discrete.contact[i].deltadot_minus = max_of(deltadot, floor);
-    run->contacts.compressing[i] = 1;
+    run->contacts.is_compressing[i] = 1;
     run->contacts.is_rising[i] = 1;
     reset_inner_states(run, i);
     run->contacts.onsets++;
@@ -129,7 +129,7 @@ static inline int set_contact_closed(Integrator *run, int i, int closes)
     contact->closed = closes;
     if (closes == was)
         return 0;
-    run->contacts.compressing[i] = 0;
+    run->contacts.is_compressing[i] = 0;
     if (closes) {
         contact->deltadot_minus = 0.0;
         for (int k = run->contacts.n_impacts - 1; k >= 0 && run->contacts.impacts[k].t_on == run->t; k--)
@@ -157,11 +157,11 @@ static int begin_contacts_of_start(Integrator *run, const Parameters *p)
         if (!gives(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!closed && touches)
-            close_joint(run, i, run->t, fabs(now->deltadot), slowest_impact(p, i));
+            close_joint(run, i, run->t, fabs(now->deltadot), min_approach_speed(p, i));
         else if (closed && now->delta < 0.0)
             open_joint(run, i, run->t);
         changed |= closed != run->discrete.contact[i].closed;
-        note_turn(run, i, now->deltadot);
+        update_compression(run, i, now->deltadot);
     }
     return changed;
 }

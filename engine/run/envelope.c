@@ -3,13 +3,13 @@
 static void extend_force_envelope(Integrator *run, int i, double t, double F)
 {
     double *columns = run->envelope.rows[run->envelope.row].joint[i];
-    if (F < columns[TRACE_F_low]) {
-        columns[TRACE_F_low] = F;
-        columns[TRACE_t_F_low] = t;
+    if (F < columns[ENVELOPE_F_low]) {
+        columns[ENVELOPE_F_low] = F;
+        columns[ENVELOPE_t_F_low] = t;
     }
-    if (F > columns[TRACE_F_high]) {
-        columns[TRACE_F_high] = F;
-        columns[TRACE_t_F_high] = t;
+    if (F > columns[ENVELOPE_F_high]) {
+        columns[ENVELOPE_F_high] = F;
+        columns[ENVELOPE_t_F_high] = t;
     }
 }
 
@@ -18,12 +18,12 @@ static void extend_path_envelope(Integrator *run, int i, double t, const Clearan
 {
     double *columns = run->envelope.rows[run->envelope.row].joint[i];
     if (!(joint->e * joint->e
-            > columns[TRACE_ex_out] * columns[TRACE_ex_out]
-                + columns[TRACE_ey_out] * columns[TRACE_ey_out]))
+            > columns[ENVELOPE_ex_out] * columns[ENVELOPE_ex_out]
+                + columns[ENVELOPE_ey_out] * columns[ENVELOPE_ey_out]))
         return;
-    columns[TRACE_ex_out] = joint->ex;
-    columns[TRACE_ey_out] = joint->ey;
-    columns[TRACE_t_out] = t;
+    columns[ENVELOPE_ex_out] = joint->ex;
+    columns[ENVELOPE_ey_out] = joint->ey;
+    columns[ENVELOPE_t_out] = t;
 }
 
 /* Start the current row of the envelope without steps. */
@@ -32,10 +32,10 @@ static void begin_envelope_row(Integrator *run)
     run->envelope.steps = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         double *columns = run->envelope.rows[run->envelope.row].joint[i];
-        memset(columns, 0, N_TRACE_COLUMNS * sizeof columns[0]);
-        columns[TRACE_F_low] = INFINITY;
-        columns[TRACE_F_high] = -INFINITY;
-        columns[TRACE_t_out] = run->t;
+        memset(columns, 0, N_ENVELOPE_COLUMNS * sizeof columns[0]);
+        columns[ENVELOPE_F_low] = INFINITY;
+        columns[ENVELOPE_F_high] = -INFINITY;
+        columns[ENVELOPE_t_out] = run->t;
     }
 }
 
@@ -46,19 +46,19 @@ static void merge_envelope_rows(EnvelopeRow *to, const EnvelopeRow *a, const Env
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double *first = a->joint[i];
         double *columns = both.joint[i];
-        if (first[TRACE_F_low] <= columns[TRACE_F_low]) {
-            columns[TRACE_F_low] = first[TRACE_F_low];
-            columns[TRACE_t_F_low] = first[TRACE_t_F_low];
+        if (first[ENVELOPE_F_low] <= columns[ENVELOPE_F_low]) {
+            columns[ENVELOPE_F_low] = first[ENVELOPE_F_low];
+            columns[ENVELOPE_t_F_low] = first[ENVELOPE_t_F_low];
         }
-        if (first[TRACE_F_high] >= columns[TRACE_F_high]) {
-            columns[TRACE_F_high] = first[TRACE_F_high];
-            columns[TRACE_t_F_high] = first[TRACE_t_F_high];
+        if (first[ENVELOPE_F_high] >= columns[ENVELOPE_F_high]) {
+            columns[ENVELOPE_F_high] = first[ENVELOPE_F_high];
+            columns[ENVELOPE_t_F_high] = first[ENVELOPE_t_F_high];
         }
-        if (hypot(first[TRACE_ex_out], first[TRACE_ey_out])
-            >= hypot(columns[TRACE_ex_out], columns[TRACE_ey_out])) {
-            columns[TRACE_ex_out] = first[TRACE_ex_out];
-            columns[TRACE_ey_out] = first[TRACE_ey_out];
-            columns[TRACE_t_out] = first[TRACE_t_out];
+        if (hypot(first[ENVELOPE_ex_out], first[ENVELOPE_ey_out])
+            >= hypot(columns[ENVELOPE_ex_out], columns[ENVELOPE_ey_out])) {
+            columns[ENVELOPE_ex_out] = first[ENVELOPE_ex_out];
+            columns[ENVELOPE_ey_out] = first[ENVELOPE_ey_out];
+            columns[ENVELOPE_t_out] = first[ENVELOPE_t_out];
         }
     }
     *to = both;
@@ -74,8 +74,8 @@ static void extend_envelope(Integrator *run)
         double *columns = row->joint[i];
         extend_force_envelope(run, i, run->t, total_force(joint));
         extend_path_envelope(run, i, run->t, joint);
-        columns[TRACE_ex] = joint->ex;
-        columns[TRACE_ey] = joint->ey;
+        columns[ENVELOPE_ex] = joint->ex;
+        columns[ENVELOPE_ey] = joint->ey;
     }
     if (++run->envelope.steps < run->envelope.stride)
         return;

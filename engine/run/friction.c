@@ -158,7 +158,7 @@ static inline double friction_event_function(const DiscreteState *discrete, cons
 }
 
 /* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. */
-static inline int rates_at_rest(
+static inline int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return rates(run, t, y, p, dy, rhs);

@@ -20,13 +20,13 @@ static inline double outward_coordinate(const Clearance *joint)
 }
 
 /* End the compression of joint i's contact if the penetration has stopped growing. */
-static inline void note_turn(Integrator *run, int i, double deltadot)
+static inline void update_compression(Integrator *run, int i, double deltadot)
 {
-    run->contacts.compressing[i] &= !(is_closed(&run->discrete.contact[i]) & (deltadot <= 0.0));
+    run->contacts.is_compressing[i] &= !(is_closed(&run->discrete.contact[i]) & (deltadot <= 0.0));
 }
 
 /* Update the peaks of joint i at an accepted state, and the extremes of deltadot/deltadot_minus of a contact. */
-static inline void watch_joint(Integrator *run, int i)
+static inline void update_joint_peaks(Integrator *run, int i)
 {
     const Clearance *joint = &run->rhs.clearance[i];
     const double F = total_force(joint);

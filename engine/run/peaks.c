@@ -27,7 +27,7 @@ static double evaluate_joint_force(Integrator *run, const Step *step, double s, 
     int wrong = 0;
     for (int k = 0; k < N_SWITCHES; k++)
         rhs.g[k] = NAN; /* stays NaN for functions on which no joint force depends */
-    int status = play_in(run, step, s, p, &rhs);
+    int status = evaluate_contacts_in_step(run, step, s, p, &rhs);
     for (int k = 0; k < N_SWITCHES; k++)
         wrong |= run->discrete.branch[k] * rhs.g[k] < 0.0;
     if (!status && wrong) { /* a switching point was passed inside the step: use the other branch */
@@ -51,7 +51,7 @@ static double evaluate_joint_force(Integrator *run, const Step *step, double s, 
  */
 static double node_of_largest_force(const Step *step, double fraction, int i, double force)
 {
-    const StageValues forces = stage_values(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, STAGE_FORCES + i);
     double most = force * force, node = 0.5 * fraction;
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction && stage_value(forces, k) > most)
@@ -96,9 +96,9 @@ static void find_inner_peak(Integrator *run, const Step *step, double fraction, 
 /* Return whether the stages of an explicit step show that the force of contact i only rises or only falls. */
 static int is_force_monotone(Step *step, double fraction, int i, double before, double after, const Parameters *p)
 {
-    Place all[N_STAGES + 2];
-    const StageValues forces = stage_values(step, SEEN_FORCES + i);
-    const Place begin = {0.0, before * before, NAN}, end = {1.0, after * after, NAN};
+    Sample all[N_STAGES + 2];
+    const StageValues forces = stage_values(step, STAGE_FORCES + i);
+    const Sample begin = {0.0, before * before, NAN}, end = {1.0, after * after, NAN};
     const int n = values_of_stages(step, begin, end, forces, all);
     const double bend = max_second_derivative(all, n);
     int rises = 0, falls = 0;
@@ -107,7 +107,7 @@ static int is_force_monotone(Step *step, double fraction, int i, double before, 
         rises += slope - 0.5 * bend * w > 0.0;
         falls += slope + 0.5 * bend * w < 0.0;
     }
-    return fraction == 1.0 && !step->method->stiff && n >= LEAST_STAGES && (rises == n - 1 || falls == n - 1)
+    return fraction == 1.0 && !step->method->stiff && n >= MIN_STAGES && (rises == n - 1 || falls == n - 1)
         && !may_oscillate_between_stages(step, all, n, p);
 }
 
@@ -120,9 +120,9 @@ static void find_rigid_peak(
 {
     const double middle = 0.5 * fraction;
     Sampled part[MAX_BISECTIONS + 1];
-    Place from = {0.0, before, NAN};
+    Sample from = {0.0, before, NAN};
     record_force(run, i, step->t, before);
-    if (is_force_monotone(step, fraction, i, before, after, p) || make_dense(run, p, step))
+    if (is_force_monotone(step, fraction, i, before, after, p) || compute_dense_output(run, p, step))
         return;
     part[0] =
         (Sampled){{middle, evaluate_joint_force(run, step, middle, i, p), NAN}, {fraction, after, NAN}, INFINITY};
@@ -134,14 +134,14 @@ static void find_rigid_peak(
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
         const int clear = !(top + now.error > known) && !may_oscillate_between(step, from.s, now.end.s, p);
-        if (clear || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES) {
+        if (clear || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES) {
             from = now.end;
             n--;
             continue;
         }
         const double s[2] = {from.s + 0.25 * w, now.end.s - 0.25 * w};
-        const Place left = {s[0], evaluate_joint_force(run, step, s[0], i, p), NAN};
-        const Place right = {s[1], evaluate_joint_force(run, step, s[1], i, p), NAN};
+        const Sample left = {s[0], evaluate_joint_force(run, step, s[0], i, p), NAN};
+        const Sample right = {s[1], evaluate_joint_force(run, step, s[1], i, p), NAN};
         const double error = error_of_halves(from, now, left, right);
         part[n - 1] = (Sampled){right, now.end, error};
         part[n++] = (Sampled){left, now.middle, error};
@@ -154,7 +154,7 @@ static void find_rigid_peak(
  * Return the position in (0, 1) of the maximum of the cubic through (d0, d1) with end slopes r0 > 0 > r1; *height: its
  * value.
  */
-static double cubic_top(double d0, double r0, double d1, double r1, double *height)
+static double cubic_maximum(double d0, double r0, double d1, double r1, double *height)
 {
     const double b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
     const double s = r0 / (sqrt(b * b - 3.0 * c * r0) - b);
@@ -175,11 +175,11 @@ static void find_largest_eccentricity(Integrator *run, Step *step, double fracti
         const double round = low.e - outward_coordinate(&low); /* 0 without a contour */
         const double s = from
             + (to - from)
-                * cubic_top(outward_coordinate(&low), h * low.deltadot,
+                * cubic_maximum(outward_coordinate(&low), h * low.deltadot,
                     outward_coordinate(&high), h * high.deltadot, &top);
         RhsOutputs rhs;
         if (top + round < run->contacts.e_max[i] - 0.01 * fabs(run->contacts.e_max[i])
-            || make_dense(run, p, step) || play_in(run, step, s, p, &rhs))
+            || compute_dense_output(run, p, step) || evaluate_contacts_in_step(run, step, s, p, &rhs))
             return;
         const Clearance *now = &rhs.clearance[i];
         if (run->envelope.rows)
@@ -201,7 +201,7 @@ static void find_largest_eccentricity(Integrator *run, Step *step, double fracti
 static int force_trend(const Step *step, double fraction, int i, double after)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
-    const StageValues forces = stage_values(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, STAGE_FORCES + i);
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
         const double node = step->node[k];
         if (!(node < 0.99 * fraction && node > s[1]) || node == s[0])
@@ -243,13 +243,13 @@ static int extrapolate_trends(Integrator *run, const Step *step, double fraction
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int i, double before, double after)
 {
-    const StageValues forces = stage_values(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, STAGE_FORCES + i);
     double node = INFINITY, force = NAN;
     for (int k = 0; k < step->n_seen; k++)
         if (step->node[k] > fraction && step->node[k] < node)
             node = step->node[k], force = sqrt(stage_value(forces, k));
     const double bend = 2.0 * ((force - before) / node - (after - before) / fraction) / (node - fraction);
-    const double curve = UNSURE * fabs(bend) * fraction * fraction;
+    const double curve = ERROR_SAFETY * fabs(bend) * fraction * fraction;
     return !(fabs(after - before) > 0.5 * curve || 0.125 * curve < (MAXIMUM_RATIO - 1.0) * max_of(before, after));
 }
 
@@ -262,14 +262,14 @@ static double largest_force_inside(Integrator *run, Step *step, double fraction,
     const double before = total_force(&run->rhs.clearance[i]), after = total_force(&step->rhs.clearance[i]);
     double most = 0.0;
     int found = 0;
-    const StageValues forces = stage_values(step, SEEN_FORCES + i);
+    const StageValues forces = stage_values(step, STAGE_FORCES + i);
     for (int k = 0; k < step->n_seen; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction) {
             most = max_of(most, stage_value(forces, k));
             found++;
         }
     if (found < MIN_INNER_STAGES && run->discrete.contact[i].closed && gives(i)
-        && may_have_inner_maximum(step, fraction, i, before, after) && make_dense(run, p, step) == 0)
+        && may_have_inner_maximum(step, fraction, i, before, after) && compute_dense_output(run, p, step) == 0)
         return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, i, p));
     return sqrt(most);
 }
@@ -315,7 +315,7 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
         const int turned = run->rhs.clearance[i].F_n * step->rhs.clearance[i].F_n < 0.0; /* it was zero in between */
         const int near = trends[i] != LOW, falls = near && trends[i] < 0;
         if (near && (((falls || turned) && run->contacts.is_rising[i]) || arches[i])
-            && make_dense(run, p, step) == 0)
+            && compute_dense_output(run, p, step) == 0)
             find_inner_peak(run, step, fraction, i, before[i], after[i], p);
         set_rising(run, i, !falls);
     }

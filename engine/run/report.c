@@ -30,7 +30,7 @@ static void report_monitor(const Integrator *run, double *gained, long *steps, l
 }
 
 /* Return whether Python must fetch the lists and the step record before the run resumes. */
-int gudgeon_run_full(const void *integrator) { return lists_full(integrator); }
+int gudgeon_run_full(const void *integrator) { return has_full_lists(integrator); }
 
 /* Return the number of events and contacts in the lists, including contacts that last. */
 int gudgeon_run_listed(const void *integrator)

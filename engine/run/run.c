@@ -12,9 +12,9 @@
 static int motion_with_inner_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    show_states(discrete, y);
+    copy_inner_states(discrete, y);
     const int status = motion(t, y, discrete, p, dy, rhs);
-    rates_of_states(rhs, dy);
+    copy_inner_rates(rhs, dy);
     return status;
 }
 
@@ -29,7 +29,7 @@ static int motion_with_inner_states(
 static int rates(Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     count_evaluations(run, 1);
-    if (given_up(&run->cancellation))
+    if (is_cancelled(&run->cancellation))
         return STOPPED;
 #if N_RIGID
     int joint[N_RIGID];
@@ -69,7 +69,7 @@ static int record_accepted_state(Integrator *run, const Parameters *p)
     if (lost)
         return lost;
     for (int i = 0; i < N_CLEARANCES; i++)
-        watch_joint(run, i);
+        update_joint_peaks(run, i);
     if (run->envelope.rows)
         extend_envelope(run);
     return !isfinite(sum) ? NOT_FINITE : is_outside_model(run, p) ? OUTSIDE : 0;
@@ -84,7 +84,7 @@ static void store_sample(const Integrator *run, double t, const double *now, con
     for (int k = 0; k < N_CLEARANCES; k++) {
         latched[i * MEMORY + k] = run->discrete.contact[k].closed ? run->discrete.contact[k].deltadot_minus : NAN;
         state[i * JOINTS + k] = (signed char)(!run->discrete.contact[k].closed ? CODE_FREE
-            : run->contacts.compressing[k] ? CODE_IMPACT : CODE_CONTACT);
+            : run->contacts.is_compressing[k] ? CODE_IMPACT : CODE_CONTACT);
     }
     for (int k = 0; k < N_FRICTIONS; k++)
         latched[i * MEMORY + N_CLEARANCES + k] = run->discrete.mode[k];
@@ -147,7 +147,7 @@ static double kinetic_energy(const Integrator *run, const Parameters *p)
 #include "impacts.c"
 
 /* Return whether Python must fetch the lists and the step record before the next step. */
-static int lists_full(const Integrator *run)
+static int has_full_lists(const Integrator *run)
 {
     return run->contacts.n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || is_record_full(run);
 }
@@ -233,11 +233,11 @@ static int begin_state(Integrator *run, const Parameters *p)
     if (!status)
         status = begin_contacts(run, p);
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
-    resolved_events(run, run->t, run->y, &run->rhs, p, value);
+    evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->discrete.event_sign[i], value[i]);
         if (isnan(run->rhs.event[i]) && !status)
-            note_no_number(run, i, run->t);
+            record_nan_event(run, i, run->t);
     }
     run->ready = 1;
     return status ? status : record_accepted_state(run, p);

@@ -29,7 +29,7 @@ typedef struct {
  */
 typedef struct {
     double t; /* end of the row's last step */
-    double joint[AT_LEAST_ONE(N_CLEARANCES)][N_TRACE_COLUMNS];
+    double joint[AT_LEAST_ONE(N_CLEARANCES)][N_ENVELOPE_COLUMNS];
 } EnvelopeRow;
 
 /* Sizes of a step and codes of the methods and of the places where data of a step lie. */
@@ -37,9 +37,9 @@ enum {
     /* event functions, in this order */
     N_EVENT_FUNCTIONS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS,
     /* values stored at each stage: event functions, then of each joint with play F^2 (N^2), then deltadot (m/s) */
-    SEEN_FORCES = N_EVENT_FUNCTIONS,
-    SEEN_RATES = SEEN_FORCES + N_CLEARANCES,
-    N_SEEN = SEEN_RATES + N_CLEARANCES,
+    STAGE_FORCES = N_EVENT_FUNCTIONS,
+    STAGE_GAP_RATES = STAGE_FORCES + N_CLEARANCES,
+    N_STAGE_VALUES = STAGE_GAP_RATES + N_CLEARANCES,
 #if TAYLOR
     N_DENSE = TAYLOR_ORDERS,
 #else
@@ -54,20 +54,20 @@ enum {
     BY_RODAS5P,
     BY_RADAU5,
     BY_RADAU9,
-    KINDS,
+    LANE_KINDS,
     FAILED = -1, /* the dense output could not be computed */
-    HERE = 1,
-    ELSEWHERE = 2 /* where a linearization, series or dense output is stored: in the run, in a lane; 0: nowhere */
+    IN_RUN = 1,
+    IN_LANE = 2 /* where a linearization, series or dense output is stored: in the run, in a lane; 0: nowhere */
 };
 
 /* Length in s beyond which the end of a run does not limit the shortest sensible step. */
-#define LONG_RUN 1e4
+#define MAX_RUN_SCALE_S 1e4
 /* Shortest step, relative to the magnitude of the times. */
 #define MIN_STEP_FRACTION (16.0 * DBL_EPSILON)
 /* Ratio of two step lengths above which they count as equal. */
-#define SAME_LENGTH (1.0 - 1e-9)
+#define EQUAL_LENGTH_RATIO (1.0 - 1e-9)
 /* Relative step length below which a step counts as too short to advance. */
-#define SHORT_STEP (256.0 * MIN_STEP_FRACTION)
+#define SHORT_STEP_FRACTION (256.0 * MIN_STEP_FRACTION)
 
 typedef struct Method Method; /* methods/methods.c */
 
@@ -79,13 +79,13 @@ typedef struct {
     RhsOutputs rhs;
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
-    int dense_ready;                         /* HERE; ELSEWHERE: in dense_lane; FAILED: dense_status is the cause */
+    int dense_ready;                         /* IN_RUN; IN_LANE: in dense_lane; FAILED: dense_status is the cause */
     int dense_status;
     /* of a step computed in lanes: stages, dense output, seen values, with a stride of `lanes` numbers; NULL: here */
     const double *stages_lane, *dense_lane, *seen_lane;
     int lanes;
     int n_seen;                              /* stages so far; their nodes, seen values, smallest event functions */
-    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     /* watched event functions at equidistant points of the step (watch/dense_samples.c) */
     double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1];
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
@@ -94,7 +94,7 @@ typedef struct {
     double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)];
     double above[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
     double least[2 * N_X + 1], most[2 * N_X + 1];   /* range of the state at the stages, if functions are watched */
-    unsigned char near[AT_LEAST_ONE(N_WATCHED)], is_searched;
+    unsigned char near[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
     double spread[AT_LEAST_ONE(N_TERMS)];         /* range of terms of time alone over the step; -1: unknown */
     int swings;                                   /* whether a force may oscillate between stages (watch/forces.c) */
@@ -150,7 +150,7 @@ typedef struct {
  */
 typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* contact that lasts in each joint */
-    int compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
+    int is_compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
     int is_rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
     Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
@@ -260,7 +260,7 @@ typedef struct {
  */
 typedef struct {
     Linear linear;
-    int ready; /* where the linearization at the run's state is stored: HERE, ELSEWHERE, 0 */
+    int ready; /* where the linearization at the run's state is stored: IN_RUN, IN_LANE, 0 */
 #if IMPLICIT_STAGES
     /* beginnings of this step and the step before, their distance (s); rate of convergence of the last iterations */
     Beginning now;
@@ -289,7 +289,7 @@ typedef struct {
  */
 typedef struct {
     int order, ready;   /* ready: where the series is stored, as in NewtonIteration */
-    const double *lane; /* ELSEWHERE: its terms, with a stride of `lanes` numbers */
+    const double *lane; /* IN_LANE: its terms, with a stride of `lanes` numbers */
     int lanes;
     double reach, terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* longest step of the series, s */
 } Series;

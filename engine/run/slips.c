@@ -64,7 +64,7 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
 }
 
 /* Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. */
-static int rates_at_rest(
+static int evaluate_rates_at_rest(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     const int status = rates(run, t, y, p, dy, rhs);
@@ -80,5 +80,5 @@ static void project_slips(Integrator *run, double t, double *y, const Parameters
     for (int i = 0; i < N_FRICTIONS; i++)
         sticks |= run->discrete.mode[i] == 0.0;
     if (sticks)
-        (void)rates_at_rest(run, t, y, p, dy, &rhs);
+        (void)evaluate_rates_at_rest(run, t, y, p, dy, &rhs);
 }

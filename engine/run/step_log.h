@@ -49,14 +49,14 @@ static inline int is_chattering(const Integrator *run) { return run->progress.no
  * Count successive too short steps and return whether there are too many: speeds grow without bound, as at a dead
  * centre.
  */
-static inline int note_short_step(Integrator *run, int is_short)
+static inline int is_stuck_in_short_steps(Integrator *run, int is_short)
 {
     run->progress.short_steps = is_short ? run->progress.short_steps + 1 : 0;
     return run->progress.short_steps > MAX_SHORT_STEPS;
 }
 
 /* Return whether the run no longer advances. Each check of the progress restarts the counts of what ends steps. */
-static inline int stalls(Integrator *run, double t_end)
+static inline int is_stalled(Integrator *run, double t_end)
 {
     const int stalled = has_stalled(&run->progress.monitor, run->t, t_end);
     for (int k = 0; k < N_EVENT_FUNCTIONS && !stalled && run->progress.monitor.steps % MONITOR_STEPS == 1; k++)

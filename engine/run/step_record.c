@@ -3,7 +3,7 @@
  * and points between them. At a jump there are two rows, just before and just after.
  */
 enum {
-    RECORD_ROW = N_TAPE_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
+    RECORD_ROW = N_RECORD_HEAD + N_S + AT_LEAST_ONE(N_DISCRETE) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
     RECORD_PARTS = 4,             /* parts of a step, whose ends are recorded */
     MAX_ROWS_PER_STEP = 4 * RECORD_PARTS /* largest number of rows of one step */
 };
@@ -22,10 +22,10 @@ static void record_state(Integrator *run, double t, const double *y, const Param
     signed char state[AT_LEAST_ONE(N_CLEARANCES)] = {0};
     if (!step_record->rows || step_record->n >= step_record->capacity)
         return;
-    double *row = step_record->rows + RECORD_ROW * step_record->n++, *discrete = row + N_TAPE_HEAD + N_S;
-    row[TAPE_JUMPED] = step_record->jumped;
-    row[TAPE_T] = t;
-    store_sample(run, t, y, p, 0, row + N_TAPE_HEAD, discrete, state);
+    double *row = step_record->rows + RECORD_ROW * step_record->n++, *discrete = row + N_RECORD_HEAD + N_S;
+    row[RECORD_JUMPED] = step_record->jumped;
+    row[RECORD_T] = t;
+    store_sample(run, t, y, p, 0, row + N_RECORD_HEAD, discrete, state);
     for (int i = 0; i < N_CLEARANCES; i++)
         discrete[AT_LEAST_ONE(N_DISCRETE) + i] = state[i];
     step_record->jumped = 0;

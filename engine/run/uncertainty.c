@@ -16,8 +16,8 @@ static void add_closing(Integrator *run, double t, const double *y, const Parame
     if (N_LOOPS == 0 || closing_of_state(t, y, &run->discrete, p, dq, dv, &worst))
         return;
     for (int k = 0; k < N_X; k++) {
-        error[k] += isfinite(dq[k]) ? LEFT * fabs(dq[k]) : 0.0;
-        error[N_X + k] += isfinite(dv[k]) ? LEFT * fabs(dv[k]) : 0.0;
+        error[k] += isfinite(dq[k]) ? CLOSING_STEPS * fabs(dq[k]) : 0.0;
+        error[N_X + k] += isfinite(dv[k]) ? CLOSING_STEPS * fabs(dv[k]) : 0.0;
     }
     memcpy(other, y, sizeof other);
     for (int mask = 0; mask < 3; mask++) {
@@ -42,8 +42,8 @@ static void rounding_errors(Integrator *run, double t, const double *y, const Pa
         speed[is_angle[k]] = max_of(speed[is_angle[k]], fabs(y[N_X + k]));
     }
     for (int k = 0; k < N_X; k++) {
-        error[k] = ROUNDINGS * DBL_EPSILON * size[is_angle[k]];
-        error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->norm.speed_rounded[is_angle[k]]);
+        error[k] = ACCUMULATED_ULPS * DBL_EPSILON * size[is_angle[k]];
+        error[N_X + k] = ACCUMULATED_ULPS * DBL_EPSILON * (speed[is_angle[k]] + run->norm.speed_rounded[is_angle[k]]);
     }
     add_closing(run, t, y, p, error);
 }
@@ -67,7 +67,7 @@ static void add_stuck_slip(Integrator *run, double t, const double *y, const Par
             error[k] += fabs(direction[k] * rhs.friction[i].v / response);
     }
     for (int k = 0; k < N_X && status >= 0; k++) /* a held coordinate may be 0: use the smallest relevant length */
-        error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->norm.least[is_angle[k]]);
+        error[k] = max_of(error[k], ACCUMULATED_ULPS * DBL_EPSILON * run->norm.least[is_angle[k]]);
 }
 #else
 /* Add nothing: the scene has no friction that may stick. */
@@ -131,7 +131,7 @@ static void uncertainty(Integrator *run, double t, const double *y, const Parame
  * Compute the user-defined event functions at a state, with 0 for values below their uncertainty. The uncertainty is
  * estimated only if a sign differs from the stored one.
  */
-static void resolved_events(
+static void evaluate_resolved_events(
     Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
 {
     double error[AT_LEAST_ONE(N_WATCHED)];
@@ -150,7 +150,7 @@ static void resolved_events(
 
 #else
 /* Do nothing: the scene has no user-defined events. */
-static inline void resolved_events(
+static inline void evaluate_resolved_events(
     const Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *value)
 {
     (void)run, (void)t, (void)y, (void)rhs, (void)p, (void)value;

@@ -43,7 +43,7 @@ static int reverse_event_sign(Integrator *run, int i)
 }
 
 /* Record once in a run that user-defined event i is NaN at time t: listed with number i + N_USER_EVENTS. */
-static void note_no_number(Integrator *run, int i, double t)
+static void record_nan_event(Integrator *run, int i, double t)
 {
     if (!run->events.no_number[i])
         append_event(run, i + N_USER_EVENTS, t);
@@ -59,7 +59,7 @@ static void update_event_signs(Integrator *run, double t, const double *y, const
         zeros |= run->discrete.event_sign[i] == 0;
     if (!zeros)
         return;
-    resolved_events(run, t, y, rhs, p, value);
+    evaluate_resolved_events(run, t, y, rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if (run->discrete.event_sign[i] == 0)
             event_crosses(i, &run->discrete.event_sign[i], value[i]);
@@ -73,7 +73,7 @@ static int record_crossed_events(Integrator *run, const double *before, const Pa
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int status = 0;
-    resolved_events(run, run->t, run->y, &run->rhs, p, value);
+    evaluate_resolved_events(run, run->t, run->y, &run->rhs, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if ((!before || !have_same_sign(before[i], value[i]))
             && event_crosses(i, &run->discrete.event_sign[i], value[i]) && record_user_event(run, i, run->t, run->y, p))
@@ -85,7 +85,7 @@ static int record_crossed_events(Integrator *run, const double *before, const Pa
 /*
  * Evaluate the user-defined event functions `ahead` seconds after a state, along its rates; 0 below their uncertainty.
  */
-static int events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy,
+static int evaluate_events_ahead(Integrator *run, double t, double ahead, const double *y, const double *dy,
     const Parameters *p, double *value)
 {
     double there[N_Y], scrap[N_Y];
@@ -96,7 +96,7 @@ static int events_ahead(Integrator *run, double t, double ahead, const double *y
     for (int i = 0; i < N_USER_EVENTS; i++)
         value[i] = 0.0;
     if (!status)
-        resolved_events(run, t + ahead, there, &rhs, p, value);
+        evaluate_resolved_events(run, t + ahead, there, &rhs, p, value);
     return status;
 }
 
@@ -150,7 +150,7 @@ static int event_signs_after(Integrator *run, double step, const Parameters *p, 
         unknown |= !branch[i];
     }
     for (double ahead = 1e3 * h; unknown && ahead < 1e10 * h; ahead *= 1e3) {
-        const int known = !events_ahead(run, run->t, ahead, run->y, run->dy, p, value);
+        const int known = !evaluate_events_ahead(run, run->t, ahead, run->y, run->dy, p, value);
         for (int i = 0; i < N_USER_EVENTS; i++)
             if (known && !branch[i])
                 branch[i] = (signed char)((value[i] > 0.0) - (value[i] < 0.0));
@@ -252,9 +252,9 @@ static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *befo
         return 0;
     DiscreteState discrete = run->discrete;
     uncertainty(run, run->t, before->y, p, error); /* before: slips that were just stopped count */
-    (void)events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
+    (void)evaluate_events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
     run->discrete = before->discrete;
-    (void)events_ahead(run, run->t, ahead, before->y, before->dy, p, then);
+    (void)evaluate_events_ahead(run, run->t, ahead, before->y, before->dy, p, then);
     run->discrete = discrete;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         signed char *branch = &run->discrete.event_sign[i];

@@ -96,7 +96,7 @@ static int solve_part(const Delassus *contacts, const unsigned char *part, const
 {
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
-    int wedged = 0, solved = 0, order[N_RIGID] = {0};
+    int is_jammed = 0, solved = 0, order[N_RIGID] = {0};
     unsigned char left[N_RIGID] = {0};
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
@@ -121,7 +121,7 @@ static int solve_part(const Delassus *contacts, const unsigned char *part, const
         }
     }
     for (int i = 0; i < n; i++)
-        wedged |= left[i] && A[i][i] < -DEPENDENT * fabs(contacts->D[i][i]);
+        is_jammed |= left[i] && A[i][i] < -DEPENDENT * fabs(contacts->D[i][i]);
     for (int k = solved - 1; k >= 0; k--) {
         const int i = order[k];
         double sum = A[i][n];
@@ -129,7 +129,7 @@ static int solve_part(const Delassus *contacts, const unsigned char *part, const
             sum -= A[i][order[l]] * x[order[l]];
         x[i] = sum / A[i][i];
     }
-    return wedged;
+    return is_jammed;
 }
 
 /*
@@ -146,13 +146,13 @@ static inline int complementary(const Delassus *contacts, const double *r, doubl
         size = max_of(size, fabs(r[k]));
     for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
         int turned = -1;
-        const int wedged = solve_part(contacts, pushes, r, x) && RUBS;
-        some |= wedged;
+        const int is_jammed = solve_part(contacts, pushes, r, x) && RUBS;
+        some |= is_jammed;
         for (int k = 0; k < contacts->n && turned < 0; k++) {
             double left = -r[k];
             for (int j = 0; j < contacts->n; j++)
                 left += contacts->D[k][j] * x[j];
-            if (wedged ? pushes[k] : pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
+            if (is_jammed ? pushes[k] : pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
                 turned = k;
         }
         if (turned < 0)

@@ -71,7 +71,7 @@ static int linearized(double t, const double *y, const double *discrete, const P
     double dy[N_Y];
     read_discrete_state(discrete, &now);
 #if N_CHAIN
-    seat_chains(t, y + FIRST_STATE, &now, p); /* the guess follows the works */
+    solve_driven_loops(t, y + FIRST_STATE, &now, p); /* the guess follows the works */
 #endif
     int status = motion(t, y, &now, p, dy, &rhs);
     if (!status)

@@ -12,7 +12,7 @@ void mass_matrix(const Parameters *p, double *m);
 #if N_CLEARANCES
 double radial_clearance(const Parameters *p, int i);
 double deepest(const Parameters *p, int i);
-double slowest_impact(const Parameters *p, int i);
+double min_approach_speed(const Parameters *p, int i);
 #if LAW_STATES
 double breakaway(const Parameters *p, int i);
 #endif
@@ -23,7 +23,7 @@ double threshold_of(const Parameters *p, int i);
 #else
 static inline double radial_clearance(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
 static inline double deepest(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
-static inline double slowest_impact(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
+static inline double min_approach_speed(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
 #endif
 /* Constraint equations: Phi, Phi_q (N_ALL_ROWS x N_Q, by rows; zeros are not written), nu, gamma; values of a start. */
 void constraints(double t, const double *q, const Parameters *p, double *phi);
@@ -69,7 +69,7 @@ void loop_switches(double t, const double *q, const DiscreteState *discrete, con
 double chain_share(const Parameters *p, int k);
 void turn_directions(double *q, const double *step, const Parameters *p);
 /* Solve the driven loops from a guess of their coordinates (N_CHAIN). */
-void seat_chains(double t, const double *guess, DiscreteState *discrete, const Parameters *p);
+void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p);
 #endif
 
 #if INTEGRATES
@@ -82,7 +82,7 @@ int closing_of_state(double t, const double *y, DiscreteState *discrete, const P
 /* Rates and steps at the state itself, without continuation; NEAR: the motion is to be continued from both sides. */
 int motion_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 /* Contacts of joints with play at a state: gaps, their rates, forces of laws. */
-int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs);
+int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs);
 int closing_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
 /*

@@ -73,9 +73,9 @@ static inline double finite_slope(double derivative, double ahead, double behind
 }
 
 /* Return a time just after t, so that rounding does not hide on which branch a drive continues. */
-static inline double ahead_of(double t) { return t + max_of(32.0 * DBL_EPSILON * fabs(t), 1e-100); }
+static inline double just_after(double t) { return t + max_of(32.0 * DBL_EPSILON * fabs(t), 1e-100); }
 /* Return the time at which rates of drives are evaluated: just after t if they may jump, else t. */
-static inline double beyond_jump(double t) { return RATE_JUMPS ? ahead_of(t) : t; }
+static inline double after_jump(double t) { return RATE_JUMPS ? just_after(t) : t; }
 
 /* Return mod(a, b) in [0, b). The end of a period belongs to the period that begins there. */
 static inline double mod_of(double a, double b)

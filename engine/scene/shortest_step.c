@@ -128,7 +128,7 @@ SELDOM static int factor_normal(Closing *w, const System *of)
         double *u = w->normal[k];
         const short *place = of->filled[k];
         const int many = of->n_filled[k], stands = u[k] > 1e-12 * whole[k];
-        if (given_up(w->cancellation))
+        if (is_cancelled(w->cancellation))
             return 1;
         if (!isfinite(whole[k]) || (!stands && !w->dependent))
             return 1;

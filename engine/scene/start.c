@@ -150,7 +150,7 @@ SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, co
         v[k] = 0.0;
     rows_together(w, &w->some, N_ALL_ROWS + N_RATES, rate_place);
     jacobian(t, q, p, &w->row[0][0]);
-    velocity_rhs(beyond_jump(t), q, p, required);
+    velocity_rhs(after_jump(t), q, p, required);
     for (int k = 0; k < N_APART; k++)
         required[apart_row[k]] -= w->rates[N_RATES + k];
     for (int i = 0; i < N_RATES; i++) {

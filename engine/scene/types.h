@@ -18,7 +18,7 @@ enum {
     N_DISCRETE = N_CLEARANCES + N_FRICTIONS + N_STATES,
     N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
     N_Y = 2 * N_X + N_WORK + N_STATES, /* state that is integrated */
-    N_FELT = N_Y - N_WORK,             /* components on which the motion depends: all but the works */
+    N_MOTION = N_Y - N_WORK,             /* components on which the motion depends: all but the works */
     FIRST_STATE = 2 * N_X + N_WORK     /* index of the first inner state in it */
 };
 

@@ -89,12 +89,12 @@ static double resolution_error(const double *f, double enough)
 static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
     double range[N_WATCHED], change[N_WATCHED];
-    step->is_searched = 0;
+    step->has_zero_bracket = 0;
     for (int i = 0; i < N_WATCHED; i++) {
         step->near[i] = (unsigned char)may_have_zero(run, step, watched[i], &range[i]);
-        step->is_searched |= step->near[i];
+        step->has_zero_bracket |= step->near[i];
     }
-    if (!step->is_searched || make_dense(run, p, step))
+    if (!step->has_zero_bracket || compute_dense_output(run, p, step))
         return 0;
     for (int j = 0; j <= N_SAMPLES; j++) {
         double y[N_Y];

@@ -53,7 +53,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->rhs = rhs;
-        step->dense_ready = step->dense_ready == HERE ? HERE : 0; /* a lane's has the rates of this branch */
+        step->dense_ready = step->dense_ready == IN_RUN ? IN_RUN : 0; /* a lane's has the rates of this branch */
         return 1;
     }
     for (int k = 0; k < N_SWITCHES; k++)
@@ -107,7 +107,7 @@ static double last_negative_stage(Integrator *run, Step *step, int k, const Para
     const double end = event_function(&run->discrete, &step->rhs, k);
     for (int last = 0; last < 2 && step->lowest[k] < 0.0; last++) {
         const double at = last ? stage_of_minimum(step, k) : first_negative_stage(step, k, end);
-        if (at >= 1.0 || make_dense(run, p, step))
+        if (at >= 1.0 || compute_dense_output(run, p, step))
             continue;
         *value = event_function_at(run, step, at, k, p);
         if (*value < 0.0)
@@ -152,7 +152,7 @@ static double event_before(Integrator *run, const Step *step, double first, cons
                 found = k;
         if (found < 0)
             return first;
-        const Place high = bracket_point_at(run, step, first, found, p);
+        const Sample high = bracket_point_at(run, step, first, found, p);
         const Bracket of = stage_bracket(step, found, bracket_begin(run, step, found), high);
         const double s = locate_root(run, step, found, of, guess_zero(&of, n_interpolation_points(run, found)), p);
         if (!(s < first))
@@ -177,22 +177,22 @@ typedef struct {
 static int is_candidate(Integrator *run, Step *step, int k, const Parameters *p, double until, Candidate *now)
 {
     double at_high;
-    Place low = bracket_begin(run, step, k), end = {0.0, NAN, NAN};
+    Sample low = bracket_begin(run, step, k), end = {0.0, NAN, NAN};
     const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, k);
     const int candidates = is_gap ? has_zero(run, step, k, p, until, &low, &end)
         : sampled ? has_force_zero(run, step, k, p, &low, &end) : 0;
     const double high = sampled ? candidates * end.s : last_negative_stage(run, step, k, p, &at_high);
-    if (high == 0.0 || make_dense(run, p, step))
+    if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
-        const Place from = bracket_point_at(run, step, step->from[watched_as[k]], k, p);
+        const Sample from = bracket_point_at(run, step, step->from[watched_as[k]], k, p);
         if (from.f >= 0.0 || step->above[watched_as[k]] >= 0.0)
             low = from;
     }
     if (watched_as[k] >= 0 && step->above[watched_as[k]] >= 0.0) /* negative within its uncertainty only */
         low.f = max_of(low.f, 0.0);
     for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* negative at the beginning: find a return */
-        const Place part = bracket_point_at(run, step, 0.25 * j * high, k, p);
+        const Sample part = bracket_point_at(run, step, 0.25 * j * high, k, p);
         if (part.f >= 0.0)
             low = part;
     }
@@ -201,7 +201,7 @@ static int is_candidate(Integrator *run, Step *step, int k, const Parameters *p,
         end = high < 1.0 ? bracket_point_at(run, step, high, k, p) : bracket_end(run, step, k);
     now->of = stage_bracket(step, k, low, end);
     now->guess = low.f >= 0.0 ? guess_zero(&now->of, n_interpolation_points(run, k)) : low.s;
-    now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : low.s;
+    now->about = low.f >= 0.0 ? clamp_to_bracket(now->guess, &now->of) : low.s;
     return 1;
 }
 
@@ -260,7 +260,7 @@ static double first_event_of_long_step(Integrator *run, Step *step, double fract
         hidden = watched_as[k] < 0 && !isfinite(bracket_begin(run, step, k).slope) && !is_contact_force_function(run, k)
             && event_function(&run->discrete, &run->rhs, k) >= 0.0 && !is_ignored(run, step, k)
             && (step->method->stiff || !is_clear_of_zero(run, step, k, 0.0, p));
-    if (!hidden || make_dense(run, p, step))
+    if (!hidden || compute_dense_output(run, p, step))
         return fraction;
     for (int i = 1; i < N_INNER_SAMPLES; i++) {
         int earlier = -1;
@@ -285,10 +285,10 @@ static int events_at(Integrator *run, const Step *step, double s, const Paramete
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
     if (s > 1.0)
-        return events_ahead(run, step->t + step->h, (s - 1.0) * step->h, step->y, step->dy, p, value);
+        return evaluate_events_ahead(run, step->t + step->h, (s - 1.0) * step->h, step->y, step->dy, p, value);
     const int status = state_at(run, step, s, p, y, dy, &rhs);
     if (!status)
-        resolved_events(run, step->t + s * step->h, y, &rhs, p, value);
+        evaluate_resolved_events(run, step->t + s * step->h, y, &rhs, p, value);
     return status;
 }
 

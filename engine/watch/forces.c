@@ -4,18 +4,18 @@
  *
  * They follow from the right-hand side and have no bounds, and they may change within a step whose motion is at rest.
  * The dense output is sampled and bisected. On each part the event function is the parabola through both ends and the
- * middle within an error. It is UNSURE times the largest by which the parabola of the whole part missed the
+ * middle within an error. It is ERROR_SAFETY times the largest by which the parabola of the whole part missed the
  * samples of its halves, and at least a fourth of the whole part's error. In theory the halves have an eighth of it.
  */
-enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that bound a force between them */ };
-#define UNSURE 4.0
+enum { MAX_FORCE_SAMPLES = 20000, MIN_STAGES = 8 /* of a step that bound a force between them */ };
+#define ERROR_SAFETY 4.0
 #define COARSE 0.25 /* of a step: longer parts do not show the error of a parabola */
 #define MAX_TERM_EXCESS 0.05 /* of the range of a time term over a step: allowed excess over a parabola */
 #define FORCE_ROUNDING 1e-12 /* of the largest sample: negative values by rounding */
 
 /* A part of a step: the samples at its middle and end, and the error of the parabola through them. */
 typedef struct {
-    Place middle, end;
+    Sample middle, end;
     double error;
 } Sampled;
 
@@ -66,7 +66,7 @@ static double rounding_of_velocity(Integrator *run, int k, const Parameters *p)
  * Collect a value at the beginning of a step, at its stages in the order of their nodes, and at its end. Returns the
  * number of samples in `all`, at most N_STAGES + 2.
  */
-static int values_of_stages(const Step *step, Place begin, Place end, StageValues seen, Place *all)
+static int values_of_stages(const Step *step, Sample begin, Sample end, StageValues seen, Sample *all)
 {
     int n = 1;
     all[0] = begin;
@@ -76,7 +76,7 @@ static int values_of_stages(const Step *step, Place begin, Place end, StageValue
             continue;
         for (n++; all[at - 1].s > step->node[i]; at--)
             all[at] = all[at - 1];
-        all[at] = (Place){step->node[i], stage_value(seen, i), NAN};
+        all[at] = (Sample){step->node[i], stage_value(seen, i), NAN};
     }
     all[n++] = end;
     return n;
@@ -117,7 +117,7 @@ static int may_oscillate_between(Step *step, double a, double b, const Parameter
 #endif
 
 /* Return whether a term of time alone may oscillate between neighbouring samples of the stages. */
-static int may_oscillate_between_stages(Step *step, const Place *all, int n, const Parameters *p)
+static int may_oscillate_between_stages(Step *step, const Sample *all, int n, const Parameters *p)
 {
     if (step->swings < 0) {
         step->swings = may_oscillate_between(step, 0.0, 1.0, p);
@@ -132,7 +132,7 @@ static int may_oscillate_between_stages(Step *step, const Place *all, int n, con
 /*
  * Return a bound of the second derivative through n samples: BEND_SAFETY times the largest second difference quotient.
  */
-static double max_second_derivative(const Place *all, int n)
+static double max_second_derivative(const Sample *all, int n)
 {
     double bend = 0.0;
     for (int i = 1; i + 1 < n; i++) {
@@ -150,7 +150,7 @@ static double max_second_derivative(const Place *all, int n)
  */
 static int is_clear_of_zero(const Integrator *run, Step *step, int k, double rest, const Parameters *p)
 {
-    Place all[N_STAGES + 2];
+    Sample all[N_STAGES + 2];
     const int n =
         values_of_stages(step, bracket_begin(run, step, k), bracket_end(run, step, k), stage_values(step, k), all);
     const int friction = k - N_CLEARANCES - N_SWITCHES;
@@ -159,7 +159,7 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int k, double res
         least = min_of(least, all[i].f);
         most = max_of(most, all[i].f);
     }
-    if (step->method->stiff || n < LEAST_STAGES) /* inaccurate or distant stages: for velocities only */
+    if (step->method->stiff || n < MIN_STAGES) /* inaccurate or distant stages: for velocities only */
         return friction >= 0 && friction < N_FRICTIONS && run->discrete.mode[friction] != 0.0 && least > most - least;
     const double bend = max_second_derivative(all, n);
     for (int i = 1; i < n; i++) {
@@ -173,14 +173,14 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int k, double res
 }
 
 /* Return the value at s of the parabola through both ends and the middle of a part. */
-static double parabola_at(Place a, Place middle, Place b, double s)
+static double parabola_at(Sample a, Sample middle, Sample b, double s)
 {
     const double u = 2.0 * (s - middle.s) / (b.s - a.s);
     return middle.f + 0.5 * u * (b.f - a.f + u * (a.f - 2.0 * middle.f + b.f));
 }
 
 /* Return the minimum of the parabola between both ends of a part, and its largest slope there, `steepest`. */
-static double least_of_parabola(Place a, Place middle, Place b, double *steepest)
+static double least_of_parabola(Sample a, Sample middle, Sample b, double *steepest)
 {
     const double slope = 0.5 * (b.f - a.f), bend = a.f - 2.0 * middle.f + b.f, u = -slope / bend;
     const double least = min_of(a.f, min_of(middle.f, b.f));
@@ -189,23 +189,23 @@ static double least_of_parabola(Place a, Place middle, Place b, double *steepest
 }
 
 /* Return the error of the parabolas of both halves of a part, from two new samples; infinite for long parts. */
-static double error_of_halves(Place from, Sampled now, Place left, Place right)
+static double error_of_halves(Sample from, Sampled now, Sample left, Sample right)
 {
     const double missed = max_of(fabs(left.f - parabola_at(from, now.middle, now.end, left.s)),
         fabs(right.f - parabola_at(from, now.middle, now.end, right.s)));
     const double known = isfinite(now.error) ? 0.25 * now.error : 0.0;
-    return now.end.s - from.s > COARSE ? INFINITY : max_of(known, UNSURE * missed);
+    return now.end.s - from.s > COARSE ? INFINITY : max_of(known, ERROR_SAFETY * missed);
 }
 
 /* Return whether event function k has a zero in the step, and samples low, high that enclose the first one. */
-static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
+static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *p, Sample *low, Sample *high)
 {
     const double close = 4.0 * event_time_tolerance(run, step);
     double rest = rounding_of_velocity(run, k, p);
     Sampled part[MAX_BISECTIONS + 1];
-    Place from = bracket_begin(run, step, k);
+    Sample from = bracket_begin(run, step, k);
     double largest = fabs(from.f);
-    if (is_clear_of_zero(run, step, k, rest, p) || make_dense(run, p, step))
+    if (is_clear_of_zero(run, step, k, rest, p) || compute_dense_output(run, p, step))
         return 0;
     part[0] = (Sampled){bracket_point_at(run, step, 0.5, k, p), bracket_end(run, step, k), INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
@@ -215,7 +215,7 @@ static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *
         rest = from.f > rest ? 0.0 : rest;
         const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
         const int crosses = now.middle.f < -rest || now.end.f < -rest;
-        const int small = w < close || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES;
+        const int small = w < close || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES;
         largest = max_of(largest, max_of(fabs(now.middle.f), fabs(now.end.f)));
         if (crosses && (small || steepest + 4.0 * now.error / w < 0.0)) {
             *low = from;
@@ -228,8 +228,8 @@ static int has_force_zero(Integrator *run, Step *step, int k, const Parameters *
             n--;
             continue;
         }
-        const Place left = bracket_point_at(run, step, from.s + 0.25 * w, k, p);
-        const Place right = bracket_point_at(run, step, now.end.s - 0.25 * w, k, p);
+        const Sample left = bracket_point_at(run, step, from.s + 0.25 * w, k, p);
+        const Sample right = bracket_point_at(run, step, now.end.s - 0.25 * w, k, p);
         const double error = error_of_halves(from, now, left, right);
         part[n - 1] = (Sampled){right, now.end, error};
         part[n++] = (Sampled){left, now.middle, error};

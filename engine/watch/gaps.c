@@ -19,7 +19,7 @@ enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint in a step */ };
 
 /* A part of a step: the sample at its end, and the error of the cubic between both ends. */
 typedef struct {
-    Place end;
+    Sample end;
     double error;
 } PartOfStep;
 
@@ -29,15 +29,15 @@ enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, at which the function decr
  * Return the event function of contact i at fraction s from penetration and rate: f = (c^2 - e^2) / 2c for a journal,
  * negated in contact. Unlike the eccentricity e it is smooth at the centre. per_c: 1/c, 1/m.
  */
-static Place gap_function(
+static Sample gap_function(
     const Integrator *run, const Step *step, int i, double s, double delta, double rate, double per_c)
 {
     const double sign = run->discrete.contact[i].closed ? 1.0 : -1.0;
 #if defined WALLS || defined CONTOURS
     (void)per_c;
-    return (Place){s, sign * delta, sign * step->h * rate};
+    return (Sample){s, sign * delta, sign * step->h * rate};
 #else
-    return (Place){s, sign * delta * (1.0 + 0.5 * delta * per_c), sign * step->h * rate * (1.0 + delta * per_c)};
+    return (Sample){s, sign * delta * (1.0 + 0.5 * delta * per_c), sign * step->h * rate * (1.0 + delta * per_c)};
 #endif
 }
 
@@ -45,9 +45,9 @@ static Place gap_function(
  * Collect event function i at the beginning of a step, at its stages in the order of their nodes, and at its end.
  * Returns the number of samples in `all`, at most N_STAGES + 2.
  */
-static int event_function_at_stages(const Integrator *run, const Step *step, int i, const Parameters *p, Place *all)
+static int event_function_at_stages(const Integrator *run, const Step *step, int i, const Parameters *p, Sample *all)
 {
-    const StageValues event_functions = stage_values(step, i), rates = stage_values(step, SEEN_RATES + i);
+    const StageValues event_functions = stage_values(step, i), rates = stage_values(step, STAGE_GAP_RATES + i);
     const double per_c = 1.0 / radial_clearance(p, i), sign = run->discrete.contact[i].closed ? 1.0 : -1.0;
     const Clearance *begin = &run->rhs.clearance[i], *end = &step->rhs.clearance[i];
     int n = 1;
@@ -93,7 +93,7 @@ static int is_far_from_zero(const Integrator *run, const Step *step, int i, cons
  * It is at least min(f_a, f_b) - B w^2/8. It is also at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w -
  * x)^2/2), which is least where both parabolas meet.
  */
-static int is_above_parabolas(Place a, Place b, double bend, double least)
+static int is_above_parabolas(Sample a, Sample b, double bend, double least)
 {
     const double w = b.s - a.s, curve = bend * w;
     if (min_of(a.f, b.f) - 0.125 * curve * w >= least)
@@ -108,7 +108,7 @@ static int is_above_parabolas(Place a, Place b, double bend, double least)
  */
 static int bound_by_stages(const Integrator *run, const Step *step, int i, const Parameters *p, double *below)
 {
-    Place all[N_STAGES + 2];
+    Sample all[N_STAGES + 2];
     const int n = event_function_at_stages(run, step, i, p, all);
     const double least = penetration_rounding(p, i), error = 16.0 * error_of_dense(run, i, p);
     double bend = 0.0;
@@ -125,7 +125,7 @@ static int bound_by_stages(const Integrator *run, const Step *step, int i, const
     }
     bend *= BEND_SAFETY;
     for (int k = 1; k < n; k++) {
-        const Place a = all[k - 1], b = all[k];
+        const Sample a = all[k - 1], b = all[k];
         const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, deviation = error * s * s * (1.0 - s) * (1.0 - s);
         if (!falls && b.f >= 0.0 && is_above_parabolas(a, b, bend, least + deviation))
             continue;
@@ -148,7 +148,7 @@ static double least_of_cubic(double f, double r, double c, double d)
  * Classify an event function between samples a and b: CLEAR, FALLS or UNKNOWN. It differs from their cubic by 16 error
  * u^2 (1 - u)^2 at most, as the error of Hermite's cubic does, and its rate by 3.1 error.
  */
-static int bound_by_cubic(Place a, Place b, double error, double least)
+static int bound_by_cubic(Sample a, Sample b, double error, double least)
 {
     const double w = b.s - a.s, r = w * a.slope, r_end = w * b.slope, rise = b.f - a.f;
     const double c = 3.0 * rise - 2.0 * r - r_end, d = r + r_end - 2.0 * rise, deviation = 16.0 * error;
@@ -168,7 +168,7 @@ static int bound_by_cubic(Place a, Place b, double error, double least)
  * Return the error of the cubic of a and b at the middle sample: that of its value plus an eighth of that of its rate.
  * It is the allowed error of both halves.
  */
-static double error_of_cubic(Place a, Place middle, Place b)
+static double error_of_cubic(Sample a, Sample middle, Sample b)
 {
     const double w = b.s - a.s;
     const double value = 0.5 * (a.f + b.f) + 0.125 * w * (a.slope - b.slope);
@@ -182,14 +182,14 @@ static double error_of_cubic(Place a, Place middle, Place b)
  * that is within the first half of the step.
  */
 static int first_zero(
-    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low,
-    Place *high)
+    Integrator *run, const Step *step, int k, const Parameters *p, double until, double below, Sample *low,
+    Sample *high)
 {
     const double least = penetration_rounding(p, k), close = 4.0 * event_time_tolerance(run, step);
     PartOfStep part[MAX_BISECTIONS + 1] = {{bracket_end(run, step, k), INFINITY}};
-    Place from = bracket_begin(run, step, k);
-    const Place early = min_of(below, until) <= 0.5 ? gap_point_at(run, step, min_of(below, until), k, p)
-        : (Place){0.0, NAN, NAN};
+    Sample from = bracket_begin(run, step, k);
+    const Sample early = min_of(below, until) <= 0.5 ? gap_point_at(run, step, min_of(below, until), k, p)
+        : (Sample){0.0, NAN, NAN};
     int n = 1;
     if (isfinite(early.f))
         part[n++] = (PartOfStep){early, INFINITY};
@@ -198,8 +198,8 @@ static int first_zero(
         const double w = now.end.s - from.s;
         int found = from.f >= least ? bound_by_cubic(from, now.end, now.error, least) : FALLS;
         if (found == UNKNOWN) {
-            const Place middle = w > close && n <= MAX_BISECTIONS && samples++ < MAX_SAMPLES
-                ? gap_point_at(run, step, from.s + 0.5 * w, k, p) : (Place){0.0, NAN, NAN};
+            const Sample middle = w > close && n <= MAX_BISECTIONS && samples++ < MAX_SAMPLES
+                ? gap_point_at(run, step, from.s + 0.5 * w, k, p) : (Sample){0.0, NAN, NAN};
             if (isfinite(middle.f)) {
                 const double error = w > 0.5 ? INFINITY : error_of_cubic(from, middle, now.end);
                 part[n - 1].error = error;
@@ -224,14 +224,14 @@ static int first_zero(
  * Return whether event function k of a joint with play has a zero in the step, and its bracket low, high. Zeros after
  * the fraction `until` may be omitted.
  */
-static int has_zero(Integrator *run, Step *step, int k, const Parameters *p, double until, Place *low, Place *high)
+static int has_zero(Integrator *run, Step *step, int k, const Parameters *p, double until, Sample *low, Sample *high)
 {
     double below = 1.0;
     int found = is_far_from_zero(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &below);
     *low = bracket_begin(run, step, k);
     *high = bracket_end(run, step, k);
     if (found == UNKNOWN)
-        found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR
+        found = compute_dense_output(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR
             : first_zero(run, step, k, p, until, below, low, high);
     if (low->f < 0.0 && low->f >= penetration_rounding(p, k) && low->slope > 0.0)
         low->f = 0.0; /* within rounding, and increasing */

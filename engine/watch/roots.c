@@ -29,7 +29,7 @@ static int state_at(
     interpolate(run, step, s, y);
     const double t = step->t + s * step->h;
     project_state(run, t, y, p);
-    return rates_at_rest(run, t, y, p, dy, rhs);
+    return evaluate_rates_at_rest(run, t, y, p, dy, rhs);
 }
 
 /*
@@ -43,15 +43,15 @@ static int play(Integrator *run, double t, const double *y, const Parameters *p,
     return rates(run, t, y, p, dy, rhs);
 #else
     count_evaluations(run, 1);
-    if (given_up(&run->cancellation))
+    if (is_cancelled(&run->cancellation))
         return STOPPED;
-    show_states(&run->discrete, y);
-    return play_here(t, y, &run->discrete, p, rhs);
+    copy_inner_states(&run->discrete, y);
+    return evaluate_contacts(t, y, &run->discrete, p, rhs);
 #endif
 }
 
 /* Evaluate the contacts of joints with play at fraction s of the step. Returns a status. */
-static int play_in(Integrator *run, const Step *step, double s, const Parameters *p, RhsOutputs *rhs)
+static int evaluate_contacts_in_step(Integrator *run, const Step *step, double s, const Parameters *p, RhsOutputs *rhs)
 {
     double y[N_Y];
     if (s == run->roots.samples.beyond) {
@@ -77,7 +77,7 @@ static double event_function_slope(const Integrator *run, const Step *step, cons
 }
 
 /* Discard the samples of the previous step. */
-static void forget_samples(Integrator *run)
+static void discard_samples(Integrator *run)
 {
     run->roots.samples.n = 0;
     run->roots.samples.beyond = NAN;
@@ -135,14 +135,14 @@ static int sample_at(Integrator *run, const Step *step, double s, int k, const P
 }
 
 /* Return value and slope of event function k in the stored sample `slot`; NAN for slot -1. */
-static Place bracket_point_of_sample(const DenseSamples *stored, int slot, double s, int k)
+static Sample bracket_point_of_sample(const DenseSamples *stored, int slot, double s, int k)
 {
-    return slot < 0 ? (Place){s, NAN, NAN}
-        : (Place){s, stored->event_function[slot][k], k < N_CLEARANCES ? stored->slope[slot][k] : NAN};
+    return slot < 0 ? (Sample){s, NAN, NAN}
+        : (Sample){s, stored->event_function[slot][k], k < N_CLEARANCES ? stored->slope[slot][k] : NAN};
 }
 
 /* Return value and slope of event function k at fraction s of the step; NAN if they cannot be evaluated. */
-static Place bracket_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
+static Sample bracket_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
 {
     const int slot = sample_at(run, step, s, k, p);
     return bracket_point_of_sample(&run->roots.samples, slot, s, k);
@@ -155,37 +155,37 @@ static double event_function_at(Integrator *run, const Step *step, double s, int
 }
 
 /* Return value and slope of event function k of a joint with play at fraction s, by evaluating the contacts alone. */
-static Place gap_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
+static Sample gap_point_at(Integrator *run, const Step *step, double s, int k, const Parameters *p)
 {
     int slot = find_sample(&run->roots.samples, s, 1);
     RhsOutputs rhs;
-    if (slot < 0 && !play_in(run, step, s, p, &rhs))
+    if (slot < 0 && !evaluate_contacts_in_step(run, step, s, p, &rhs))
         slot = add_sample(run, step, s, &rhs, 1);
     return bracket_point_of_sample(&run->roots.samples, slot, s, k);
 }
 
 /* Return value and slope of event function k at the beginning of a step. */
-static Place bracket_begin(const Integrator *run, const Step *step, int k)
+static Sample bracket_begin(const Integrator *run, const Step *step, int k)
 {
-    return (Place){0.0, event_function(&run->discrete, &run->rhs, k), event_function_slope(run, step, &run->rhs, k)};
+    return (Sample){0.0, event_function(&run->discrete, &run->rhs, k), event_function_slope(run, step, &run->rhs, k)};
 }
 
 /* Return value and slope of event function k at the end of a step. */
-static Place bracket_end(const Integrator *run, const Step *step, int k)
+static Sample bracket_end(const Integrator *run, const Step *step, int k)
 {
-    return (Place){1.0, event_function(&run->discrete, &step->rhs, k), event_function_slope(run, step, &step->rhs, k)};
+    return (Sample){1.0, event_function(&run->discrete, &step->rhs, k), event_function_slope(run, step, &step->rhs, k)};
 }
 
 /*
  * Return the bracket of event function k from low to high, with those two stages between them at which it is nearest to
  * zero.
  */
-static Bracket stage_bracket(const Step *step, int k, Place low, Place high)
+static Bracket stage_bracket(const Step *step, int k, Sample low, Sample high)
 {
-    Place nearest = {NAN, NAN, NAN}, next = nearest;
+    Sample nearest = {NAN, NAN, NAN}, next = nearest;
     const StageValues seen = stage_values(step, k);
     for (int i = 0; i < step->n_seen; i++) {
-        const Place now = {step->node[i], stage_value(seen, i), NAN};
+        const Sample now = {step->node[i], stage_value(seen, i), NAN};
         if (!(now.s > low.s && now.s < high.s && now.f == now.f))
             continue;
         if (!(fabs(now.f) >= fabs(nearest.f)))
@@ -248,7 +248,7 @@ static ZeroTolerance event_function_tolerance(const Integrator *run, const Step 
  */
 static int n_interpolation_points(const Integrator *run, int k)
 {
-    return MOST_PLACES - !may_be_located_after_zero(run, k);
+    return MAX_POINTS - !may_be_located_after_zero(run, k);
 }
 
 /* Event function k of a step, whose zero is located. first: it has not been sampled yet. */
@@ -263,7 +263,7 @@ typedef struct {
  * Evaluate an event function at fraction s for locate_zero(). The first sample of a gap evaluates the contacts only,
  * because the whole state is needed at the last sample alone.
  */
-static int evaluate_event_function(void *context, double s, Place *now)
+static int evaluate_event_function(void *context, double s, Sample *now)
 {
     EventFunctionOfStep *of = context;
     *now = of->first && of->k < N_CLEARANCES ? gap_point_at(of->run, of->step, s, of->k, of->p)

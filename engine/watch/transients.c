@@ -22,7 +22,7 @@ static int satisfies_equations(void *context, double fraction, int sure)
     const double distance = 1e-4 * min_of(fraction, 1.0 - fraction);
     double before[N_Y], y[N_Y], after[N_Y], dy[N_Y], most = 0.0;
     RhsOutputs rhs;
-    if (make_dense(run, defect->p, step))
+    if (compute_dense_output(run, defect->p, step))
         return 0;
     interpolate(run, step, fraction - distance, before);
     interpolate(run, step, fraction, y);

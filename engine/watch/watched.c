@@ -191,7 +191,7 @@ static int classify_event_function(WatchedStep *of, int i, Range f, double b, do
     return f.partly && !small && event >= 0 && !of->run->events.no_number[event] ? -1 : result;
 }
 
-/* Classify a part of a step for first_part(): 1 if a watched function has its first zero in it, stored in the step. */
+/* Classify a part of a step for halve_parts(): 1 if a watched function has its first zero in it, stored in the step. */
 static int classify_event_functions(void *context, double a, double b, int small)
 {
     WatchedStep *of = context;
@@ -208,7 +208,7 @@ static int classify_event_functions(void *context, double a, double b, int small
         if (result < 0)
             return -1;
         if (event >= 0 && isnan(at_b[i]))
-            note_no_number(run, event, step->t + b * step->h);
+            record_nan_event(run, event, step->t + b * step->h);
         if (result) {
             step->from[i] = a;
             step->to[i] = b;
@@ -258,12 +258,12 @@ static void search_step(Integrator *run, Step *step, const Parameters *p)
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear(run, step, &of.uncertain, p)) || make_dense(run, p, step))
+    if ((!step->method->stiff && is_clear(run, step, &of.uncertain, p)) || compute_dense_output(run, p, step))
         return;
     expand_dense_output(run, step, &of.powers);
 #endif
     event_functions_at(run, step, 0.0, p, of.at_a);
-    (void)first_part(0.0, 1.0, 4.0 * event_time_tolerance(run, step), classify_event_functions, &of);
+    (void)halve_parts(0.0, 1.0, 4.0 * event_time_tolerance(run, step), classify_event_functions, &of);
 }
 
 /* Return 0: bounds resolve every step. */

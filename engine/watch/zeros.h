@@ -11,13 +11,13 @@
  * All memory belongs to the caller. A status is 0, or the value with which a function of the caller ended the search.
  *
  *   locate_zero    narrows a bracket until it is at most `width` wide.
- *   first_part     halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
+ *   halve_parts     halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
  *                  of them (grazes) however near; a zero of even order changes no sign and is not an event.
  *   zero_verdict   decides by bounds and two values: a zero, none, or to be halved.
  *   is_near_pole   distinguishes poles, at which a sign changes as well, from zeros.
  *
  * Guarantees: a bracket with f >= 0 at its lower end and f < 0 at its upper end remains one, whatever f does between.
- * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. first_part misses no zero of a function
+ * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. halve_parts misses no zero of a function
  * whose bounds hold, if parts are wider than `width` and no more than MAX_PARTS_SEEN are needed.
  */
 #ifndef GUDGEON_ZEROS_H
@@ -26,24 +26,24 @@
 
 enum {
     FAST_EVALUATIONS = 6, /* evaluations that usually locate a zero */
-    MOST_PLACES = 4,      /* samples through which a zero is interpolated */
+    MAX_POINTS = 4,      /* samples through which a zero is interpolated */
     DEEPEST = 64,         /* halvings of an interval */
     MAX_PARTS_SEEN = 2000
 };
 #define MIN_THIRD_DISTANCE 1e-4 /* of a bracket: a third point nearer to an end shows rounding only */
 #define NARROWING_WIDTH 0.13 /* of an interval: longer parts do not show whether bounds narrow */
 #define POLE_DISTANCE 64.0  /* event tolerances after a change of sign, at which its function is compared */
-#define ROUNDINGS 1024.0    /* ulp: accumulated rounding error of a coordinate or a velocity */
-#define LEFT 16.0           /* error of a state, in remaining Newton steps of the closures */
+#define ACCUMULATED_ULPS 1024.0    /* ulp: accumulated rounding error of a coordinate or a velocity */
+#define CLOSING_STEPS 16.0           /* error of a state, in remaining Newton steps of the closures */
 
 /* A sample of an event function: location s, value f and slope df/ds there. */
 typedef struct {
     double s, f, slope;
-} Place;
+} Sample;
 
 /* The bracket of a zero and other samples near it, nearest first. Less accurate ones may serve for the first guess. */
 typedef struct {
-    Place at[MOST_PLACES]; /* low: f >= 0, high: f < 0, others */
+    Sample at[MAX_POINTS]; /* low: f >= 0, high: f < 0, others */
     int n;                 /* number of known samples, at least 2 */
 } Bracket;
 
@@ -56,20 +56,20 @@ typedef struct {
 } ZeroTolerance;
 
 /* Evaluate f and slope of `now` at s, which lies within the bracket. Return a status. */
-typedef int EvaluatePlace(void *context, double s, Place *now);
+typedef int EvaluateEventFunction(void *context, double s, Sample *now);
 
 /*
  * Classify the part from a to b. Return 1 if the search ends in it, 0 if the next part follows, which begins at b, and
  * -1 if it is to be halved: its first half follows, then its second half. A `small` part is never halved.
  */
-typedef int JudgePart(void *context, double a, double b, int small);
+typedef int ClassifyPart(void *context, double a, double b, int small);
 
 /*
  * Return s at f = 0 of the polynomial s(f) through n samples of different f (inverse interpolation, Neville's scheme).
  */
-static inline double inverse_zero(const Place *place, int n)
+static inline double inverse_zero(const Sample *place, int n)
 {
-    double s[MOST_PLACES];
+    double s[MAX_POINTS];
     for (int i = 0; i < n; i++)
         s[i] = place[i].s;
     for (int m = 1; m < n; m++)
@@ -82,7 +82,7 @@ static inline double inverse_zero(const Place *place, int n)
  * Return a zero, between both ends of a bracket, of the cubic that has their values and slopes. If a third sample is
  * finite and far enough from both ends, use the polynomial of degree 4 that has its value as well.
  */
-static inline double hermite_zero(Place low, Place high, Place third)
+static inline double hermite_zero(Sample low, Sample high, Sample third)
 {
     const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
     const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
@@ -112,14 +112,14 @@ static inline double hermite_zero(Place low, Place high, Place third)
  */
 static inline double guess_zero(const Bracket *of, int n_points)
 {
-    const Place low = of->at[0], high = of->at[1];
+    const Sample low = of->at[0], high = of->at[1];
     if (isfinite(low.f + low.slope + high.f + high.slope))
-        return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Place){NAN, NAN, NAN});
+        return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Sample){NAN, NAN, NAN});
     return inverse_zero(of->at, of->n < n_points ? of->n : n_points);
 }
 
 /* Return a guess of the zero if it lies within the bracket, else the middle of the bracket. */
-static inline double about_where(double guess, const Bracket *of)
+static inline double clamp_to_bracket(double guess, const Bracket *of)
 {
     const double low = of->at[0].s, high = of->at[1].s;
     return guess > low && guess < high ? guess : 0.5 * (low + high);
@@ -131,7 +131,7 @@ static inline double about_where(double guess, const Bracket *of)
  */
 static inline double distance_beyond(const Bracket *of, const ZeroTolerance *near, double about)
 {
-    const double s = about_where(about, of);
+    const double s = clamp_to_bracket(about, of);
     double falls = 0.0;
     for (int i = 0; i < of->n && near->beyond > 0.0; i++)
         falls = max_of(falls, fabs(of->at[i].f / (of->at[i].s - s)));
@@ -144,7 +144,7 @@ static inline double distance_beyond(const Bracket *of, const ZeroTolerance *nea
  * interpolation; 2 for a function of which only the sign is known. `of` is narrowed; its upper end, with f < 0, is the
  * location. Returns a status.
  */
-static inline int locate_zero(EvaluatePlace *evaluate, void *context, const ZeroTolerance *near, int n_points,
+static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, const ZeroTolerance *near, int n_points,
     double guess, Bracket *of)
 {
     double width = INFINITY, before = INFINITY;
@@ -166,14 +166,14 @@ static inline int locate_zero(EvaluatePlace *evaluate, void *context, const Zero
             return 0; /* nothing lies between */
         before = width;
         width = to - from;
-        Place now = {s, NAN, NAN};
+        Sample now = {s, NAN, NAN};
         const int status = evaluate(context, s, &now), end = now.f >= 0.0 ? 0 : 1;
         if (status)
             return status;
         /* df/ds there, or the mean slope from the bracket's lower end to there */
         const double slope = isfinite(now.slope) ? now.slope : (now.f - of->at[0].f) / (s - from);
         const int reached = now.f < 0.0 && now.f >= slope * distance;
-        of->n = of->n < MOST_PLACES ? of->n + 1 : MOST_PLACES;
+        of->n = of->n < MAX_POINTS ? of->n + 1 : MAX_POINTS;
         of->at[3] = of->at[2];
         of->at[2] = of->at[end];
         of->at[end] = now;
@@ -183,7 +183,7 @@ static inline int locate_zero(EvaluatePlace *evaluate, void *context, const Zero
 }
 
 /* Classify the parts of an interval from a to b in order, by bisection. Return 1 if a part ends the search, else 0. */
-static inline int first_part(double a, double b, double width, JudgePart *judge, void *context)
+static inline int halve_parts(double a, double b, double width, ClassifyPart *judge, void *context)
 {
     double end[DEEPEST + 2] = {b};
     for (int n = 1, seen = 0; n > 0;) {

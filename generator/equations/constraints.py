@@ -14,9 +14,9 @@ from gudgeon.generator.ir.differentiation import partial
 from gudgeon.generator.ir.finite_slopes import Upon
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
-from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
 from gudgeon.generator.symbols.storage import Freezable, Place
+from gudgeon.generator.symbols.switches import Apart, Largest, Pick, Smallest
 from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.equations.places import Wall
+from gudgeon.generator.equations.contact_points import Wall
 from gudgeon.generator.equations.play import Clearance, Contour, LawEquations
 from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE
 

@@ -12,7 +12,7 @@ from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
 from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
-from gudgeon.generator.symbols.numbers import Owned, Slots
+from gudgeon.generator.symbols.parameter_table import Owned, ParameterTable
 from gudgeon.language.tree import Name, names
 
 ZERO = sp.Integer(0)
@@ -99,7 +99,7 @@ class JointFields:
         return self.derive(name, expression.xreplace(values))
 
 
-def unit_vector(vector: Vector, owner: str, name: str, slots: Slots) -> tuple[sp.Expr, sp.Expr]:
+def unit_vector(vector: Vector, owner: str, name: str, slots: ParameterTable) -> tuple[sp.Expr, sp.Expr]:
     """Return the direction of a vector of the file; along an axis it is exactly (±1, 0) or (0, ±1)."""
     x, y = slots.use(vector[0]), slots.use(vector[1])
     length = sp.sqrt(x**2 + y**2)

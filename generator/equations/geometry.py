@@ -12,7 +12,7 @@ from typing import NamedTuple
 import sympy as sp
 
 from gudgeon.generator.mechanism import GROUND, Body, PointRef, Scene, Vector, is_massless
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import Freezable, Place
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -101,7 +101,7 @@ class Turned(NamedTuple):
 class Geometry(Freezable):
     """Makes the symbols of bodies and points, each once."""
 
-    def __init__(self, scene: Scene, symbols: Symbols, slots: Slots) -> None:
+    def __init__(self, scene: Scene, symbols: Symbols, slots: ParameterTable) -> None:
         """Make the bodies of a scene and the local vectors of all their points."""
         self.symbols, self.slots, self.mechanism = symbols, slots, scene.mechanism
         self.bodies = {name: self._body(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())}
@@ -187,11 +187,11 @@ class Geometry(Freezable):
         return self._angles[body.name]
 
     def turn(
-        self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], wanted: str, point: str = ""
+        self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], expected: str, point: str = ""
     ) -> tuple[sp.Expr, sp.Expr]:
         """Return A(θ) s as a pair of symbols; the opposite of a known arm is its negative.
 
-        `wanted`: base of the symbols' names. `point`: the point whose arm it is.
+        `expected`: base of the symbols' names. `point`: the point whose arm it is.
         """
         if s == (ZERO, ZERO):
             return ZERO, ZERO
@@ -202,8 +202,8 @@ class Geometry(Freezable):
             cos, sin = self.angle(body)
             if all(component in (-1, 0, 1) for component in s):  # along an axis of the body: cos and sin themselves
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
-            x = self.symbols.define(f"{wanted}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
-            y = self.symbols.define(f"{wanted}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
+            x = self.symbols.define(f"{expected}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
+            y = self.symbols.define(f"{expected}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
             self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
             self._turned[body.name, *s] = x, y
             before = (of for of in self.turned.values() if (of.body, of.point, of.axis) == (body.name, "", "x"))
@@ -211,18 +211,18 @@ class Geometry(Freezable):
             self.turned[x], self.turned[y] = (Turned(body.name, point, axis, number) for axis in ("x", "y"))
         return self._turned[body.name, *s]
 
-    def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> PointFrame:
+    def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], expected: str) -> PointFrame:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
 
-        `wanted` is the base of its symbols' names.
+        `expected` is the base of its symbols' names.
         """
-        s = self._offset_vector(ref, offset, wanted)
+        s = self._offset_vector(ref, offset, expected)
         if ref.body == GROUND:
             return PointFrame(self, None, s)
         body = self.bodies[ref.body]
-        return PointFrame(self, body, self.turn(body, s, f"arm_{wanted}"))
+        return PointFrame(self, body, self.turn(body, s, f"arm_{expected}"))
 
-    def _offset_vector(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
+    def _offset_vector(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], expected: str) -> tuple[sp.Expr, sp.Expr]:
         """Return the vector to such a point from the centre of mass, or its position on the ground.
 
         The opposite of a known vector is its negative.
@@ -232,7 +232,7 @@ class Geometry(Freezable):
         else:
             of = self.local[ref.body, ref.point]
         x, y = (
-            more if own == 0 else self.slots.derive_signed(f"{wanted}_{axis}", own + more, "corner of a slider")
+            more if own == 0 else self.slots.derive_signed(f"{expected}_{axis}", own + more, "corner of a slider")
             for axis, own, more in zip("xy", of, offset, strict=True)
         )
         return x, y

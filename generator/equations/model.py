@@ -22,12 +22,12 @@ from gudgeon.generator.equations.constraints import Constraints, Row
 from gudgeon.generator.equations.fields import VariableNames
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.loads import AppliedElement, Friction, apply_element, make_friction
-from gudgeon.generator.equations.own_laws import check_own_laws
 from gudgeon.generator.equations.play import Clearance, make_clearances
+from gudgeon.generator.equations.user_defined_laws import check_own_laws
 from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.mechanism import EventSpec, Joint, Quantity, Scene
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.symbols import Symbols
 from gudgeon.language.units import dimension
 
@@ -50,7 +50,7 @@ def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
     return Event(event.name, expression, event.action, event.direction)
 
 
-def refuse_constant(event: EventSpec, made: Event, geometry: Geometry, t: sp.Symbol) -> None:
+def check_event_varies(event: EventSpec, made: Event, geometry: Geometry, t: sp.Symbol) -> None:
     """Raise BadValueError if an event's expression contains nothing that moves.
 
     geometry: that of the absolute coordinates.
@@ -61,7 +61,7 @@ def refuse_constant(event: EventSpec, made: Event, geometry: Geometry, t: sp.Sym
         raise BadValueError(message, event.zero.where, hint)
 
 
-class Lettered(sp.Matrix):
+class NotatedMatrix(sp.Matrix):
     """A matrix whose printed form (str, repr, sympy.latex, notebooks) uses the notation that `letters` gives."""
 
     letters: Callable[[], Any] | None = None  # gives an object with latex(matrix) and text(matrix)
@@ -79,16 +79,16 @@ class Lettered(sp.Matrix):
         return repr(self) if self.letters else super().__str__()
 
 
-def lettered(matrix: sp.Matrix, letters: Callable[[], Any] | None) -> Lettered:
+def with_notation(matrix: sp.Matrix, letters: Callable[[], Any] | None) -> NotatedMatrix:
     """Return a matrix with the same entries that prints in the given notation; None: as SymPy prints it."""
-    found = Lettered._fromrep(matrix._rep)
+    found = NotatedMatrix._fromrep(matrix._rep)
     found.letters = letters
     return found
 
 
 def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
     """Return the quantities of `guess`, `set` and `rates`, each with its sign; after the last two those of journals."""
-    start, apart = model.scene.mechanism.start, apart_rows(model)
+    start, apart = model.scene.mechanism.start, eccentricity_rows(model)
     slides = {c.joint.name for c in model.clearances if c.wall}
     signs = [-1 if model.all_rows[k].owner in slides else 1 for k, _, _ in apart]
     return {
@@ -104,7 +104,7 @@ def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
     }
 
 
-def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
+def eccentricity_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
     """Return the equations of Φ that the start violates by a journal's eccentricity: index, e and its rate.
 
     Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. Φ of a slider is
@@ -140,7 +140,7 @@ class Model:
 
     scene: Scene
     symbols: Symbols
-    slots: Slots
+    slots: ParameterTable
     geometry: Geometry
     constraints: Constraints
     all_rows: tuple[Row, ...]  # the closed linkage: joints with play closed, as the start needs it
@@ -205,12 +205,12 @@ class Model:
         return tuple(clearance.name for clearance in self.clearances if clearance.rigid)
 
     @property
-    def rubbed(self) -> tuple[str, ...]:
+    def rigid_with_friction(self) -> tuple[str, ...]:
         """Return the names of the joints with play whose surfaces are rigid and have friction."""
         return tuple(clearance.name for clearance in self.clearances if clearance.rigid and clearance.friction)
 
     @property
-    def rows_change(self) -> bool:
+    def has_changing_constraints(self) -> bool:
         """Return whether constraint equations come and go with the motion: dry friction or rigid contacts.
 
         A vanishing pivot is then reported, not handled by the singular equations.
@@ -274,7 +274,9 @@ class Model:
 
     def _lettered(self, entries: list[Any]) -> sp.Matrix:
         """Return a matrix that prints in the notation of the scene's documents."""
-        return lettered(sp.Matrix(entries), (lambda: self.written("letters")) if "letters" in self.targets else None)
+        return with_notation(
+            sp.Matrix(entries), (lambda: self.written("letters")) if "letters" in self.targets else None
+        )
 
     def _repr_latex_(self) -> str:
         """Return Φ(q, t) = 0 as LaTeX for notebooks."""
@@ -331,7 +333,7 @@ def make_model(scene: Scene) -> Model:
     """Derive the equations of one scene, joint by joint."""
     check_own_laws(scene)
     mechanism, symbols = scene.mechanism, Symbols()
-    slots = Slots(scene, symbols)
+    slots = ParameterTable(scene, symbols)
     geometry = Geometry(scene, symbols, slots)
     constraints = Constraints(geometry)
     rate = dimension(time=-1)
@@ -355,8 +357,8 @@ def make_model(scene: Scene) -> Model:
     kept = tuple(row for row in rows if row.owner not in scene.play)
     events = tuple(make_event(event, geometry, constraints.t) for event in scene.events.values())
     for event in events:
-        refuse_constant(scene.events[event.name], event, geometry, constraints.t)
-    offer_materials(scene, slots)
+        check_event_varies(scene.events[event.name], event, geometry, constraints.t)
+    add_material_parameters(scene, slots)
     model = Model(
         scene,
         symbols,
@@ -373,12 +375,12 @@ def make_model(scene: Scene) -> Model:
         baumgarte,
         events,
     )
-    offer_further(model)
+    add_further_parameters(model)
     model.freeze()
     return model
 
 
-def offer_materials(scene: Scene, slots: Slots) -> None:
+def add_material_parameters(scene: Scene, slots: ParameterTable) -> None:
     """Make parameters of all materials that a run may choose for this scene, and of the choice itself."""
     for choice in scene.mechanism.choices.values():
         if any(number.address in slots.entries for number in choice.numbers.values()):
@@ -391,7 +393,7 @@ def offer_materials(scene: Scene, slots: Slots) -> None:
             slots.choice(choice.address, words, scene.materials[choice.address])
 
 
-def offer_further(model: Model) -> None:
+def add_further_parameters(model: Model) -> None:
     """Make parameters of the values that no equation contains: ground points, the start, settings of methods."""
     for vector in model.scene.mechanism.ground.values():
         model.geometry.ground_vector(vector)

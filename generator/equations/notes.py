@@ -42,7 +42,7 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append(f"impacts by Newton's restitution in {', '.join(model.rigid)}: no slopes, so no rodas5p, no peers")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
-    jumps = jumping_drives(model)
+    jumps = drives_with_jumps(model)
     if jumps:
         notes.append(
             f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse; smooth_step has no jump"
@@ -55,13 +55,13 @@ def has_jumps(model: Model) -> bool:
     return any(map(rate_jumps, model.scene.mechanism.drives.values()))
 
 
-def jumping_drives(model: Model) -> tuple[str, ...]:
+def drives_with_jumps(model: Model) -> tuple[str, ...]:
     """Return the drives whose rate may jump in a scene with degrees of freedom."""
     drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
     return tuple(drive.name for drive in drives if rate_jumps(drive))
 
 
-def refuse_massless(model: Model) -> None:
+def check_masses(model: Model) -> None:
     """Raise MissingKeyError for bodies without mass or inertia if the motion depends on them."""
     asks = _reason_for_masses(model)
     if asks and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))):

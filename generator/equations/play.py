@@ -8,16 +8,16 @@ from typing import TypeAlias
 
 import sympy as sp
 
+from gudgeon.generator.equations.contact_points import Place, Wall, places_of
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.own_laws import check_numbers, force_of, number_of
-from gudgeon.generator.equations.places import Place, Wall, places_of
+from gudgeon.generator.equations.user_defined_laws import check_numbers, force_of, number_of
 from gudgeon.generator.kinds.laws.built import build
 from gudgeon.generator.kinds.laws.law import (
     DEEPEST,
     MEAN_CLEARANCE,
-    OWN,
     RESULTS,
+    USER_LAWS,
     VARIABLES,
     Law,
     LawInputs,
@@ -27,8 +27,8 @@ from gudgeon.generator.kinds.laws.law import (
 )
 from gudgeon.generator.mechanism import Joint, LawUse, Play
 from gudgeon.generator.symbols.curves import contour_of
-from gudgeon.generator.symbols.numbers import Slots
-from gudgeon.generator.symbols.wholes import Whole
+from gudgeon.generator.symbols.parameter_table import ParameterTable
+from gudgeon.generator.symbols.unevaluated import Whole
 from gudgeon.language.units import VELOCITY
 
 Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a derived parameter
@@ -149,13 +149,13 @@ class Clearance:
         return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
-def make_clearances(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> list[Clearance]:
+def make_clearances(joint: Joint, play: Play, geometry: Geometry, slots: ParameterTable) -> list[Clearance]:
     """Return the equations of one joint with play at each of its contact points."""
     made = [_clearance(joint, play, slots, place) for place in places_of(joint, play.bearing, geometry, slots)]
     return [replace(one, contour=_contour(joint, play, slots)) for one in made]
 
 
-def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearance:
+def _clearance(joint: Joint, play: Play, slots: ParameterTable, place: Place) -> Clearance:
     """Return the equations at one contact point."""
     constants: dict[str, sp.Expr] = {}
     pair = place.pair
@@ -163,8 +163,8 @@ def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearanc
     def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
         """Return a derived parameter named after contact and bearing, which joints with the same ones share."""
         # named after what it is made of: joints with the same bearing and contact share it
-        wanted = f"{play.contact.name}_{play.bearing.name}_{name}"
-        constants[name] = slots.derive(wanted, expression, meaning)
+        expected = f"{play.contact.name}_{play.bearing.name}_{name}"
+        constants[name] = slots.derive(expected, expression, meaning)
         return constants[name]
 
     def law(use: LawUse | None, of: PairSymbols = place.of_laws) -> LawEquations | None:
@@ -200,14 +200,14 @@ def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearanc
     )
 
 
-def _contour(joint: Joint, play: Play, slots: Slots) -> Contour | None:
+def _contour(joint: Joint, play: Play, slots: ParameterTable) -> Contour | None:
     """Return the contour of a bearing as a table of parameters; None if it is a circle."""
     if not play.contour:
         return None
     return Contour(slots.table(f"contour_{joint.name}", play.contour), len(play.contour))
 
 
-def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
+def _law(use: LawUse, pair: PairSymbols, slots: ParameterTable, derive: Derive) -> LawEquations:
     """Return a law with the symbols of its parameters and variables filled in.
 
     `derive` makes derived parameters from name, value and meaning.
@@ -221,19 +221,19 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
         parameters[name] = force_of(use.quantities[name], variables["delta"], most, slots)
     derived: dict[str, sp.Expr] = {}
 
-    def told(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+    def message(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
         """Return a derived parameter and record it under its name in the law."""
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 
-    steps = build(law, LawInputs(parameters, use.options, pair, variables, told, Whole))
+    steps = build(law, LawInputs(parameters, use.options, pair, variables, message, Whole))
     read = {symbol.name for step in steps.values() for symbol in step.free_symbols}
     unread = {name for name in law.further if name not in read}
     own = tuple(symbol for name, symbol in variables.items() if name not in unread)
-    if law.name in OWN:
+    if law.name in USER_LAWS:
         check_numbers(law, own, steps, slots)
     equations = LawEquations(law, use.options, own, steps, parameters, derived)
-    return _with_its_names(equations) if law.name in OWN else equations
+    return _with_its_names(equations) if law.name in USER_LAWS else equations
 
 
 def letter_of(law: Law, name: str) -> str:
@@ -242,7 +242,7 @@ def letter_of(law: Law, name: str) -> str:
     Names of the role (`delta`, `F_n`) are kept. No fixed name contains `__`, and neither does `made_name`.
     """
     fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
-    return f"{name}__" if law.name in OWN and name not in fixed else name
+    return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 
 def _with_its_names(equations: LawEquations) -> LawEquations:

@@ -31,7 +31,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class Given:
+class PrescribedCoordinate:
     """A coordinate z(t) that a drive prescribes; its equation gives the effort of the drive, not an acceleration."""
 
     name: str
@@ -41,7 +41,7 @@ class Given:
 
 
 @dataclass(frozen=True)
-class Known:
+class DependentCoordinate:
     """A dependent coordinate of a loop that drives determine, a function of t, with its first three rates."""
 
     q: sp.Symbol
@@ -60,10 +60,10 @@ class System:
     motions: Mapping[str, Motion]  # by body
     mass: Mapping[tuple[int, int], sp.Expr]
     applied: tuple[sp.Expr, ...]  # weights, and what the velocities and prescribed accelerations leave of J^T m a
-    given: tuple[Given, ...]
+    given: tuple[PrescribedCoordinate, ...]
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
-    known: tuple[Known, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
+    known: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def turning_inertia(self, k: int) -> sp.Expr:

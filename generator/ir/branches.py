@@ -12,8 +12,8 @@ import sympy as sp
 
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import NONE, Names
-from gudgeon.generator.symbols.corners import BranchOf, Pick
 from gudgeon.generator.symbols.storage import Key, Place
+from gudgeon.generator.symbols.switches import BranchOf, Pick
 
 
 @dataclass(frozen=True)
@@ -66,11 +66,11 @@ class Branch(Line):
 class Branches:
     """Inserts a Branch before the first line that reads it; `names` are the names of branches by expression."""
 
-    def __init__(self, taken: Iterable[str]) -> None:
-        """Begin without branches; `taken`: names in use."""
+    def __init__(self, used: Iterable[str]) -> None:
+        """Begin without branches; `used`: names in use."""
         self.names: dict[sp.Expr, str] = {}
-        self._taken = set(taken)
-        self._told: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
+        self._taken = set(used)
+        self._message: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
 
     def lines(self, lines: Iterable[Line]) -> list[Line]:
         """Return the same lines with their branches inserted."""
@@ -87,7 +87,7 @@ class Branches:
                 found += self._branches(expression)
             found.append(line)
             if isinstance(line, Statement) and isinstance(line.value, BranchOf):
-                self._told[sp.Symbol(line.defines, real=True)] = line.value.args[1]
+                self._message[sp.Symbol(line.defines, real=True)] = line.value.args[1]
         return found
 
     def _branches(self, expression: sp.Basic) -> list[Line]:
@@ -108,7 +108,7 @@ class Branches:
     def _new(self, pick: Pick) -> str:
         """Return a new name for a branch: "larger", "smaller" or "branch", with a number."""
         side, a, b = pick.args
-        difference = self._told.get(side)
+        difference = self._message.get(side)
         kind = {a - b: "larger", b - a: "smaller"}.get(difference, "branch")
         name = next(name for k in range(1, len(self._taken) + 2) if (name := f"{kind}_{k}") not in self._taken)
         self._taken.add(name)

@@ -15,9 +15,9 @@ import sympy as sp
 from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, without_unused
 from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
-from gudgeon.generator.ir.values import Chosen, Test, Value
-from gudgeon.generator.symbols.corners import Size
+from gudgeon.generator.ir.values import Conditional, Test, Value
 from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
+from gudgeon.generator.symbols.switches import Size
 
 SUFFIX, IMAGINARY = "_complex", "_i"
 ZERO = sp.Integer(0)
@@ -118,7 +118,7 @@ class _ComplexConverter:
         match value:
             case Place():
                 return self._places(value) or (value, ZERO)
-            case Chosen():
+            case Conditional():
                 then, otherwise = self.parts(value.then), self.parts(value.otherwise)
                 parts = [replace(value, then=a, otherwise=b) for a, b in zip(then, otherwise, strict=True)]
                 return parts[0], parts[1]

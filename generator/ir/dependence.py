@@ -12,8 +12,8 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.corners import Pick
 from gudgeon.generator.symbols.storage import Key, Place, key_of
+from gudgeon.generator.symbols.switches import Pick
 
 Marks = frozenset[str]
 NO_MARKS: Marks = frozenset()

@@ -27,7 +27,7 @@ TINY = sp.Float(1e-150)
 
 
 class Tangents:
-    """Tangents of symbols in one kernel; branches are those of the switches of `owner` (symbols/corners.py).
+    """Tangents of symbols in one kernel; branches are those of the switches of `owner` (symbols/switches.py).
 
     `share_powers`: x^n with n ≥ 1, as in contact laws, is written as x · x^(n−1), which its derivative needs too.
     """

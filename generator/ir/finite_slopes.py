@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.symbols.corners import Largest, Pick, Smallest
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
 from gudgeon.generator.symbols.from_expressions import CLASSES, classes_where, derivative_at
-from gudgeon.generator.symbols.wholes import Share
+from gudgeon.generator.symbols.switches import Largest, Pick, Smallest
+from gudgeon.generator.symbols.unevaluated import Share
 
 _SATURATING = classes_where(lambda f: f.saturates)
 _GROWING = classes_where(lambda f: f.is_exponential or f.has_pole)

@@ -15,9 +15,9 @@ import sympy as sp
 from gudgeon.generator.ir.signatures import Argument
 from gudgeon.generator.ir.statements import Branches, Line, Rescue, Statement
 from gudgeon.generator.ir.values import Value
-from gudgeon.generator.symbols.corners import BranchOf, Switches
 from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
+from gudgeon.generator.symbols.switches import BranchOf, Switches
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
 
 
@@ -93,7 +93,9 @@ def _counted_by_sympy(expression: sp.Basic) -> int:
     return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
-def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False) -> list[Section]:
+def hold_branches(
+    switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False
+) -> list[Section]:
     """Return the sections with every switching function (or only_known ones) replaced by its held branch.
 
     Each branch is assigned before it is first read.
@@ -105,8 +107,8 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
-                    if (told := sp.Symbol(statement.defines, real=True)) not in known:
-                        known[told] = statement.value
+                    if (message := sp.Symbol(statement.defines, real=True)) not in known:
+                        known[message] = statement.value
                         statements.append(statement)
                     continue
                 before = len(known)
@@ -143,14 +145,14 @@ LINEARIZATION = "lin"  # the argument that holds the linearized equations of mot
 HELD = "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
 
 
-def with_branches(kernel: Kernel, told: str = "nobody") -> Kernel:
+def declare_branches(kernel: Kernel, message: str = "nobody") -> Kernel:
     """Return the kernel with the line that declares held branches before it, if it reads any.
 
     told: where the kernel writes its switching functions, see `Branches`.
     """
     if not _reads_sides(kernel):
         return kernel
-    return replace(kernel, sections=(Section(HELD, (Branches(told),)), *kernel.sections))
+    return replace(kernel, sections=(Section(HELD, (Branches(message),)), *kernel.sections))
 
 
 def _reads_sides(kernel: Kernel) -> bool:
@@ -203,7 +205,7 @@ class KernelBuilder:
 
         With an `owner` ("": the scene) switching functions, or only_known ones, are replaced by branches: the function
         then
-        reads `branch` and writes `g` (symbols/corners.py). `prune`: locals that nothing reads are left out.
+        reads `branch` and writes `g` (symbols/switches.py). `prune`: locals that nothing reads are left out.
         """
         if prune:
             self._sections = _prune_sections(self._sections)
@@ -226,7 +228,7 @@ class KernelBuilder:
         ]
         sections = front + [Section(title, tuple(group)) for title, group in self._sections]
         if owner is not None:
-            sections = hold_sides(self._symbols.switches, owner, sections, only_known)
+            sections = hold_branches(self._symbols.switches, owner, sections, only_known)
         kept = tuple(section for section in sections if section.statements)
         read = {name for section in kept for line in section.statements for name in line.reads}
         names = self._symbols.shorter(read)
@@ -273,14 +275,14 @@ class Pool:
         self._place: dict[sp.Expr, int] = {}
         self.size = 0
 
-    def keep(self, build: KernelBuilder, value: sp.Expr, wanted: str) -> sp.Expr:
+    def keep(self, build: KernelBuilder, value: sp.Expr, expected: str) -> sp.Expr:
         """Store a value and return ± the symbol of its place; a number or parameter is returned as it is."""
         for sign in (1, -1):
             if value.is_Number or self._is_parameter(sign * value):
                 return value
             if sign * value in self._kept:
                 return sign * self._kept[sign * value]
-        symbol = self._symbols.new(wanted, self.array[self._store(build, value)])
+        symbol = self._symbols.new(expected, self.array[self._store(build, value)])
         self._kept[value], self._place[symbol] = symbol, self._place[value]
         return symbol
 

@@ -82,8 +82,8 @@ def readable(kernel: Kernel, branching: bool = True) -> Readable:
     """Return the readable form of a kernel: without copies of arguments and parameters, with lines for branches."""
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
-    taken = {name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)}
-    branches = Branches(taken | arguments | {str(called) for called in names.values()})
+    used = {name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)}
+    branches = Branches(used | arguments | {str(called) for called in names.values()})
     sections = []
     for section in kernel.sections:
         lines = _without_copies(section.statements, arguments, names)

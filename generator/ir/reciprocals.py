@@ -13,7 +13,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import PlaceSymbol
 
 
@@ -29,7 +29,7 @@ def base_name(power: sp.Basic) -> str:
     return power.base.name if power.base.is_Symbol else "sum"
 
 
-def hoisted(slots: Slots, value: sp.Expr) -> sp.Expr:
+def hoisted(slots: ParameterTable, value: sp.Expr) -> sp.Expr:
     """Return the value with reciprocals of constant denominators as derived parameters."""
 
     def constant(part: sp.Basic) -> bool:
@@ -54,7 +54,7 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
     statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
     values = [s.value for s in statements if isinstance(s.value, sp.Expr)]
     often = Counter(part.base for value in values for part in sp.preorder_traversal(value) if is_division(part))
-    taken = {s.defines for s in statements}
+    used = {s.defines for s in statements}
     names: dict[sp.Expr, sp.Symbol] = {}
 
     def shared(part: sp.Basic) -> bool:
@@ -68,7 +68,7 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
             if isinstance(item, Statement) and isinstance(item.value, sp.Expr) and item.value.has(sp.Pow):
                 for part in sp.postorder_traversal(item.value):
                     if shared(part) and part.base not in names:
-                        names[part.base] = _new(part, taken)
+                        names[part.base] = _new(part, used)
                         kept.append(Statement(names[part.base].name, 1 / part.base))
                 item = replace(item, value=item.value.replace(shared, lambda part: names[part.base] ** -part.exp))
             kept.append(item)
@@ -76,12 +76,12 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
     return found
 
 
-def _new(power: sp.Basic, taken: set[str]) -> sp.Symbol:
-    """Return a new symbol for a reciprocal and add its name to `taken`."""
-    wanted = name = f"inverse_{base_name(power)}"
-    for k in range(2, len(taken) + 3):
-        if name not in taken:
+def _new(power: sp.Basic, used: set[str]) -> sp.Symbol:
+    """Return a new symbol for a reciprocal and add its name to `used`."""
+    expected = name = f"inverse_{base_name(power)}"
+    for k in range(2, len(used) + 3):
+        if name not in used:
             break
-        name = f"{wanted}_{k}"
-    taken.add(name)
+        name = f"{expected}_{k}"
+    used.add(name)
     return sp.Symbol(name, real=True)

@@ -43,7 +43,7 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol, key_of
 Titled = tuple[str, Line]  # a line and its section's title
 
 
-def late_last(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Titled]:
+def split_late_sums(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Titled]:
     """Return the lines with sums split so that the terms that are known last are added last.
 
     `unique` returns an unused name. No line then waits longer than it must.
@@ -98,7 +98,7 @@ def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str
 
 
 LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
-Wanted = Callable[[Place], Place | None]  # place of a result; None: it is not requested
+Expected = Callable[[Place], Place | None]  # place of a result; None: it is not requested
 _DROPPED = (Status, JointsAlone, Jump, Rescue)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
@@ -139,16 +139,16 @@ class Linear:
     unknowns: Mapping[int, sp.Symbol]
 
 
-def series_of(kernel: Kernel, wanted: Wanted, name: str, linear: Linear | None = None) -> Series:
-    """Return the Taylor series of a function's results; `wanted` gives the place of each result. Raises NoSeries."""
-    lines = _lines(kernel, wanted)
+def series_of(kernel: Kernel, expected: Expected, name: str, linear: Linear | None = None) -> Series:
+    """Return the Taylor series of a function's results; `expected` gives the place of each result. Raises NoSeries."""
+    lines = _lines(kernel, expected)
     made = _Series(lines, linear)
     for title, line in lines:
         made.line(title, line)
     return made.finished(name)
 
 
-def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
+def _lines(kernel: Kernel, expected: Expected) -> list[Titled]:
     """Return the lines that lead to requested results; other stored values become locals."""
     lines: list[Titled] = []
     local: dict[sp.Basic, sp.Basic] = {}
@@ -159,7 +159,7 @@ def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
                 name = "".join(c if c.isalnum() else "_" for c in str(stored).replace(".", "__")).strip("_")
                 local[PlaceSymbol(stored)] = sp.Symbol(name, real=True)
                 line = replace(line, target=name)
-                if place := wanted(stored):
+                if place := expected(stored):
                     lines.append((section.title, line))
                     line = replace(line, target=place, value=sp.Symbol(name, real=True))
             if not isinstance(line, _DROPPED):
@@ -285,7 +285,7 @@ class _Series(Rules):
         values = _prune_lines([*self._values, *keeps])
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)
-        later = _sections(late_last(terms, self.unique))
+        later = _sections(split_late_sums(terms, self.unique))
         return Series(of_zero, Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products))
 
 

@@ -64,15 +64,15 @@ Lowered = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both by 
 class Rules(ABC):
     """Series of expressions of locals; locals in `moving` have orders above 0, `numbers` are parameters of the run."""
 
-    def __init__(self, taken: set[str]) -> None:
-        """Begin with time as the only moving local; `taken`: names in use."""
+    def __init__(self, used: set[str]) -> None:
+        """Begin with time as the only moving local; `used`: names in use."""
         self.moving, self.numbers = {"t"}, set[str]()
         self.products: dict[tuple[Factor, Factor], Product] = {}
         self.known: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
         self.later: list[tuple[str, sp.Expr]] = []  # to be defined after the current definition
         self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # c by what it is 1 over: products with c are quotients
         self.inverses: dict[str, sp.Symbol] = {}  # 1/b_0 by name
-        self._taken = taken
+        self._taken = used
 
     @abstractmethod
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:

@@ -21,12 +21,12 @@ MANY = 4  # groups, beyond which they are computed in a loop
 Written = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Line], int]]
 
 
-def side_by_side(kernel: Kernel) -> Kernel:
+def pair_sines(kernel: Kernel) -> Kernel:
     """Return the kernel with cosines and sines computed in vectors, as soon as their angles are known."""
     return _paired(kernel, _vectors)
 
 
-def lane_by_lane(kernel: Kernel) -> Kernel:
+def call_sines_by_lane(kernel: Kernel) -> Kernel:
     """Return the kernel with cosines and sines of angles that are vectors of several runs (lanes.h).
 
     The same functions are used, so that the bits are the same.
@@ -82,12 +82,12 @@ def _grouped(section: Section, written: Written, before: int) -> tuple[Section, 
     early = frozenset[int]().union(*(needs[k] for k in turned))
     first = [s for k, s in enumerate(statements) if k in early]
     rest = [s for k, s in enumerate(statements) if k not in early and k not in turned]
-    taken = [statements[k] for k in turned]
-    lines, after = written(angles, taken, before)
+    used = [statements[k] for k in turned]
+    lines, after = written(angles, used, before)
     return Section(section.title, (*first, *lines, *rest)), after
 
 
-def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int) -> tuple[list[Line], int]:
+def _vectors(angles: Sequence[sp.Symbol], used: Sequence[Statement], before: int) -> tuple[list[Line], int]:
     """Return the lines for groups of four angles, and the statements that read the results.
 
     More than MANY groups are computed in a loop, which is shorter.
@@ -100,7 +100,7 @@ def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: in
     else:
         lines = [Sines(tuple(named[4 * n : 4 * n + 4]), str(before + n)) for n in range(count)]
     places = {angle: k for k, angle in enumerate(angles)}
-    for s in taken:
+    for s in used:
         n, lane = divmod(places[_angle(s)], 4)
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
         vector = Place(f"{which}_{of}")[n] if many else Place(f"{which}_{before + n}")
@@ -108,11 +108,11 @@ def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: in
     return lines, before + count
 
 
-def _lanes(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int) -> tuple[list[Line], int]:
+def _lanes(angles: Sequence[sp.Symbol], used: Sequence[Statement], before: int) -> tuple[list[Line], int]:
     """Return one call for each angle, and the statements that read the results."""
     place = {angle: k for k, angle in enumerate(angles, before)}
     lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in place.items()]
-    for s in taken:
+    for s in used:
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
         lines.append(replace(s, value=Place(f"{which}_{place[_angle(s)]}")))
     return lines, before + len(place)

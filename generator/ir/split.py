@@ -21,7 +21,18 @@ from itertools import groupby
 
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import Access, Number, result, source
-from gudgeon.generator.ir.statements import Call, Declare, Ended, Guard, Jump, Line, Passed, Return, Sines, Statement
+from gudgeon.generator.ir.statements import (
+    AssignStatus,
+    Call,
+    Declare,
+    Guard,
+    Jump,
+    Line,
+    Return,
+    ReturnIfFailed,
+    Sines,
+    Statement,
+)
 from gudgeon.generator.symbols.storage import Place
 
 
@@ -53,8 +64,8 @@ def nearby(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]
                 missing[reader] -= 1
             ready += [reader for reader in reversed(readers[k]) if not missing[reader] and not placed[reader]]
 
-    wanted = [k for k, following in enumerate(readers) if not following]
-    for root in wanted:
+    expected = [k for k, following in enumerate(readers) if not following]
+    for root in expected:
         waiting = [root]
         while waiting:
             k = waiting[-1]
@@ -193,8 +204,8 @@ def _slots(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
 
 def _unused_name(name: str, items: Sequence[Item]) -> str:
     """Return the name with underscores appended until no line uses it."""
-    taken = {n for item in items for n in (*item.reads, item.defines)}
-    while name in taken:
+    used = {n for item in items for n in (*item.reads, item.defines)}
+    while name in used:
         name += "_"
     return name
 
@@ -287,7 +298,7 @@ class _Cut:
         if tests:
             jumps = tests[0].jumps
             status = "pivot" if jumps else f"status_{name.rpartition('_')[2]}"
-            lines, after = [Passed(call, status)], [Ended(status, jumps)]
+            lines, after = [AssignStatus(call, status)], [ReturnIfFailed(status, jumps)]
         title = piece[0].title
         return [
             *(Item(title, line, frozenset(), False) for line in lines),

@@ -147,7 +147,7 @@ class When(Line):
 
 
 @dataclass(frozen=True)
-class Passed(Line):
+class AssignStatus(Line):
     """The call of a part of the function, whose status is assigned to a local or to `pivot`."""
 
     call: Call
@@ -165,7 +165,7 @@ class Passed(Line):
 
 
 @dataclass(frozen=True)
-class Ended(Line):
+class ReturnIfFailed(Line):
     """The end of this function if the status of a part is not 0."""
 
     status: str
@@ -258,14 +258,14 @@ class Unread(Line):
 class Branches(Line):
     """The declaration of held branches, and of where switching functions are written: "" nowhere, "nobody", "rhs"."""
 
-    told: str
+    message: str
     held: bool = True
 
     @property
     def names(self) -> Names:
         """Return the names that the declaration reads."""
-        told = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.told]
-        return frozenset(["branch", *told, *(["discrete"] if self.held else [])])
+        message = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.message]
+        return frozenset(["branch", *message, *(["discrete"] if self.held else [])])
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from typing import ClassVar, TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.symbols.corners import BranchOf, Size
 from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.switches import BranchOf, Size
 
 Names = frozenset[str]
 NONE: Names = frozenset()
@@ -70,7 +70,7 @@ class Test:
 
 
 @dataclass(frozen=True)
-class Chosen:
+class Conditional:
     """A conditional value: `then` if the test holds, else `otherwise`."""
 
     test: Test
@@ -98,7 +98,7 @@ class Sum:
 
 
 @dataclass(frozen=True)
-class Given:
+class Defaulted:
     """Parameter k as it is given, or else its default."""
 
     k: int
@@ -111,4 +111,4 @@ class Given:
         return (self.default,)
 
 
-Value: TypeAlias = sp.Basic | Place | Chosen | Sum | Given
+Value: TypeAlias = sp.Basic | Place | Conditional | Sum | Defaulted

@@ -11,7 +11,7 @@ from gudgeon.generator.equations.model import Model, start_values
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, result, source
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Given
+from gudgeon.generator.ir.values import Defaulted
 from gudgeon.generator.symbols.storage import Place
 
 
@@ -23,8 +23,8 @@ def prepare_kernel(model: Model) -> Kernel:
     slots: list[Statement] = []
     info = model.symbols.info
     for i, entry in enumerate(model.slots.entries.values()):
-        told = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
-        slots.append(Statement(entry.symbol.name, Given(i, entry.value), told))
+        message = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
+        slots.append(Statement(entry.symbol.name, Defaulted(i, entry.value), message))
         slots.append(Statement(model.slots.place(entry.symbol), entry.symbol))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():

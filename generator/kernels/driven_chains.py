@@ -19,14 +19,14 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import HELD, Kernel, KernelBuilder, Section, with_branches, without_unused
+from gudgeon.generator.ir.kernels import HELD, Kernel, KernelBuilder, Section, declare_branches, without_unused
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, result
-from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.sine_pairs import pair_sines
 from gudgeon.generator.ir.statements import Branches, LargestRow, Return, Statement, Unread
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.square_rows import SquareRows
-from gudgeon.generator.symbols.corners import BranchOf
 from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.switches import BranchOf
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
@@ -47,7 +47,7 @@ class ChainKernels:
         )
         self.square = SquareRows(own, ["." in name for name in chain.names])
         self.first = len(system.q)  # of the chains' coordinates in q and v
-        raw = [side_by_side(without_unused(kernel)) for kernel in self._all()]
+        raw = [pair_sines(without_unused(kernel)) for kernel in self._all()]
         sides = [
             s.value
             for kernel in raw
@@ -56,7 +56,7 @@ class ChainKernels:
             if isinstance(s, Statement) and isinstance(s.value, BranchOf)
         ]
         self.corners = self._corners(sides) if sides else None
-        self.kernels = [*map(with_branches, raw), *([self.corners] if self.corners else [])]
+        self.kernels = [*map(declare_branches, raw), *([self.corners] if self.corners else [])]
         self.size = self._extent() if any("." in name for name in chain.names) else ZERO
 
     def _all(self) -> list[Kernel]:

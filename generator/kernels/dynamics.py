@@ -7,13 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
 
+from gudgeon.generator.equations.contact_points import Wall
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.model import Model, stick_gain
-from gudgeon.generator.equations.places import Wall
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.branches import JointsAlone
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_branches
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, RHS, STATE, ZERO, acting_on, result
 from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
 from gudgeon.generator.ir.values import Sum, Test
@@ -46,7 +46,7 @@ def dynamics_kernel(
     """
     model = system.model
     build = KernelBuilder(model.symbols, name, (*doc, *elimination_lines(kkt)))
-    if kkt.rows and not model.rows_change:
+    if kkt.rows and not model.has_changing_constraints:
         build.section("status")
         build.line(Status())
     _append_events(model, build)
@@ -63,7 +63,7 @@ def dynamics_kernel(
     b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
     # with changing constraints a vanishing pivot is reported, not handled
-    factor = kkt.factorize(build) if model.rows_change else kkt.factorize(build, True, LEAST, LEAST_SIZE)
+    factor = kkt.factorize(build) if model.has_changing_constraints else kkt.factorize(build, True, LEAST, LEAST_SIZE)
     x = kkt.solve(build, factor, b)
     build.section("results")
     for k, _ in enumerate(system.q):
@@ -72,13 +72,13 @@ def dynamics_kernel(
         build.out(RHS["lambda"][r], x[kkt.n + r])
     _append_friction_forces(build, kkt, x)
     _append_half_squares(build, kkt.system, x)
-    if kkt.rows and not model.rows_change:
+    if kkt.rows and not model.has_changing_constraints:
         (rescue or _append_dependent_rows)(build, kkt, b)
     _append_powers(build, kkt, on_given)
-    build.line(Return(pivot=bool(kkt.rows and not model.rows_change)))
+    build.line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, result("a"), RHS)
     kernel = build.build(arguments, status=True, owner="")
-    return with_branches(kernel, "rhs")
+    return declare_branches(kernel, "rhs")
 
 
 def elimination_lines(kkt: KKT) -> list[str]:

@@ -20,12 +20,12 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import as_written
-from gudgeon.generator.ir.kernels import Kernel, Section, with_branches
+from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
 from gudgeon.generator.ir.statements import Branches, Line, Statement
-from gudgeon.generator.symbols.corners import BranchOf, ModOn, PeriodsOf, Pick
 from gudgeon.generator.symbols.storage import Place
-from gudgeon.generator.symbols.wholes import Whole
+from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Pick
+from gudgeon.generator.symbols.unevaluated import Whole
 
 WATCHED, _RANGES = "watched_functions", "watched_ranges"
 _WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
@@ -33,7 +33,7 @@ _RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's 
 _KNOWN_LATE = RHS.name  # what reads this is known only once forces or accelerations are
 
 
-def watched_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
+def event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
     """Return the C function that evaluates the event functions alone; None if they depend on forces.
 
     It is the part of the right-hand side `dynamics` that the switching functions and user events read.
@@ -71,7 +71,7 @@ def watched_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None 
     arguments = tuple(a for a in dynamics.arguments if a.name != "a")
     named = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
     watched = replace(named, arguments=arguments, sections=tuple(sections), status=False)
-    return with_branches(watched, "rhs")
+    return declare_branches(watched, "rhs")
 
 
 def _merge_sections(*kernels: Kernel | None) -> list[Section]:
@@ -104,12 +104,12 @@ def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kerne
     return replace(watched, name=_RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
 
 
-def reads_state(kernel: Kernel) -> bool:
+def depends_on_state(kernel: Kernel) -> bool:
     """Return whether a function depends on the state, not on time and parameters only."""
-    return reads_beyond(kernel, 0)
+    return reads_coordinate_beyond(kernel, 0)
 
 
-def reads_beyond(kernel: Kernel, count: int) -> bool:
+def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
     """Return whether a function reads a coordinate with an index of `count` or more, or the rate of one."""
     values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
     places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
@@ -126,7 +126,7 @@ def _output_statement(statement: Statement, corners: Collection[int]) -> Stateme
 
 
 _TIME_TERMS = "time_terms"
-MOST = 32  # terms of a scene
+MAX_TIME_TERMS = 32  # terms of a scene
 _TIME_TERMS_DOC = ("Terms that depend on time alone and may rise and fall within a step (transients).",)
 _LINEAR = (sp.sin, sp.cos, sp.exp)  # what shows at the stages of a step, of a linear argument
 _POWERS = range(1, 5)  # likewise, of what does
@@ -155,11 +155,11 @@ def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
     rests: stick or a rigid contact may hold the motion while forces vary, so that sines count too.
     """
     found = _collect_terms(dynamics, False)
-    terms = list(found.terms)[:MOST]
+    terms = list(found.terms)[:MAX_TIME_TERMS]
     pulses = len(terms)
     if rests:
         found = _collect_terms(dynamics, True)
-        terms = [*terms, *(term for term in found.terms if term not in terms)][:MOST]
+        terms = [*terms, *(term for term in found.terms if term not in terms)][:MAX_TIME_TERMS]
     return TimeTerms(_terms_kernel(dynamics, found, terms) if terms else None, pulses)
 
 

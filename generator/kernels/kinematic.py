@@ -7,7 +7,7 @@ import sympy as sp
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, without_unused
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, result
-from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.sine_pairs import pair_sines
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.storage import Place
@@ -15,7 +15,7 @@ from gudgeon.generator.symbols.storage import Place
 
 def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
     """Return the C functions `close_step` (at a position) and `arrive` (at a position with its rates)."""
-    return [side_by_side(without_unused(kernel)) for kernel in (_close_step(system, rows), _arrive(system, rows))]
+    return [pair_sines(without_unused(kernel)) for kernel in (_close_step(system, rows), _arrive(system, rows))]
 
 
 def _close_step(system: System, rows: SquareRows) -> Kernel:

@@ -32,7 +32,7 @@ def outputs_kernel(model: Model) -> Kernel:
     rows_of: dict[str, list[Row]] = {}
     for row in model.rows:
         rows_of.setdefault(row.owner, []).append(row)
-    for j, joint in enumerate(kept_joints(model)):
+    for j, joint in enumerate(constraining_joints(model)):
         for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
             target = Place("reactions")[N_REACTION_COLUMNS * j + k]
             build.out(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
@@ -56,7 +56,7 @@ def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
     return {f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()}
 
 
-def kept_joints(model: Model) -> list[Joint]:
+def constraining_joints(model: Model) -> list[Joint]:
     """Return the joints that constrain the motion: those without play."""
     return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
 

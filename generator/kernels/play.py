@@ -11,19 +11,26 @@ from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section, hold_sides
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section, hold_branches
 from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, result
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.kernels.formulas import formula_lines
-from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
-from gudgeon.generator.kinds.laws.law import OWN
-from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slopes, in_place, share_slope, unlatched
+from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions, joint_numbers
+from gudgeon.generator.kinds.laws.law import USER_LAWS
+from gudgeon.generator.solvers.contact_slopes import (
+    DEEP,
+    dry_derivative_kernel,
+    film_derivative_kernel,
+    fraction_derivative_kernel,
+    in_place,
+    without_stored_speed,
+)
 from gudgeon.generator.symbols.storage import Place, Result
 
 
-def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
+def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
     """Return how a joint calls its laws, by role (normal, friction, film), for those that it has."""
     found = {}
     for law in (clearance.normal, clearance.friction, clearance.film):
@@ -45,10 +52,10 @@ def _parameter_meanings(model: Model, equations: LawEquations) -> dict[str, str]
 def law_name(equations: LawEquations) -> str:
     """Return the C name of a law: "own_" before it if a user defined it, and its options that are not the defaults."""
     usual = {option.name: option.default for option in equations.law.options}
-    chosen = {name: value for name, value in equations.options.items() if value != usual[name]}
+    selected = {name: value for name, value in equations.options.items() if value != usual[name]}
     name = equations.law.name
-    name = "_".join([name, *(option if value is True else str(value) for option, value in chosen.items())])
-    return f"own_{name}__" if equations.law.name in OWN else name  # whatever the user calls it, no other function
+    name = "_".join([name, *(option if value is True else str(value) for option, value in selected.items())])
+    return f"own_{name}__" if equations.law.name in USER_LAWS else name  # whatever the user calls it, no other function
 
 
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
@@ -79,7 +86,7 @@ def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = Non
     if names is None:
         own = {**equations.numbers, **equations.derived}
         names = {symbol: name for name, symbol in own.items() if symbol.is_Symbol}
-    chosen = [f"{name}: {value}" for name, value in equations.options.items()]
+    selected = [f"{name}: {value}" for name, value in equations.options.items()]
     usual = {option.name: option.default for option in law.options}
     whose = [
         f"Of {value}: {source}."
@@ -92,7 +99,7 @@ def law_doc(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = Non
         *formula_lines(equations, names),
         f"Source: {law.source}.",
         f"Valid: {law.validity}.",
-        *([f"Options: {', '.join(chosen)}."] if chosen else []),
+        *([f"Options: {', '.join(selected)}."] if selected else []),
         *whose,
     ]
 
@@ -102,14 +109,14 @@ Statements = tuple[Statement, ...]
 _AT_CENTRE = {contact.n_x: sp.Integer(1), contact.n_y: sp.Integer(0)}
 _OFF_CENTRE, _INVERSE = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
 _GUARDED = {
-    contact.n_x: Chosen(_OFF_CENTRE, contact.e_x * _INVERSE, sp.Integer(1)),
-    contact.n_y: Chosen(_OFF_CENTRE, contact.e_y * _INVERSE, sp.Integer(0)),
+    contact.n_x: Conditional(_OFF_CENTRE, contact.e_x * _INVERSE, sp.Integer(1)),
+    contact.n_y: Conditional(_OFF_CENTRE, contact.e_y * _INVERSE, sp.Integer(0)),
 }
 _SLANTED = Test(contact.slant, ">", (0.0,))
 _GUARDED_OF_CONTOUR = {
     contact.u_x: _GUARDED[contact.n_x],
     contact.u_y: _GUARDED[contact.n_y],
-    contact.steep: Chosen(_OFF_CENTRE, contact.slant * _INVERSE, sp.Integer(1)),
+    contact.steep: Conditional(_OFF_CENTRE, contact.slant * _INVERSE, sp.Integer(1)),
 }
 
 
@@ -118,7 +125,7 @@ class Pin:
     """One joint with play: statements before and after the calls of its laws, in the order of contact_steps.py."""
 
     clearance: Clearance
-    laws: Mapping[str, SharedCall]  # by role, as far as it has them
+    laws: Mapping[str, SharedFunctionCall]  # by role, as far as it has them
     gap: Statements
     before_dry: Statements = ()
     pressing: Statements = ()  # between the normal law and friction
@@ -154,7 +161,7 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
 
     laws, parts = law_calls(model, clearance, shared), {}
     if clearance.normal is not None:
-        parts["before_dry"] = held([unlatched(step) for step in contact.before_dry(clearance)])
+        parts["before_dry"] = held([without_stored_speed(step) for step in contact.before_dry(clearance)])
         parts["pressing"] = held(contact.pressing(clearance))
         parts["after_dry"] = held(contact.after_dry(clearance))
     if film is not None:
@@ -168,39 +175,43 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
     return Pin(clearance, laws, gap, corners=corners, **parts)
 
 
-def _guarded_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Chosen]:
+def _guarded_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Conditional]:
     """Return the replacements, by symbol, for steps that divide by zero at e = 0."""
     if not clearance.contour:
         return {} if clearance.wall else _GUARDED
     value = {step.symbol: step.value for step in steps}
-    n = {s: Chosen(_SLANTED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
+    n = {s: Conditional(_SLANTED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
     turning = value.get(contact.beta_rate)
     if turning is not None:
         away = (turning + contact.omega_i) * contact.e
-        n[contact.beta_rate] = Chosen(_OFF_CENTRE, away * _INVERSE - contact.omega_i, -contact.omega_i)
+        n[contact.beta_rate] = Conditional(_OFF_CENTRE, away * _INVERSE - contact.omega_i, -contact.omega_i)
     return _GUARDED_OF_CONTOUR | n
 
 
-def _make_statements(model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]) -> Statements:
+def _make_statements(
+    model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Conditional]
+) -> Statements:
     """Return steps as statements that read parameters in place and take branches from the joint's switches."""
     statements = []
     for step in steps:
         statements.append(Statement(step.symbol.name, guards.get(step.symbol) or in_place(model, step.value)))
         if step.symbol == contact.e and guards:  # of what has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
-    (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
+    (section,) = hold_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
     return tuple(item for item in section.statements if isinstance(item, Statement))
 
 
-def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
+def joint_derivative_calls(
+    model: Model, clearance: Clearance, shared: SharedFunctions
+) -> dict[str, SharedFunctionCall]:
     """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present."""
     own = {}
     if clearance.film is not None:
-        own["film"] = film_slopes(model, clearance, clearance.film)
+        own["film"] = film_derivative_kernel(model, clearance, clearance.film)
     if clearance.normal is not None:
-        own["dry"] = dry_slopes(model, clearance, clearance.normal)
+        own["dry"] = dry_derivative_kernel(model, clearance, clearance.normal)
     if len(own) == 2:
-        own["share"] = share_slope(model, clearance)
+        own["share"] = fraction_derivative_kernel(model, clearance)
     numbers = joint_numbers(model, clearance)
     return {
         part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.label)

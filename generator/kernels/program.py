@@ -19,16 +19,16 @@ from gudgeon.generator.equations.model import Model, stick_gain
 from gudgeon.generator.equations.system import System, absolute
 from gudgeon.generator.ir.kernels import Kernel, without_unused
 from gudgeon.generator.ir.series import Series
-from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.sine_pairs import pair_sines
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, time_terms, watched_kernel
+from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, event_function_kernel, time_terms
 from gudgeon.generator.kernels.kinematic import kinematic_kernels
-from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
+from gudgeon.generator.kernels.play import Pin, joint_derivative_calls, make_pin
 from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
-from gudgeon.generator.kernels.reduced import is_rescued, motion_kernels, reduced_kernels
-from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions
+from gudgeon.generator.kernels.reduced import has_singular_fallback, motion_kernels, reduced_kernels
+from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
 from gudgeon.generator.kernels.taylor import taylor_series
 from gudgeon.generator.reduction.driven_chains import Chain
@@ -88,7 +88,7 @@ class Methods:
     """
 
     newton: Newton
-    slopes: Mapping[str, Mapping[str, SharedCall]]
+    slopes: Mapping[str, Mapping[str, SharedFunctionCall]]
     sloping: tuple[Kernel, ...]
     closing: Kernel
     plain_closing: Kernel
@@ -104,7 +104,7 @@ class Methods:
 
 
 @dataclass(frozen=True)
-class Course:
+class KinematicFunctions:
     """The functions of a kinematically driven scene (dof = 0), whose positions Newton's method determines.
 
     `rows`: blocks of equations in tree coordinates; None: absolute coordinates, with the pivots of `solved`. `pivots`:
@@ -142,7 +142,7 @@ class Program:
     integrated: Integrated
     terms: TimeTerms  # of time alone, which may hide within a step
     methods: Methods | None
-    course: Course | None
+    course: KinematicFunctions | None
     series: Series | None = None  # of Taylor's method
 
     @cached_property
@@ -173,7 +173,7 @@ class Program:
         They cannot if the constraint equations differ between runs, if a contour is given or if loops are dependent.
         """
         contours = any(clearance.contour for clearance in self.model.clearances)
-        alone = self.model.rows_change or contours
+        alone = self.model.has_changing_constraints or contours
         return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
 
 
@@ -200,7 +200,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     laws = SharedFunctions()
     pins = tuple(make_pin(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _tree(model, kkt.pivots) if not full else (None, None)
-    watched = watched_kernel(dynamics, model)
+    watched = event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
     plain = Integrated(system, kkt, angles, False, watched, kkt.pivots)
     integrated = in_tree or plain
@@ -232,9 +232,9 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
     `pivots`: names of the equations to which a status number of the absolute formulation refers.
     """
     system = reduce(model)
-    around = tuple(side_by_side(without_unused(kernel)) for kernel in motion_kernels(model, system))
+    around = tuple(pair_sines(without_unused(kernel)) for kernel in motion_kernels(model, system))
     plain, kkt, chains = reduced_kernels(system)
-    kernels, rescued = tuple(side_by_side(kernel) for kernel in plain), is_rescued(system)
+    kernels, rescued = tuple(pair_sines(kernel) for kernel in plain), has_singular_fallback(system)
     tree = TreeFunctions(system, around, tuple(plain), kernels, rescued, chains)
     pivots = pivots if rescued else kkt.pivots
     if system.chain:
@@ -247,7 +247,7 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
 def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
     """Derive the functions that integrators need; `staged`: with the complex ones for stages solved together."""
     sloping = SharedFunctions()
-    slopes = {clearance.name: pin_slopes(model, clearance, sloping) for clearance in model.clearances}
+    slopes = {clearance.name: joint_derivative_calls(model, clearance, sloping) for clearance in model.clearances}
     newton = Newton(integrated.system)
     gains = {"stick": stick_gain(model)} if model.frictions else {}
     if not integrated.reduced:
@@ -255,13 +255,13 @@ def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
         gains["two_alpha"] = model.slots.derive("two_alpha", 2 * alpha)
         gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
     closing = closing_kernel(integrated.system)
-    finished = side_by_side(without_unused(closing)) if integrated.reduced else without_unused(closing)
+    finished = pair_sines(without_unused(closing)) if integrated.reduced else without_unused(closing)
     film = any(clearance.film is not None for clearance in model.clearances)
     at_complex = at_complex_step(newton) if (staged or film) and not model.rigid else ()
     return Methods(newton, slopes, tuple(sloping.kernels), finished, without_unused(closing), gains, at_complex)
 
 
-def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:
+def _course(model: Model, kkt: KKT, integrated: Integrated) -> KinematicFunctions:
     """Derive the functions of a kinematically driven scene.
 
     They are in tree coordinates unless the pattern of the closures leaves a coordinate undetermined.
@@ -269,6 +269,6 @@ def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:
     rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     if integrated.reduced and rows.fits:
         names = tuple(row.name for row in integrated.system.rows)
-        return Course(tuple(kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None)
+        return KinematicFunctions(tuple(kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None)
     projection, solved = projection_kernel(kkt.system, model.rows, "project")
-    return Course((without_unused(projection),), (*solved.pivots, *kkt.pivots), None, solved)
+    return KinematicFunctions((without_unused(projection),), (*solved.pivots, *kkt.pivots), None, solved)

@@ -8,7 +8,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_branches
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, result, source
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.kkt import KKT
@@ -125,4 +125,4 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     outs = (result(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held
     kernel = build.build((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
-    return with_branches(kernel)
+    return declare_branches(kernel)

@@ -14,7 +14,7 @@ from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Argument, result,
 from gudgeon.generator.ir.statements import Jump, Rescue
 from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import reads_beyond, watched_kernel
+from gudgeon.generator.kernels.event_functions import event_function_kernel, reads_coordinate_beyond
 from gudgeon.generator.kernels.projection import projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import Link
@@ -29,12 +29,12 @@ _DOC = (
 )
 
 
-def is_rescued(system: TreeSystem) -> bool:
+def has_singular_fallback(system: TreeSystem) -> bool:
     """Return whether the absolute formulation solves where a pivot vanishes.
 
     In scenes with dry friction, whose equations change, a vanishing pivot is reported instead.
     """
-    return bool(system.rows and not system.model.rows_change)
+    return bool(system.rows and not system.model.has_changing_constraints)
 
 
 def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
@@ -47,14 +47,16 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels
 
     The functions of kinematically determined loops are returned last; their switches are among the event functions.
     """
-    kkt = KKT(system, daring=is_rescued(system))
+    kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     chains = ChainKernels(system, system.chain) if system.chain else None
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
     corners = chains.corners if chains else None
-    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # a driven motion has no events here
-    if watched and system.chain and reads_beyond(watched, len(system.q)):
+    watched = (
+        None if follows else event_function_kernel(dynamics, system.model, corners)
+    )  # a driven motion has no events here
+    if watched and system.chain and reads_coordinate_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
     return [without_unused(kernel) for kernel in kernels], kkt, chains
@@ -116,7 +118,7 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
         along = (diff(position, q) * PlaceSymbol(Place("all_a")[i]) for i, q in enumerate(model.q))
         accelerations.out(Place("a")[k], sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
     kernels = [state.build((*STATE, PARAMETERS, result("s"), result("s_rate")))]
-    if is_rescued(system):
+    if has_singular_fallback(system):
         kernels.append(accelerations.build((*STATE, source("all_a"), PARAMETERS, result("a"))))
     return kernels
 

@@ -17,9 +17,9 @@ from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.ir.values import Chosen
-from gudgeon.generator.symbols.corners import BranchOf
+from gudgeon.generator.ir.values import Conditional
 from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
+from gudgeon.generator.symbols.switches import BranchOf
 
 CORNER = Argument("corner", Number.INTEGER)
 NOTHING: Mapping[str, str] = {}
@@ -27,7 +27,7 @@ _SIDE = "side_"
 
 
 @dataclass(frozen=True)
-class SharedCall:
+class SharedFunctionCall:
     """A joint's call of a shared function: the function, the parameters passed to it, its first switch."""
 
     kernel: Kernel
@@ -45,7 +45,7 @@ class SharedFunctions:
 
     def call(
         self, kernel: Kernel, numbers: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
-    ) -> SharedCall:
+    ) -> SharedFunctionCall:
         """Return the call that replaces a joint's own function, and keep the function if it is new.
 
         `numbers`: names in the function of the parameters that a joint has (`p.pin_radius` -> `R_i`).
@@ -68,10 +68,10 @@ class SharedFunctions:
         )
         key = (kernel.name, shared.arguments, *_distinguishing_parts(shared))
         if key not in self._known:
-            taken = any(other.name == kernel.name for other in self.kernels)
-            self._known[key] = replace(shared, name=f"{kernel.name}_of_{joint}_") if taken else shared
+            used = any(other.name == kernel.name for other in self.kernels)
+            self._known[key] = replace(shared, name=f"{kernel.name}_of_{joint}_") if used else shared
             self.kernels.append(self._known[key])
-        return SharedCall(self._known[key], tuple(given), first)
+        return SharedFunctionCall(self._known[key], tuple(given), first)
 
 
 def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
@@ -83,9 +83,9 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
     named += [(letter_of(law.law, name), value) for law in laws for name, value in law.derived.items()]
     named += [("transition", clearance.transition)]
     info = model.symbols.info
-    taken = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}
+    used = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}
     for name, symbol in _file_parameters(model, laws):
-        named.append((f"{name}_file_parameters" if name in taken else name, symbol))
+        named.append((f"{name}_file_parameters" if name in used else name, symbol))
     homes = {symbol: own.home for symbol, own in info.items() if own.home}
     fields: dict[Place, str] = {}
     for name, symbol in named:
@@ -167,5 +167,5 @@ def _distinguishing_parts(kernel: Kernel) -> Iterator[object]:
     for line in _lines(kernel):
         value = line.value if isinstance(line, Statement) else None
         what: Key = line.target if isinstance(line, Statement) else type(line).__name__
-        how = value.test.relation if isinstance(value, Chosen) else value if isinstance(value, Place) else ""
+        how = value.test.relation if isinstance(value, Conditional) else value if isinstance(value, Place) else ""
         yield kernel.names.get(what, what), how, tuple(map(named, line.expressions))

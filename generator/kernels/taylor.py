@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from gudgeon.errors import BadValueError
-from gudgeon.generator.equations.notes import jumping_drives
+from gudgeon.generator.equations.notes import drives_with_jumps
 from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
 from gudgeon.generator.ir.series import Linear, Series, series_of
 from gudgeon.generator.ir.series_rules import NoSeries
 from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.values import Threshold
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
+from gudgeon.generator.kernels.reduced import DYNAMICS, has_singular_fallback
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import FACTORS, KKT
 from gudgeon.generator.solvers.pivots import SINGULAR, VANISHING, ZERO, Factor
@@ -48,14 +48,14 @@ def _series(program: Program) -> Series:
         raise NoSeries("drives lead a chain of bodies through a loop of its own")
     if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
         raise NoSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
-    if jumping_drives(model):
+    if drives_with_jumps(model):
         raise NoSeries("the rate of a drive may jump")
     return _derive_series(tree.system)
 
 
 def _derive_series(system: TreeSystem) -> Series:
     """Return the series of the right-hand side, derived with a record of its linear system."""
-    kkt = _RecordedKKT(system, daring=is_rescued(system))
+    kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_no_rescue))
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
     linear = Linear(FACTORS, {**kkt.entry, **diagonal}, kkt.loads, kkt.unknowns)

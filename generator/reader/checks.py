@@ -11,7 +11,7 @@ from gudgeon.generator.field import RELATIONS
 from gudgeon.generator.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.parameters import parameter_values
-from gudgeon.language.defined import undefined_part
+from gudgeon.language.defined import find_undefined_part
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, calls, evaluate, names
 from gudgeon.language.units import si_unit
 
@@ -129,7 +129,7 @@ def _find_invalid_part(quantity: Quantity, known: Mapping[str, float], is_wrong:
 
     Examples are an underflow or a negative duration. Nothing is returned if the whole value is already wrong.
     """
-    wrong = None if is_wrong else undefined_part(quantity.value, known)
+    wrong = None if is_wrong else find_undefined_part(quantity.value, known)
     if wrong is not None:
         return f"has a part that is {wrong}", FINITE
     if (small := _find_underflow(quantity.value, known)) is not None:

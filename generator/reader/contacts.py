@@ -12,9 +12,9 @@ from gudgeon.errors import BadNameError, BadValueError, CycleError, ExpressionEr
 from gudgeon.generator.field import LAW, OF_PENETRATION, Field, with_dimensions
 from gudgeon.generator.format.sections import BEARING, CONTACT, GUIDE
 from gudgeon.generator.format.shapes import missing_key
-from gudgeon.generator.kinds.laws.law import OWN, called, laws
+from gudgeon.generator.kinds.laws.law import USER_LAWS, called, laws
 from gudgeon.generator.kinds.laws.registered import key_of
-from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, at_onset
+from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, value_at_onset
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, check_keys, field_names, read_fields
 from gudgeon.generator.reader.materials import ELASTIC, Materials
@@ -194,8 +194,14 @@ def _check_rigid(name: Text, law: Text, node: Map) -> None:
             raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
     friction = node["friction"].get("law") if "friction" in node else None
     friction_law = called("friction").get(friction) if isinstance(friction, Text) else None
-    if isinstance(friction, Text) and friction_law is not None and (friction_law.states or friction_law.name in OWN):
-        fit = sorted(other.name for other in called("friction").values() if not other.states and other.name not in OWN)
+    if (
+        isinstance(friction, Text)
+        and friction_law is not None
+        and (friction_law.states or friction_law.name in USER_LAWS)
+    ):
+        fit = sorted(
+            other.name for other in called("friction").values() if not other.states and other.name not in USER_LAWS
+        )
         why = (
             "a blow has no time in which bristles bend"
             if friction_law.states
@@ -216,7 +222,7 @@ def _check_penetration_force(reader: Reader, force: Quantity) -> None:
     if "delta" not in used:
         hint = "expected an expression such as 1e8 N/m * delta"
         raise ExpressionError(f"{force.address} does not follow delta, the penetration", force.where, hint)
-    onset = reader.keep(at_onset(force))
+    onset = reader.keep(value_at_onset(force))
     for relation, bound in ((">=", -ZERO_FORCE_TOL), ("<=", ZERO_FORCE_TOL)):
         reader.require(onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset")
 
@@ -239,7 +245,7 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
         hint = f"{known_hint(text, fitting)}\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
         raise UnknownNameError(f"unknown {role} law {str(text)[:200]!r}", text.where, hint)
     law, fields = fitting[text], fitting[text].fields_as(text)
-    if law.name in OWN:
+    if law.name in USER_LAWS:
         reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
     around = FieldContext(address, str(text), text.where, mistyped)

@@ -20,7 +20,7 @@ from gudgeon.generator.format.sections import CURVE
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
-from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, in_pairs, spline
+from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, even_pieces, spline
 from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
@@ -144,7 +144,7 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
     else:
         x, y = long
     coefficients = spline(x, y, ends, interpolation)
-    knots, coefficients = in_pairs(x, coefficients) if ends == PERIODIC else (x, coefficients)
+    knots, coefficients = even_pieces(x, coefficients) if ends == PERIODIC else (x, coefficients)
     if not np.isfinite(np.array(coefficients)).all():
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)

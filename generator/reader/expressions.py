@@ -20,8 +20,8 @@ from gudgeon.language.parser import COPIES
 from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, names, replaced
 from gudgeon.language.units import DIMENSIONLESS
 
-MOST = 4000  # parts of an expression with all names replaced by their trees
-DEEPEST = 100  # levels of such a tree
+MAX_PARTS = 4000  # parts of an expression with all names replaced by their trees
+MAX_LEVELS = 100  # levels of such a tree
 
 
 def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
@@ -66,9 +66,9 @@ def _read_named_expression(
 def _check_size(name: str, tree: Expr, where: Location, of: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
     """Return the number of parts and levels of a tree with all names replaced. Raises LimitError if it is too large."""
     parts, levels = _measure_tree(tree, of)
-    if parts > MOST or levels > DEEPEST:
+    if parts > MAX_PARTS or levels > MAX_LEVELS:
         message = f"expressions.{name} has {parts} parts in {levels} levels with all names written out"
-        raise LimitError(message, where, f"expected at most {MOST} in {DEEPEST}")
+        raise LimitError(message, where, f"expected at most {MAX_PARTS} in {MAX_LEVELS}")
     return parts, levels
 
 

@@ -143,7 +143,7 @@ def read_scene(
         return make_scene(read_mechanism(data, file, overrides), scene)
 
 
-def touches(data: bytes, file: str, scene: str, overrides: Overrides) -> bool:
+def overrides_change_scene(data: bytes, file: str, scene: str, overrides: Overrides) -> bool:
     """Return whether overrides change any input from which a scene's equations are derived. Raises InputError."""
     with_them, without = (read_scene(data, file, scene, given) for given in (overrides, None))
     return _without_other_scenes(with_them) != _without_other_scenes(without)

@@ -21,7 +21,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.loads import Friction
-from gudgeon.generator.equations.system import Given, Known, Motion, System
+from gudgeon.generator.equations.system import DependentCoordinate, Motion, PrescribedCoordinate, System
 from gudgeon.generator.reduction.frames import Frame
 from gudgeon.generator.solvers.sparsity import Block, match_rows, triangular_blocks
 from gudgeon.generator.symbols.storage import Place
@@ -45,7 +45,7 @@ class Chain:
     """The dependent coordinates by name, with their rates, and the closures that determine them, by blocks."""
 
     names: tuple[str, ...]
-    known: tuple[Known, ...]
+    known: tuple[DependentCoordinate, ...]
     rows: tuple[Row, ...]
     directions: tuple[Direction, ...] = ()  # once for all kernels
 
@@ -157,7 +157,7 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
 
     given = tuple(_reduce_given(g, place, columns, known) for g in system.given)
     given += tuple(
-        Given(names[c], x.rate, {place[k]: m for k in kept if (m := mass(k, c)) != 0}, applied(c))
+        PrescribedCoordinate(names[c], x.rate, {place[k]: m for k in kept if (m := mass(k, c)) != 0}, applied(c))
         for c, x in zip(columns, known, strict=True)
     )
     others = tuple(_reduce_row(row, rates, second, system) for r, row in enumerate(system.rows) if r not in rows)
@@ -182,7 +182,7 @@ def prescribe(system: S, names: Sequence[str], columns: Sequence[int], rows: Seq
 
 def _move_to_places(
     system: System, names: Sequence[str], kept: Sequence[int], columns: Sequence[int]
-) -> tuple[Known, ...]:
+) -> tuple[DependentCoordinate, ...]:
     """Move the coordinates and rates to their new places in C; return the dependent coordinates with their rates."""
     symbols = system.model.symbols
     info = symbols.info
@@ -199,11 +199,13 @@ def _move_to_places(
         name = system.q[c].name
         second = symbols.new(f"{name}_second", Place("v")[i], names[c])
         third = symbols.new(f"{name}_third", Place("v")[i + len(columns)], names[c])
-        known.append(Known(system.q[c], system.v[c], second, third))
+        known.append(DependentCoordinate(system.q[c], system.v[c], second, third))
     return tuple(known)
 
 
-def _reduce_given(given: Given, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Given:
+def _reduce_given(
+    given: PrescribedCoordinate, place: Mapping[int, int], columns: Sequence[int], known: Sequence[DependentCoordinate]
+) -> PrescribedCoordinate:
     """Return a prescribed coordinate with the dependent accelerations in its applied force."""
     pushed = (-given.mass[c] * x.second for c, x in zip(columns, known, strict=True) if c in given.mass)
     own = {place[k]: m for k, m in given.mass.items() if k in place}
@@ -233,7 +235,9 @@ def _reduce_friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) 
     return replace(friction, jacobian=own, gamma=sp.Add(friction.gamma, *moved))
 
 
-def _reduce_motion(motion: Motion, place: Mapping[int, int], columns: Sequence[int], known: Sequence[Known]) -> Motion:
+def _reduce_motion(
+    motion: Motion, place: Mapping[int, int], columns: Sequence[int], known: Sequence[DependentCoordinate]
+) -> Motion:
     """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias."""
     second = {c: x.second for c, x in zip(columns, known, strict=True)}
     bias = tuple(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.symbols import Symbols
 
 Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
@@ -57,7 +57,7 @@ class Frame:
 class Motions:
     """Values and rates of affine quantities, with the rules by which their symbols are differentiated."""
 
-    def __init__(self, symbols: Symbols, slots: Slots, t: sp.Symbol) -> None:
+    def __init__(self, symbols: Symbols, slots: ParameterTable, t: sp.Symbol) -> None:
         """Begin without coordinates and arms."""
         self.symbols, self.slots, self.t = symbols, slots, t
         self.coordinates: dict[str, Coordinate] = {}
@@ -101,15 +101,15 @@ class Motions:
                 rules[self.coordinates[k].v] = entry
         return rules
 
-    def named(self, wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+    def named(self, expected: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
         """Return a new symbol for `value`, with derivatives by its columns."""
-        symbol = self.symbols.define(wanted, value)
+        symbol = self.symbols.define(expected, value)
         self.symbols.rules[symbol] = self.rules(columns)
         return symbol
 
-    def named_rate(self, wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+    def named_rate(self, expected: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
         """Return a new symbol for a rate, with derivatives by the columns of the quantity."""
-        symbol = self.symbols.define(wanted, value)
+        symbol = self.symbols.define(expected, value)
         self.symbols.rules[symbol] = self.rate_rules(columns)
         return symbol
 
@@ -128,7 +128,7 @@ class Motions:
         self.symbols.rules[sin] = self.rules({k: c * cos for k, c in turns.items()})
         return frame
 
-    def arm(self, frame: Frame, w: Pair, wanted: str) -> Pair:
+    def arm(self, frame: Frame, w: Pair, expected: str) -> Pair:
         """Return A(θ) w as a pair of symbols; the opposite of a known arm is its negative."""
         x, y = w
         if not frame.turns or w == (ZERO, ZERO):
@@ -139,18 +139,18 @@ class Motions:
             a_x, a_y = self._arms[frame.name, -x, -y]
             return -a_x, -a_y
         if (frame.name, x, y) not in self._arms:
-            a_x = self.symbols.define(f"{wanted}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
-            a_y = self.symbols.define(f"{wanted}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
+            a_x = self.symbols.define(f"{expected}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
+            a_y = self.symbols.define(f"{expected}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
             self.symbols.rules[a_x] = self.rules({k: -c * a_y for k, c in frame.turns.items()})
             self.symbols.rules[a_y] = self.rules({k: c * a_x for k, c in frame.turns.items()})
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 
-    def constant_vector(self, wanted: str, w: Pair, shown: str = "") -> Pair:
+    def constant_vector(self, expected: str, w: Pair, shown: str = "") -> Pair:
         """Return both components of a constant vector as derived parameters."""
         x, y = (
             self.slots.derive_signed(
-                f"{wanted}_{axis}", sp.expand(part), "vector in its frame", f"{shown}_{axis}" if shown else ""
+                f"{expected}_{axis}", sp.expand(part), "vector in its frame", f"{shown}_{axis}" if shown else ""
             )
             for axis, part in zip("xy", w, strict=True)
         )

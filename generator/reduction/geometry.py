@@ -18,7 +18,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.mechanism import GROUND, PointRef
 from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Frame, Motions, Pair
 from gudgeon.generator.reduction.tree import Link, Tree
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -73,7 +73,7 @@ class TreePoint(PointFrame):
 class TreeGeometry(Geometry):
     """Makes the symbols of bodies and points from a tree, for functions that also take a `Geometry`."""
 
-    def __init__(self, model: Model, tree: Tree, symbols: Symbols, slots: Slots) -> None:
+    def __init__(self, model: Model, tree: Tree, symbols: Symbols, slots: ParameterTable) -> None:
         """Begin with the ground; `place` adds the bodies."""
         self.symbols, self.slots, self.mechanism = symbols, slots, model.scene.mechanism
         self.local, self.tree, self._model = model.geometry.local, tree, model
@@ -129,8 +129,8 @@ class TreeGeometry(Geometry):
         self._offset[body] = sp.expand(constant - zero)
         self.frame_of[body] = frame
 
-    def in_frame(self, body: str, s: Pair, wanted: str) -> Pair:
-        """Return a vector of a body in its frame's axes; `wanted`: base of the names of derived parameters."""
+    def in_frame(self, body: str, s: Pair, expected: str) -> Pair:
+        """Return a vector of a body in its frame's axes; `expected`: base of the names of derived parameters."""
         offset = self._offset[body]
         if offset == 0 or s == (ZERO, ZERO):
             return s
@@ -138,7 +138,7 @@ class TreeGeometry(Geometry):
         cos = derive(f"cos_{body}_offset", sp.cos(offset), f"angle of {body} in its frame")
         sin = derive(f"sin_{body}_offset", sp.sin(offset), f"angle of {body} in its frame")
         turned = (cos * s[0] - sin * s[1], sin * s[0] + cos * s[1])
-        return self.motions.constant_vector(wanted, turned, f"{wanted}_in_frame")
+        return self.motions.constant_vector(expected, turned, f"{expected}_in_frame")
 
     def _carry(self, link: Link) -> None:
         """Set where a body is, from its parent; then make its symbols."""
@@ -184,12 +184,12 @@ class TreeGeometry(Geometry):
         """Return the rate of a slide; 0 for a term without one."""
         return self.motions.rate(self.slides[slide]) if slide else ZERO
 
-    def _sum(self, terms: Terms, more: Terms, wanted: str) -> Terms:
+    def _sum(self, terms: Terms, more: Terms, expected: str) -> Terms:
         """Return the sum of terms; those with the same frame and slide are added."""
         out = dict(terms)
         for key, w in more.items():
             if key in out:
-                w = self.motions.constant_vector(f"{wanted}_and", (out[key][0] + w[0], out[key][1] + w[1]))
+                w = self.motions.constant_vector(f"{expected}_and", (out[key][0] + w[0], out[key][1] + w[1]))
             out[key] = w
         return {key: w for key, w in out.items() if w != (ZERO, ZERO)}
 
@@ -228,16 +228,16 @@ class TreeGeometry(Geometry):
         """Return ∂value/∂z of a slide by coordinate."""
         return {k: c for k, c in self.slides[slide].items() if k != CONSTANT} if slide else {}
 
-    def _at(self, body: str, s: Pair, wanted: str, names: tuple[str, str, str, str]) -> TreePoint:
+    def _at(self, body: str, s: Pair, expected: str, names: tuple[str, str, str, str]) -> TreePoint:
         """Return the point s of a body (from its centre of mass).
 
         `names`: those of its symbols for (x, y, ẋ, ẏ).
         """
         base, own = self._base[body]
-        frame, local = self.frame_of[body], self.in_frame(body, s, wanted)
-        w = self.motions.constant_vector(f"{wanted}_span", (local[0] - own[0], local[1] - own[1]))
-        a_x, a_y = self.motions.arm(frame, w, f"span_{wanted}")
-        terms = self._sum(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, wanted)
+        frame, local = self.frame_of[body], self.in_frame(body, s, expected)
+        w = self.motions.constant_vector(f"{expected}_span", (local[0] - own[0], local[1] - own[1]))
+        a_x, a_y = self.motions.arm(frame, w, f"span_{expected}")
+        terms = self._sum(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, expected)
         columns, named = self.columns(terms), self.motions.named
         values = [base.x + a_x, base.y + a_y]
         rates = [base.velocity[0] - frame.omega * a_y, base.velocity[1] + frame.omega * a_x]
@@ -247,7 +247,7 @@ class TreeGeometry(Geometry):
                 values[i] = named(names[i], values[i], moving)
             if not self.is_short(rates[i]):
                 rates[i] = self.motions.named_rate(names[2 + i], rates[i], moving)
-        arm = self.turn(self.bodies[body], s, f"arm_{wanted}") if body in self.bodies else (ZERO, ZERO)
+        arm = self.turn(self.bodies[body], s, f"arm_{expected}") if body in self.bodies else (ZERO, ZERO)
         place, speed = (values[0], values[1]), (rates[0], rates[1])
         return TreePoint(self, self.bodies.get(body), arm, terms, place, speed)
 
@@ -261,10 +261,10 @@ class TreeGeometry(Geometry):
         at = self._at(body, (ZERO, ZERO), f"{body}_com", (f"{body}_x", f"{body}_y", f"{body}_vx", f"{body}_vy"))
         theta, omega = frame.theta + self._offset[body], frame.omega
 
-        def symbol(wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr], rate: bool = False) -> sp.Symbol:
+        def symbol(expected: str, value: sp.Expr, columns: Mapping[str, sp.Expr], rate: bool = False) -> sp.Symbol:
             """Return a symbol as it is, or a new one for a longer value."""
             name = motions.named_rate if rate else motions.named
-            return value if value.is_Symbol else name(wanted, value, columns)
+            return value if value.is_Symbol else name(expected, value, columns)
 
         x, y = (
             symbol(f"{body}_{c}", v, {k: w[i] for k, w in at.columns.items()})
@@ -297,17 +297,17 @@ class TreeGeometry(Geometry):
         x, y = self.turn(body, (ONE, ZERO), f"axis_{body.name}")
         return x, y
 
-    def turn(self, body: BodySymbols, s: Pair, wanted: str, point: str = "") -> Pair:
+    def turn(self, body: BodySymbols, s: Pair, expected: str, point: str = "") -> Pair:
         """Return A(θ) s of a vector of a body."""
-        return self.motions.arm(self.frame_of[body.name], self.in_frame(body.name, s, wanted), wanted)
+        return self.motions.arm(self.frame_of[body.name], self.in_frame(body.name, s, expected), expected)
 
-    def beside(self, ref: PointRef, offset: Pair, wanted: str) -> TreePoint:
+    def beside(self, ref: PointRef, offset: Pair, expected: str) -> TreePoint:
         """Return the frame of a point at an offset from a named point, given in its body's frame."""
-        s = self._offset_vector(ref, offset, wanted)
+        s = self._offset_vector(ref, offset, expected)
         if ref.body == GROUND:
             return TreePoint(self, None, s, {(GROUND, ""): s}, s, (ZERO, ZERO))
-        names = (f"{wanted}_x", f"{wanted}_y", f"{wanted}_vx", f"{wanted}_vy")
-        return self._at(ref.body, s, wanted, names)
+        names = (f"{expected}_x", f"{expected}_y", f"{expected}_vx", f"{expected}_vy")
+        return self._at(ref.body, s, expected, names)
 
     def point(self, ref: PointRef) -> TreePoint:
         """Return the frame of a named point, made once."""

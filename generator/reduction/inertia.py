@@ -95,9 +95,9 @@ class Inertia:
             self._products[T, U] = P, Q
         return self._products[T, U]
 
-    def _named(self, wanted: str, value: sp.Expr) -> sp.Expr:
+    def _named(self, expected: str, value: sp.Expr) -> sp.Expr:
         """Return a number as it is, else a new symbol for the value."""
-        return value if value.is_Number else self.symbols.define(wanted, value)
+        return value if value.is_Number else self.symbols.define(expected, value)
 
     def _columns(self, T: Term) -> dict[str, Pair]:
         """Return ∂r_T/∂z = (rot ẑ + along) A w as pairs (rot, along) by coordinate."""

@@ -17,13 +17,13 @@ from gudgeon.generator.equations.geometry import BodySymbols, PointFrame
 from gudgeon.generator.equations.loads import PointLoad, apply_element, make_friction
 from gudgeon.generator.equations.model import Model, make_event
 from gudgeon.generator.equations.play import make_clearances
-from gudgeon.generator.equations.system import Given, Motion, System
+from gudgeon.generator.equations.system import Motion, PrescribedCoordinate, System
 from gudgeon.generator.mechanism import PointRef
 from gudgeon.generator.reduction.driven_chains import Chain, determined, prescribe, with_directions
 from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Motions, substitute
 from gudgeon.generator.reduction.geometry import TreeGeometry, TreePoint
 from gudgeon.generator.reduction.inertia import Inertia
-from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_a_row
+from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_constraint
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ def _without_chains(model: Model, system: TreeSystem) -> TreeSystem:
     """
     if model.degrees_of_freedom <= 0 or not system.rows:
         return system
-    held = {row.name for row in system.rows if stays_a_row(model, row)}
+    held = {row.name for row in system.rows if stays_constraint(model, row)}
     columns, rows = determined(system, held)
     if not columns:
         return system
@@ -151,8 +151,8 @@ def _place(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[Tree
 def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
     """Return the constraint equations that the tree does not satisfy by itself, in the order of the model."""
     mechanism = model.scene.mechanism
-    wanted = [row.name for row in model.rows if row.name not in tree.rows]
-    owners = {row.owner for row in model.rows if row.name in wanted}
+    expected = [row.name for row in model.rows if row.name not in tree.rows]
+    owners = {row.owner for row in model.rows if row.name in expected}
     derived: dict[str, Row] = {}
     for joint in mechanism.joints.values():
         if joint.name in owners:
@@ -161,7 +161,7 @@ def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[R
         if drive.name in owners:
             derived |= {row.name: row for row in constraints.drive_rows(drive)}
     pairs = [row for joint in tree.closing for row in constraints.joint_rows(joint)]
-    return (*(derived[name] for name in wanted), *pairs)
+    return (*(derived[name] for name in expected), *pairs)
 
 
 def _known_slide(
@@ -176,7 +176,7 @@ def _known_slide(
     drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
     constant = geometry.slots.is_constant
     for row in rows:
-        if stays_a_row(model, row):
+        if stays_constraint(model, row):
             continue
         if not row.phi_q or not all(names[q] in geometry.slides and constant(c) for q, c in row.phi_q.items()):
             continue
@@ -220,7 +220,7 @@ def _system(
         if k in place and j in place and place[k] >= place[j]
     }
     drives = tuple(
-        Given(
+        PrescribedCoordinate(
             name, c.v, {place[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass}, applied(name)
         )
         for name, c in given.items()

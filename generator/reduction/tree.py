@@ -89,8 +89,8 @@ class Estimate:
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
         self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
-        said = used.union(*(hub.rows for hub in hubs))
-        self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
+        specified = used.union(*(hub.rows for hub in hubs))
+        self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in specified]
 
     def __call__(self, links: tuple[Link, ...]) -> int:
         """Return the estimated operations of a tree, computed once."""
@@ -191,7 +191,7 @@ class Tree:
         return {row: 1}
 
 
-def stays_a_row(model: Model, row: Row) -> bool:
+def stays_constraint(model: Model, row: Row) -> bool:
     """Return whether a drive stays an equation: its rate jumps in a scene with degrees of freedom.
 
     The jump is an impulse on its equation.
@@ -222,7 +222,7 @@ def _linear_angles(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affi
     if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
         return None
     drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
-    if stays_a_row(model, row):
+    if stays_constraint(model, row):
         return None
     rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
     total: dict[str, sp.Expr] = {}
@@ -273,13 +273,13 @@ def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
     return list(filter(carries, model.scene.mechanism.joints.values()))
 
 
-def _grow_tree(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
-    """Return a tree, grown breadth first from the ground along the joints in `wanted`.
+def _grow_tree(model: Model, edges: Sequence[Joint], expected: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
+    """Return a tree, grown breadth first from the ground along the joints in `expected`.
 
     Bodies that no joint reaches move freely; with a `depth`, longer chains are cut.
     """
     near: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
-    names = {joint.name for joint in wanted}
+    names = {joint.name for joint in expected}
     for joint in edges:
         if joint.name in names:
             near[joint.first.body].append(joint)

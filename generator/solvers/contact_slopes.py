@@ -21,7 +21,7 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, ZERO, Argument, result
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
@@ -36,7 +36,7 @@ OF_CONTOUR = (
 )
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
-DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
+DEEP = Statement(contact.depth.name, Conditional(_DEEP, contact.delta, ZERO))
 _CLOSED = Test(PlaceSymbol(CONTACT["closed"]))
 _STORED = PlaceSymbol(CONTACT["deltadot_minus"])
 _FORCE = PlaceSymbol(CONTACT["force"])  # of surfaces that do not give
@@ -116,7 +116,7 @@ class _Slopes:
         return self.build.build(_arguments(self.clearance), inline=True, prune=True)
 
 
-def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
+def film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
     """Return the C function of the film's force and its derivatives."""
     slopes = _Slopes(model, clearance, "film")
     slopes.section("eccentricity ratio and effective squeeze velocity")
@@ -133,7 +133,7 @@ def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kerne
     return slopes.finish([results["F_r"], tangential, *(step.symbol for step in moments)])
 
 
-def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
+def dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
     """Return the C function of the dry contact's force and its derivatives.
 
     It is defined at δ < 0 too, with zero force, since samples before a separation lie there.
@@ -144,14 +144,14 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.gap_by_angle(clearance) if clearance.contour else [contact.penetration(clearance)]:
         slopes.step(step)
     build.line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
-    deep = build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))
+    deep = build.local("depth_by_e", Conditional(_DEEP, sp.Integer(1), ZERO))
     tangents.know(contact.depth, {base: sign * deep for base, sign in tangents.of(contact.delta).items()})
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
-    build.line(Statement(ratio.name, Chosen(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
-    slope = build.local("ratio_by_deltadot", Chosen(_CLOSED, 1 / _STORED, ZERO))
+    build.line(Statement(ratio.name, Conditional(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
+    slope = build.local("ratio_by_deltadot", Conditional(_CLOSED, 1 / _STORED, ZERO))
     tangents.know(ratio, {base: slope * rate for base, rate in tangents.of(contact.deltadot).items()})
     for step in contact.before_dry(clearance):
-        slopes.step(unlatched(step))
+        slopes.step(without_stored_speed(step))
     slopes.section("contact")
     further = [_FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
     F_n = slopes.law(normal, (contact.depth, contact.ratio, *further))["F_n"]
@@ -175,7 +175,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     return slopes.finish([*along, *(step.symbol for step in moments), *rubbed.values()])
 
 
-def unlatched(step: Step) -> Step:
+def without_stored_speed(step: Step) -> Step:
     """Return the step without the choice between stored and present approach speed, which C makes.
 
     Of the ratio of velocities only its clipping is left as an equation.
@@ -189,7 +189,7 @@ def in_place(model: Model, value: sp.Expr) -> sp.Expr:
     return model.symbols.in_place(hoisted(model.slots, value))
 
 
-def share_slope(model: Model, clearance: Clearance) -> Kernel:
+def fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
     """Return the C function of the fraction of the dry contact in a transition, and of its derivative by e."""
     build = KernelBuilder(
         model.symbols,
@@ -202,7 +202,9 @@ def share_slope(model: Model, clearance: Clearance) -> Kernel:
     build.section("share")
     if clearance.mixed is not None:
         build.line(DEEP)
-        tangents.know(contact.depth, {contact.delta: build.local("depth_by_delta", Chosen(_DEEP, sp.Integer(1), ZERO))})
+        tangents.know(
+            contact.depth, {contact.delta: build.local("depth_by_delta", Conditional(_DEEP, sp.Integer(1), ZERO))}
+        )
     *before, last = contact.blend(clearance, closed=True)
     for step in before:
         value = in_place(model, step.value)

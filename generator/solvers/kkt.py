@@ -16,7 +16,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Guard
-from gudgeon.generator.ir.values import Chosen, Test, Threshold
+from gudgeon.generator.ir.values import Conditional, Test, Threshold
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.solvers.pivots import (
     EARLY,
@@ -38,11 +38,11 @@ FACTORS = "L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0]"  # title of a section
 class KKT:
     """Prints factorization and solution of the KKT system; nodes are coordinates, then constraint equations."""
 
-    def __init__(self, system: System, rows: Sequence[Row] | None = None, daring: bool = False) -> None:
+    def __init__(self, system: System, rows: Sequence[Row] | None = None, allow_early_pairs: bool = False) -> None:
         """Choose the elimination order of a system with its equations, or with other `rows`.
 
-        `daring`: both equations of a joint may be eliminated early. Such a pivot vanishes where links are in line
-        although
+        `allow_early_pairs`: both equations of a joint may be eliminated early. Such a pivot vanishes where links are
+        in line although
         the system is regular; the code at which `factorize` jumps must then solve it.
         """
         self.system, self.n = system, len(system.q)
@@ -57,7 +57,7 @@ class KKT:
             near[r].add(c)
             near[c].add(r)
         pattern = tuple(map(frozenset, near))
-        pairs = row_pairs(self.rows, self.n, pattern) if daring else {}
+        pairs = row_pairs(self.rows, self.n, pattern) if allow_early_pairs else {}
         self.first = FirstPivots(system, self.rows)
         self.elimination: Elimination = choose_elimination(
             pattern, self.n, self.first_friction, pairs, self.first.order, self.first.partner
@@ -67,7 +67,7 @@ class KKT:
         self.blocks = self._blocks()
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
-        self.turning = self._turning() if self.rows and not system.model.rows_change else {}
+        self.turning = self._turning() if self.rows and not system.model.has_changing_constraints else {}
         if not system.in_tree:
             self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
 
@@ -312,7 +312,7 @@ class KKT:
         stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
         sticks = Test(stick, "!=", (0.0,))
         build.line(Guard(test, number, jumps, sticks))
-        return -build.local(f"inverse_pivot_{name}", Chosen(sticks, 1 / pivot, ZERO))
+        return -build.local(f"inverse_pivot_{name}", Conditional(sticks, 1 / pivot, ZERO))
 
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""

@@ -25,7 +25,7 @@ from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.signatures import DISCRETE, RHS, Number, acting_on
 from gudgeon.generator.ir.statements import Call, Declare
-from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.pivots import friction_mode
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.symbols import Symbols
@@ -98,9 +98,9 @@ class Linearization:
         self._power_parts()
         return self.parts
 
-    def _held(self, wanted: str, home: Place) -> sp.Symbol:
+    def _held(self, expected: str, home: Place) -> sp.Symbol:
         """Return a new symbol that is read at a place and held constant."""
-        return self.symbols.new(wanted.replace(".", "_"), home)
+        return self.symbols.new(expected.replace(".", "_"), home)
 
     def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """Return the loads of a joint with play as symbols, whose tangents its own function computes."""
@@ -187,7 +187,7 @@ class Linearization:
         for r, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + r, friction.name, self.build
             stick, sign = friction_mode(build, name, r)
-            held = Chosen(Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][r]["force"]), ZERO)
+            held = Conditional(Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][r]["force"]), ZERO)
             force = build.local(f"held_force_{name}", held)
             self.sticks.append(stick)
             self._phi_q(node, friction.jacobian)

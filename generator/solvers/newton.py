@@ -27,16 +27,16 @@ from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Pool, Section, with_branches
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Pool, Section, declare_branches
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, RHS, STATE, Access, Argument, Number, result, source
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Return, RunNumbers, Statement
-from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.ir.values import Conditional, Test
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.solvers.linearization import Linearization, Pair, Parts
 from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
 from gudgeon.generator.solvers.sparsity import choose_elimination
-from gudgeon.generator.symbols.corners import Size
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
+from gudgeon.generator.symbols.switches import Size
 
 ZERO = sp.Integer(0)
 
@@ -96,7 +96,7 @@ class Newton:
             source(RHS.name, RHS.type),
             self._written_lin(),
         )
-        return with_branches(build.build(arguments, owner="", prune=True))
+        return declare_branches(build.build(arguments, owner="", prune=True))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
         """Return the parts with each value stored once in the pool, up to its sign."""
@@ -173,15 +173,15 @@ class Newton:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
-    def _scales(self, build: KernelBuilder, wanted: Collection[sp.Symbol]) -> None:
-        """Append η/κ of constraints and of sticks, if they are in `wanted`."""
+    def _scales(self, build: KernelBuilder, expected: Collection[sp.Symbol]) -> None:
+        """Append η/κ of constraints and of sticks, if they are in `expected`."""
         alpha, beta = self.model.baumgarte
         derive = self.model.slots.derive
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         build.section("eta/kappa")
-        if ETA_ROW in wanted:
+        if ETA_ROW in expected:
             build.line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
-        if ETA_STICK in wanted:
+        if ETA_STICK in expected:
             build.line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
     def _factor(self) -> Kernel:
@@ -265,8 +265,8 @@ class Newton:
         build.line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
-        wanted = sorted({k for node, k in parts.phi_q if node < n + self.m})
-        shifted = {k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in wanted}
+        expected = sorted({k for node, k in parts.phi_q if node < n + self.m})
+        shifted = {k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in expected}
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
         for (i, k), value in parts.mass.items():
             b[i].append(value * r_v[k])
@@ -371,7 +371,7 @@ class Factors:
         sticks = Test(stick, "!=", (0.0,)) if stick is not None else None
         build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=sticks))
         # a row that slips is switched off: its multiplier is zero
-        value = 1 / pivot if sticks is None else Chosen(sticks, 1 / pivot, ZERO)
+        value = 1 / pivot if sticks is None else Conditional(sticks, 1 / pivot, ZERO)
         return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:

@@ -12,7 +12,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.signatures import DISCRETE
 from gudgeon.generator.ir.statements import Guard
-from gudgeon.generator.ir.values import Chosen, Test, Threshold
+from gudgeon.generator.ir.values import Conditional, Test, Threshold
 
 ZERO = sp.Integer(0)
 
@@ -52,8 +52,8 @@ def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbo
     """Return two symbols of a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none)."""
     place = DISCRETE["mode"][index]
     mode = build.local(f"mode_{name}", place, "0 stick, 1 or -1 the sign of the slip, 2 held")
-    stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
-    return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))
+    stick = build.local(f"stick_{name}", Conditional(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
+    return stick, build.local(f"sign_{name}", Conditional(Test(mode, ">", (1.0,), size=True), ZERO, mode))
 
 
 def pivot_guard(failing: Sequence[int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:

@@ -22,8 +22,8 @@ from gudgeon.generator.ir.statements import Call, Declare, Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
 from gudgeon.generator.solvers.sparsity import Block, triangular_blocks
-from gudgeon.generator.symbols.corners import Size
 from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.switches import Size
 
 ZERO = sp.Integer(0)
 # A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:

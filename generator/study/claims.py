@@ -28,7 +28,7 @@ from gudgeon.language.shown import counted
 
 KEYS = ("source", "numbers", "trends")
 NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
-TOLD = ("says", "figure", "note", "heading")  # keys that every trend may have
+MESSAGES = ("says", "figure", "note", "heading")  # keys that every trend may have
 COMMON = ("measure", "part", "at")
 MORE = {
     "grows_along": ("by",),
@@ -41,7 +41,7 @@ MORE = {
 }
 NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
 TRIAL = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
-TREND = (*TOLD, *TRIAL, "all", "not_computed")
+TREND = (*MESSAGES, *TRIAL, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
@@ -142,7 +142,7 @@ def _read_trend(name: Text, node: Map) -> TrendClaim:
     if strange := [key for key in node.names() if key not in TREND]:
         raise unknown_key(strange[0], TREND, owner)
     why = line(node, "not_computed", owner)
-    own = Map.make([(key, below) for key, below in node.pairs() if key not in TOLD], node.where)
+    own = Map.make([(key, below) for key, below in node.pairs() if key not in MESSAGES], node.where)
     if why:
         if extra := [key for key in own.names() if key != "not_computed"]:
             raise BadValueError(f"{owner} is not computed, and has {extra[0]}", extra[0].where, "expected one of both")
@@ -169,12 +169,12 @@ def _read_trials(name: Text, node: Map, owner: str) -> list[Trial]:
 
 def _read_trial(name: Text, node: Map, owner: str) -> Trial:
     """Read one trial: its kind, measures, selections and limits. Raises an InputError."""
-    chosen = [key for key in node.names() if key in KINDS]
-    if len(chosen) != 1:
-        message = f"{owner} has {'nothing to judge it by' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
+    selected = [key for key in node.names() if key in KINDS]
+    if len(selected) != 1:
+        message = f"{owner} has {'nothing to judge it by' if not selected else f'both {selected[0]} and {selected[1]}'}"
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
         raise BadValueError(message, place_of(node, name), hint)
-    kind, known = chosen[0], (chosen[0], *COMMON, *MORE.get(chosen[0], ()))
+    kind, known = selected[0], (selected[0], *COMMON, *MORE.get(selected[0], ()))
     if strange := [key for key in node.names() if key not in known]:
         raise unknown_key(strange[0], known, owner)
     if (needed := NEEDED.get(kind)) and needed not in node:

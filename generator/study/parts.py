@@ -14,7 +14,7 @@ from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.names import LABEL, check_not_null, known_hint, nearest, unknown_name
 from gudgeon.language.parser import parse
 
-MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
+MAX_COUNT, MAX_SEED = 1_000_000, 2**63 - 1
 MOST_TEXT = 1000  # characters of a descriptive text
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
 
@@ -83,7 +83,7 @@ def word(node: Any, owner: str, where: Any, words: Iterable[str]) -> str:
     return str(found)
 
 
-def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MOST_COUNT) -> int:
+def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MAX_COUNT) -> int:
     """Return a whole number from `least` to `most`. Raises BadValueError."""
     what = f"a whole number from {least} to {most}"
     found = text(node, owner, where, what)
@@ -94,7 +94,7 @@ def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MOST_CO
 
 def seed(node: Map, owner: str) -> int:
     """Return the seed of the random numbers of a section, 0 by default."""
-    return whole(node["seed"], f"{owner}.seed", node.key("seed"), 0, MOST_SEED) if "seed" in node else 0
+    return whole(node["seed"], f"{owner}.seed", node.key("seed"), 0, MAX_SEED) if "seed" in node else 0
 
 
 def label(name: Text, what: str) -> str:

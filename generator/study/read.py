@@ -263,7 +263,7 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
 
 def _result_settings(root: Map) -> dict[str, Any]:
     """Return the tree as plain texts without the keys that do not affect the results."""
-    return {key: said for key, said in plain_texts(root).items() if key not in ("claims", "titles", "about")}
+    return {key: specified for key, specified in plain_texts(root).items() if key not in ("claims", "titles", "about")}
 
 
 def _check_once(names: tuple[Text, ...], what: str) -> tuple[Text, ...]:
@@ -347,11 +347,11 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
     owner, known = f"measures.{name}", (*STATISTICS, "window", "from")
     if strange := [key for key in node.names() if key not in known]:
         raise unknown_key(strange[0], known, owner)
-    chosen = [key for key in node.names() if key in STATISTICS]
-    if len(chosen) != 1:
-        message = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
+    selected = [key for key in node.names() if key in STATISTICS]
+    if len(selected) != 1:
+        message = f"{owner} has {'no statistic' if not selected else f'both {selected[0]} and {selected[1]}'}"
         raise BadValueError(message, name.where, f"expected one of: {', '.join(STATISTICS)}")
-    (statistic,) = chosen
+    (statistic,) = selected
     what = "the name of a series, a joint or an event, or a section"
     of = text(node[statistic], f"{owner}.{statistic}", statistic, what)
     window = ""

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
-from gudgeon.generator.study.claims import TOLD, TRIAL
-from gudgeon.generator.study.parts import MOST, MOST_COUNT, MOST_ROUNDS, MOST_SEED, MOST_TEXT
+from gudgeon.generator.study.claims import MESSAGES, TRIAL
+from gudgeon.generator.study.parts import MAX_COUNT, MAX_SEED, MOST, MOST_ROUNDS, MOST_TEXT
 from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
 from gudgeon.generator.study.spec import (
     COUNTED,
@@ -82,14 +82,14 @@ def _map(values: Json, names: str = "") -> Json:
 
 def _count(least: int) -> Json:
     """Return the schema of a whole number of at least `least`."""
-    return {"type": "integer", "minimum": least, "maximum": MOST_COUNT}
+    return {"type": "integer", "minimum": least, "maximum": MAX_COUNT}
 
 
 def _draw() -> Json:
     """Return the schema of `draw`."""
     normal = _record({"mean": _NUMBER, "std": _NUMBER}, "mean", "std")
     between = _record({"from": _NUMBER, "to": _NUMBER, "spacing": _SPACING}, "from", "to")
-    seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
+    seed = {"type": "integer", "minimum": 0, "maximum": MAX_SEED}
     spreads = _map({"anyOf": [normal, between]}) | {"minProperties": 1}
     own = {"count": _count(1), "seed": seed, "method": {"enum": list(DRAWN)}, "parameters": spreads}
     return _record(own, "count", "parameters")
@@ -107,7 +107,7 @@ def _wear() -> Json:
 def _starts() -> Json:
     """Return the schema of `starts`."""
     sizes = {"relative": _map(_NUMBER), "absolute": _map(_NUMBER)}
-    seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
+    seed = {"type": "integer", "minimum": 0, "maximum": MAX_SEED}
     own = {"count": _count(1), "seed": seed, "distribution": {"enum": [UNIFORM, NORMAL]}}
     return _record(own | sizes | {"ensembles": _map(_record(sizes), LABEL)}, "count")
 
@@ -121,7 +121,7 @@ def _about() -> Json:
 def _claims() -> Json:
     """Return the schema of `claims`: numbers, and trends with one trial, several or none."""
     at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
-    descriptive = {key: {"type": "string", "maxLength": MOST_TEXT} for key in TOLD}
+    descriptive = {key: {"type": "string", "maxLength": MOST_TEXT} for key in MESSAGES}
     number = _record(
         descriptive | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure"
     )

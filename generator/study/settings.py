@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.study.spec import Axis, Draw, Numbers
 from gudgeon.generator.yaml import Items, Map, Text
-from gudgeon.language.wanted import is_whole, told
+from gudgeon.language.argument_checks import is_whole, message
 
 MOST_DEPTH, MOST_VALUES = 16, 1_000_000
 
@@ -25,7 +25,7 @@ def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
-                raise BadValueError(f"{address or 'the study'}: its key {told(key)} is no text", where)
+                raise BadValueError(f"{address or 'the study'}: its key {message(key)} is no text", where)
         names = {key: f"{address}.{key}" if address else key for key in value}
         pairs = ((Text.make(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in names.items())
         return Map.make(((key, tree_of(below, names[key], depth + 1)) for key, below in pairs), where)
@@ -44,7 +44,7 @@ def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
         return Text.make(repr(int(value)) if is_whole(value) else repr(float(value)), where)
     except (TypeError, ValueError, OverflowError):
         hint = "expected a number, a text, a list or a mapping"
-        raise BadValueError(f"{address or 'the study'} is {told(value)}", where, hint) from None
+        raise BadValueError(f"{address or 'the study'} is {message(value)}", where, hint) from None
 
 
 def plain_texts(node: Any) -> Any:

@@ -236,7 +236,7 @@ class WearRounds:
 
 @dataclass(frozen=True)
 class StudyFile:
-    """Contain one study; `said` is its tree as plain texts, by which two studies are compared."""
+    """Contain one study; `specified` is its tree as plain texts, by which two studies are compared."""
 
     file: str  # "" for a mapping of Python
     title: str
@@ -257,17 +257,17 @@ class StudyFile:
     method: Text
     rtol: Text | None
     stop: bool
-    said: Mapping[str, Any]
+    specified: Mapping[str, Any]
     wear: WearRounds | None = None
     left_out: tuple[Axis, ...] = ()  # dimensions of the file that `--set` replaces by one value
 
     def begun(self, count: int | None, seed: int | None) -> StudyFile:
         """Return the study with another count or seed of its perturbed starts, if it has any."""
-        told = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
-        if self.starts is None or not told:
+        message = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
+        if self.starts is None or not message:
             return self
         starts = replace(self.starts, count=count or self.starts.count, seed=self.starts.seed if seed is None else seed)
-        return replace(self, starts=starts, said={**self.said, "starts": self.said["starts"] | told})
+        return replace(self, starts=starts, specified={**self.specified, "starts": self.specified["starts"] | message})
 
 
 @dataclass(frozen=True)
@@ -287,8 +287,8 @@ class StudySet:
 
         Raises BadValueError if no part has any.
         """
-        told = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
-        if told and not any(part.starts for part in self.parts.values()):
+        message = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
+        if message and not any(part.starts for part in self.parts.values()):
             hint = "starts: in the file says which number is how far off"
-            raise BadValueError(f"no run has perturbed starts, whose {' and '.join(told)} is given", None, hint)
+            raise BadValueError(f"no run has perturbed starts, whose {' and '.join(message)} is given", None, hint)
         return replace(self, parts={name: part.begun(count, seed) for name, part in self.parts.items()})

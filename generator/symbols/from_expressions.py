@@ -11,10 +11,10 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.mechanism import Quantity
-from gudgeon.generator.symbols.corners import ModOf, Pick
 from gudgeon.generator.symbols.curves import curve_of
 from gudgeon.generator.symbols.squares import DEGREE, decimal, root
-from gudgeon.generator.symbols.wholes import kept
+from gudgeon.generator.symbols.switches import ModOf, Pick
+from gudgeon.generator.symbols.unevaluated import kept
 from gudgeon.language.functions import IN_SYMPY, Function
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary

@@ -16,19 +16,19 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.symbols.corners import Switches
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
 from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol
+from gudgeon.generator.symbols.switches import Switches
 
 OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
 
 
-def made_name(wanted: str) -> str:
-    """Return the identifier of what a file calls `wanted`: single underscores, the last one at its end.
+def made_name(expected: str) -> str:
+    """Return the identifier of what a file calls `expected`: single underscores, the last one at its end.
 
     No fixed name of the generator, of the engine or of a language has that form, so none can be equal to it.
     """
-    return re.sub(r"[\W_]+", "_", wanted).strip("_") + "_"
+    return re.sub(r"[\W_]+", "_", expected).strip("_") + "_"
 
 
 def plain_name(symbol: sp.Symbol) -> str:
@@ -91,10 +91,10 @@ class Symbols(Freezable):
             if symbol in self._shared.definitions:
                 self.definitions[symbol] = self._shared.definitions[symbol]
 
-    def unique(self, wanted: str) -> str:
-        """Return `wanted` as an identifier that nothing else has in any target: see `made_name`."""
-        assert not self.frozen, f"{wanted}: derived after the tables were frozen"
-        name = candidate = made_name(wanted)
+    def unique(self, expected: str) -> str:
+        """Return `expected` as an identifier that nothing else has in any target: see `made_name`."""
+        assert not self.frozen, f"{expected}: derived after the tables were frozen"
+        name = candidate = made_name(expected)
         count = 1
         while candidate in self._names:
             count += 1
@@ -111,17 +111,17 @@ class Symbols(Freezable):
         """
         own = [name for name in used if not ((home := self._home(name)) and home.is_parameter)]
         numbered = sorted((name for name in own if name in self._numbered), key=lambda name: (len(name), name))
-        taken = {*own} - {*numbered}
+        reserved = {*own} - {*numbered}
         found: dict[str, str] = {}
         for name in numbered:
             base = self._numbered[name]
-            free = base not in taken and not self._is_member(base)
+            free = base not in reserved and not self._is_member(base)
             found[name] = (
                 base
                 if free
-                else next(called for k in range(2, len(used) + 3) if (called := f"{base}{k}_") not in taken)
+                else next(called for k in range(2, len(used) + 3) if (called := f"{base}{k}_") not in reserved)
             )
-            taken.add(found[name])
+            reserved.add(found[name])
         return {name: called for name, called in found.items() if name != called}
 
     def _is_member(self, name: str) -> bool:
@@ -134,14 +134,14 @@ class Symbols(Freezable):
         return info.home if info else None
 
     def new(
-        self, wanted: str, home: Place | None = None, meaning: str = "", unit: str = "", shown: str = ""
+        self, expected: str, home: Place | None = None, meaning: str = "", unit: str = "", shown: str = ""
     ) -> sp.Symbol:
         """Return a new real symbol; with home OWN_FIELD its field is called `shown`, or as the symbol.
 
         Terms are ordered by the symbol's own name.
         """
         shared = self._shared if home and home.is_parameter else None
-        name, called = (self._unshared(text, shared) if text else "" for text in (wanted, shown))
+        name, called = (self._unshared(text, shared) if text else "" for text in (expected, shown))
         symbol = sp.Symbol(name, real=True)
         home = Place(PARAMETERS)[called or name] if home == OWN_FIELD else home
         self.info[symbol] = SymbolInfo(home, meaning, unit)
@@ -149,18 +149,18 @@ class Symbols(Freezable):
             shared.info[symbol] = self.info[symbol]
         return symbol
 
-    def _unshared(self, wanted: str, shared: Symbols | None) -> str:
+    def _unshared(self, expected: str, shared: Symbols | None) -> str:
         """Return a name that is new in the other table too."""
-        name = self.unique(wanted)
+        name = self.unique(expected)
         while shared is not None and name in shared._names:
-            name = self.unique(wanted)
+            name = self.unique(expected)
         if shared is not None:
             shared._names.add(name)
         return name
 
     def define(
         self,
-        wanted: str,
+        expected: str,
         expression: sp.Expr,
         home: Place | None = None,
         meaning: str = "",
@@ -168,7 +168,7 @@ class Symbols(Freezable):
         shown: str = "",
     ) -> sp.Symbol:
         """Return a new symbol that stands for `expression`."""
-        symbol = self.new(wanted, home, meaning, unit, shown)
+        symbol = self.new(expected, home, meaning, unit, shown)
         self.definitions[symbol] = expression
         if self._shared is not None and home is not None and home.is_parameter:
             self._shared.definitions[symbol] = expression

@@ -14,7 +14,7 @@ from itertools import combinations
 import numpy as np
 
 from gudgeon.assembly.closure import Closure
-from gudgeon.assembly.followed import APART
+from gudgeon.assembly.guess_warnings import APART
 from gudgeon.assembly.linkage import Linkage
 from gudgeon.model.compiled import Array
 
@@ -79,7 +79,7 @@ def _differences(closure: Closure, x: Array, y: Array) -> Array:
     return np.abs(np.where(closure.is_angle, (away + np.pi) % (2.0 * np.pi) - np.pi, away / closure.size))
 
 
-def guesses_apart(closure: Closure, x: Array, y: Array) -> float:
+def guess_distance(closure: Closure, x: Array, y: Array) -> float:
     """Return the largest difference of two configurations in guessed coordinates: rad, or relative to the size."""
     points = [
         closure.off_point(x, point, np.zeros(2)) - closure.off_point(y, point, np.zeros(2))
@@ -96,17 +96,17 @@ def _is_same(closure: Closure, x: Array, y: Array) -> bool:
 
 def _distinguishing_coordinates(found: Sequence[Array], closure: Closure, order: Sequence[int]) -> list[int]:
     """Return few coordinates that distinguish all configurations, chosen greedily by the number of new pairs."""
-    chosen: list[int] = []
+    selected: list[int] = []
     pairs = [_differences(closure, x, y) for x, y in combinations(found, 2)]
     left = list(range(len(pairs)))
     while left:
         best = max(order, key=lambda k: sum(bool(pairs[i][k] > APART) for i in left))
-        told = [i for i in left if pairs[i][best] > APART]
-        if not told:  # near each other everywhere: the coordinate in which they differ most
+        message = [i for i in left if pairs[i][best] > APART]
+        if not message:  # near each other everywhere: the coordinate in which they differ most
             best = max(order, key=lambda k: min(float(pairs[i][k]) for i in left))
-            told = left
-        chosen, left = [*chosen, best], [i for i in left if i not in told]
-    return chosen
+            message = left
+        selected, left = [*selected, best], [i for i in left if i not in message]
+    return selected
 
 
 def _reduced_coordinate(closure: Closure, x: Array, k: int) -> float:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.followed import APART
+from gudgeon.assembly.guess_warnings import APART
 from gudgeon.assembly.large import LARGE, nearest_step, smallest
 from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, place_of
 from gudgeon.contract.kernel_source import PointInfo
@@ -55,15 +55,15 @@ class Closure:
         self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
         self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
-        told = dict(zip(source.start_guess, guess.tolist(), strict=True))
-        self.guess = {name: value for name, value in told.items() if name in self.place}
+        message = dict(zip(source.start_guess, guess.tolist(), strict=True))
+        self.guess = {name: value for name, value in message.items() if name in self.place}
         self.guessed = [self.place[name] for name in self.guess]
         self.points = [
-            (point, np.array([told[f"{point.name}.x"], told[f"{point.name}.y"]]))
+            (point, np.array([message[f"{point.name}.x"], message[f"{point.name}.y"]]))
             for point in source.points
-            if f"{point.name}.x" in told
+            if f"{point.name}.x" in message
         ]
-        self.wanted = np.zeros(len(self.place))  # guessed coordinates, as far as the constraint equations allow them
+        self.expected = np.zeros(len(self.place))  # guessed coordinates, as far as the constraint equations allow them
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 
     def residual(self, q: Array, p: Array | None = None) -> Array:
@@ -112,7 +112,7 @@ class Closure:
         q = np.zeros(len(self.place))
         q[self.guessed] = list(self.guess.values())
         q[self.set_index] = self.set
-        self.wanted = q = self.place_angles(q)
+        self.expected = q = self.place_angles(q)
         self.reach = self._farthest_place(q)
         return self._fit_points(q) if self.points else q
 
@@ -165,7 +165,7 @@ class Closure:
         """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size."""
         off = [self.off_point(q, point, target) * (GUESSED / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
-        return float(np.linalg.norm(np.concatenate([(q - self.wanted) * self.weight * free, *off])))
+        return float(np.linalg.norm(np.concatenate([(q - self.expected) * self.weight * free, *off])))
 
     def off_point(self, q: Array, point: PointInfo, target: Array) -> Array:
         """Return the vector (2,) in m from where a point is guessed to where it is."""
@@ -219,9 +219,11 @@ class Closure:
 
     def _farthest_place(self, guess: Array) -> float:
         """Return the largest distance (m) from the origin that drives and start ask for; at least the size."""
-        asked = np.abs(self.residual(guess))[: len(self.linkage.source.start_rows)]
+        requested = np.abs(self.residual(guess))[: len(self.linkage.source.start_rows)]
         lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
-        return float(max(self.size, asked[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0)))
+        return float(
+            max(self.size, requested[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0))
+        )
 
     def is_closed(self, q: Array) -> bool:
         """Return whether all equations are satisfied to rounding."""
@@ -233,8 +235,10 @@ class Closure:
 
     def _relative_miss(self, q: Array) -> float:
         """Return how far the worst guessed angle or point is off, relative to the limit for a longer search."""
-        off = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.wanted, 0.0)
-        places = np.hypot(off[0::3], off[1::3]) / np.maximum(self.size, np.hypot(self.wanted[0::3], self.wanted[1::3]))
+        off = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.expected, 0.0)
+        places = np.hypot(off[0::3], off[1::3]) / np.maximum(
+            self.size, np.hypot(self.expected[0::3], self.expected[1::3])
+        )
         points = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
         return float(max([*places / APART, *np.abs(off[2::3]) / FAR, *points], default=0.0))
 
@@ -262,9 +266,9 @@ class Closure:
 
     def unwound(self, q: Array) -> Array:
         """Return the configuration with angles within half a turn of the guess, where no equation counts turns."""
-        for k in np.flatnonzero(self.is_angle & (np.abs(q - self.wanted) > np.pi)):
+        for k in np.flatnonzero(self.is_angle & (np.abs(q - self.expected) > np.pi)):
             other = q.copy()
-            other[k] -= 2.0 * np.pi * np.round((q[k] - self.wanted[k]) / (2.0 * np.pi))
+            other[k] -= 2.0 * np.pi * np.round((q[k] - self.expected[k]) / (2.0 * np.pi))
             q = other if self.is_closed(other) else q
         return q
 

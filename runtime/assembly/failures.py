@@ -14,10 +14,10 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from gudgeon.assembly.closure import CLOSED, Closure
-from gudgeon.assembly.linkage import arm_of
+from gudgeon.assembly.linkage import point_in_body
 from gudgeon.assembly.rank import tied
 from gudgeon.errors import AssemblyError
-from gudgeon.model.compiled import Array, far_masses
+from gudgeon.model.compiled import Array, mass_ratio_message
 from gudgeon.model.written import reason
 
 FAR = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
@@ -32,8 +32,8 @@ MOST, LEAST = 4.0, -0.95  # limits of the relative change: a length beyond them 
 def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
     """Return the error for velocities that do not fit, with the dependent equations, drives and rates among them."""
     source = closure.linkage.source
-    if told := far_masses(source, closure.linkage.mass(closure.p)):
-        return AssemblyError(told)
+    if message := mass_ratio_message(source, closure.linkage.mass(closure.p)):
+        return AssemblyError(message)
     rows = [row.name for row in source.start_rows] + list(source.start_rates)
     moving = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
     stuck = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
@@ -68,13 +68,13 @@ def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
     return AssemblyError(f"no velocities fit the start: row {worst} is left with {left.max():.3g}")
 
 
-def not_closed(closure: Closure, q: Array) -> AssemblyError:
+def closure_error(closure: Closure, q: Array) -> AssemblyError:
     """Return the error for a linkage that does not close: open equations, residuals and remedies."""
     scaled = np.abs(closure.residual(q) / closure.row_scale)
     if not np.isfinite(scaled).all():
         why = reason(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
-        told = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
-        return AssemblyError(f"the start cannot be assembled: {told}")
+        message = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
+        return AssemblyError(f"the start cannot be assembled: {message}")
     worst = np.argsort(-scaled)[:6]
     worst = worst[scaled[worst] > 1e-3 * scaled.max()]
     rows = ", ".join(_open_equation_text(closure, q, k) for k in worst)
@@ -102,12 +102,12 @@ def _wrong_lengths_text(closure: Closure, q: Array) -> str:
     if closure.linkage.n > FEW:
         return ""
     found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
-    told = [
-        f"{one.told} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
+    message = [
+        f"{one.message} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
         f" {lengths_text(abs(one.missing))}"
         for one in found
     ]
-    return f"\n  one change would close it: {', or '.join(told)}" if told else ""
+    return f"\n  one change would close it: {', or '.join(message)}" if message else ""
 
 
 def _unit_mistake_text(closure: Closure) -> str:
@@ -121,9 +121,11 @@ def _unit_mistake_text(closure: Closure) -> str:
     order = sorted((name for name, size in sizes.items() if size > 0.0), key=lambda name: -sizes[name])
     for k, (name, after) in enumerate(pairwise(order), 1):
         if sizes[name] > FAR * sizes[after] and sizes[name] >= 1.0 and 2 * k <= len(order):
-            told = ", ".join(f"{long} is {lengths_text(sizes[long])}" for long in order[:k][:3])
+            message = ", ".join(f"{long} is {lengths_text(sizes[long])}" for long in order[:k][:3])
             meant = f"was {sizes[order[0]]:.4g} mm meant" if k == 1 else "were they meant in mm"
-            return f"\n  {told}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? bare numbers are m"
+            return (
+                f"\n  {message}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? bare numbers are m"
+            )
     return ""
 
 
@@ -142,7 +144,7 @@ class WrongLength:
     missing: float
 
     @property
-    def told(self) -> str:
+    def message(self) -> str:
         """Return the body's name, with its points unless these are its ends."""
         return self.body if {*self.points} == ENDS else f"{self.body}, {'–'.join(self.points)}"
 
@@ -161,7 +163,7 @@ def _find_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
     source = closure.linkage.source
     held = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
-        arms = [(p, arm_of(closure.p, p)) for p in source.points if p.body == index and p.name in held]
+        arms = [(p, point_in_body(closure.p, p)) for p in source.points if p.body == index and p.name in held]
         apart = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
         furthest = max(apart, key=apart.__getitem__, default=None)
         if furthest is not None and apart[furthest] > 0.0:

@@ -13,9 +13,9 @@ from gudgeon.assembly.linkage import Linkage
 from gudgeon.contract.boundary import CLEARANCE_Fx, CLEARANCE_Fy
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
-from gudgeon.language.plot_units import told_apart
+from gudgeon.language.plot_units import distinct_texts
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import contour_of, corner_at, corner_gap, depth_at, slider_of, widest
+from gudgeon.model.contours import contour_of, corner_approach, corner_gap, depth_at, slider_of, widest
 
 FAR = 10.0  # times the largest allowed value: a longer e probably has the wrong unit
 ROUNDED = 1e-9  # of the clearance: allowed error of a start in contact
@@ -32,7 +32,7 @@ def check_places(linkage: Linkage, p: Array) -> None:
             _check_corner(linkage, p, joint, e - c)
             continue
         if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
-            length, most = told_apart(1e3 * e, 1e3 * c)
+            length, most = distinct_texts(1e3 * e, 1e3 * c)
             raise AssemblyError(
                 f"start.play.{joint.name}.e is {length} mm long and may be {most} mm, the clearance: the surfaces of"
                 " this joint do not give (newton_restitution)\n"
@@ -40,7 +40,7 @@ def check_places(linkage: Linkage, p: Array) -> None:
             )
         deepest = DEEPEST * float(p[joint.constants["R_i"]])
         if e - c > deepest:
-            length, most = told_apart(1e3 * e, 1e3 * (c + deepest))
+            length, most = distinct_texts(1e3 * e, 1e3 * (c + deepest))
             bare = "; a bare number is in m" if e > FAR * (c + deepest) else ""
             raise AssemblyError(
                 f"start.play.{joint.name}.e is {length} mm long and may be {most} mm: the clearance is {1e3 * c:.4g}"
@@ -96,7 +96,8 @@ def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
             wall = "its wall" if joint.at_wall else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
-                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, e/c = {told_apart(e / c, 1.0, 3)[0]}: {so}"
+                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, "
+                f"e/c = {distinct_texts(e / c, 1.0, 3)[0]}: {so}"
             )
 
 
@@ -110,7 +111,7 @@ def _placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, 
         own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint]
         if joint.at_wall:
             if own:
-                yield joint, corner_at(source, p, joint, -own[0], -own[1]), float(p[joint.clearance])
+                yield joint, corner_approach(source, p, joint, -own[0], -own[1]), float(p[joint.clearance])
             continue
         yield joint, float(np.linalg.norm(own)), widest(source, p, joint)
 
@@ -121,11 +122,11 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
     q, v (n,) at time t (s); memory (n_memory,): contacts resumed from another run know their onset.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
-    told: list[str] = []
+    message: list[str] = []
     for number in joints:
         joint = compiled.source.clearances[number]
         if joint.at_wall:
-            told += _parting_corner(compiled, p, t, q, v, memory, number)
+            message += _parting_corner(compiled, p, t, q, v, memory, number)
             continue
         rows, e = eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance]) - _contour_depth(compiled, p, q, joint, e)
@@ -135,8 +136,8 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
                 deltadot = float(by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
                 approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
                 if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
-                    told.append(_onset_note(joint.name, depth, deltadot))
-    return tuple(told)
+                    message.append(_onset_note(joint.name, depth, deltadot))
+    return tuple(message)
 
 
 def _parting_corner(

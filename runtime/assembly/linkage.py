@@ -54,7 +54,7 @@ def scaled_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
     return np.asarray(matrix / (np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300))
 
 
-def arm_of(p: Array, point: PointInfo) -> Array:
+def point_in_body(p: Array, point: PointInfo) -> Array:
     """Return the coordinates (2,) in m of a point in its body's centre-of-mass frame, or in ground axes."""
     pairs = ((point.x, point.sign_x), (point.y, point.sign_y))
     return np.array([sign * float(p[k]) if k >= 0 else 0.0 for k, sign in pairs])
@@ -62,7 +62,7 @@ def arm_of(p: Array, point: PointInfo) -> Array:
 
 def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Array:
     """Return the position (2,) in m of a point in ground axes."""
-    arm = arm_of(p, point)
+    arm = point_in_body(p, point)
     if point.body < 0:
         return arm
     i = source.bodies[point.body].index

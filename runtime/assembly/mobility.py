@@ -72,13 +72,13 @@ def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
     return _null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
-def check_freedoms(wanted: float, where: Location, found: Mobility) -> None:
+def check_freedoms(expected: float, where: Location, found: Mobility) -> None:
     """Raise BadValueError if the file states another number of degrees of freedom of its closed linkage."""
-    if found.freedoms != wanted:
+    if found.freedoms != expected:
         along = f": {', '.join(found.along)}" if found.along else ""
-        told = f"freedoms is {wanted:g}, but with all joints closed there are {found.freedoms}{along}"
+        message = f"freedoms is {expected:g}, but with all joints closed there are {found.freedoms}{along}"
         hint = "look for a joint or a drive that is missing or too many, or correct the number"
-        raise BadValueError(told, where, f"expected {found.freedoms}, if that is meant; {hint}")
+        raise BadValueError(message, where, f"expected {found.freedoms}, if that is meant; {hint}")
 
 
 def _null_space(matrix: Array) -> Array:
@@ -97,14 +97,14 @@ def _preferred_order(names: tuple[str, ...]) -> list[int]:
 
 def _describing_coordinates(free: Array, order: list[int]) -> list[int]:
     """Return the first coordinates in this order that distinguish all free motions."""
-    basis, chosen = np.zeros((0, free.shape[1])), list[int]()
+    basis, selected = np.zeros((0, free.shape[1])), list[int]()
     for share in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
         for k in order:
             rest = free[k] - (basis @ free[k]) @ basis
             own = float(np.linalg.norm(rest))
-            if len(chosen) < free.shape[1] and own > INDEPENDENT and own > share * float(np.linalg.norm(free[k])):
-                basis, chosen = np.vstack([basis, rest / own]), [*chosen, k]
-    return chosen
+            if len(selected) < free.shape[1] and own > INDEPENDENT and own > share * float(np.linalg.norm(free[k])):
+                basis, selected = np.vstack([basis, rest / own]), [*selected, k]
+    return selected
 
 
 def _loose_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]:

@@ -207,7 +207,7 @@ def branch_rates(compiled: CompiledModel, p: Array, t: float, q: Array) -> list[
     return [v + (sign * np.sqrt(inner) - linear) / (2.0 * square) * scale * right[-1] for sign in (-1.0, 1.0)]
 
 
-def branches_told(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
+def branches_text(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
     """Return the branches at q as text, by the velocity that differs most; "" if none are known."""
     rates = branch_rates(compiled, p, t, q)
     if not rates:
@@ -215,5 +215,5 @@ def branches_told(compiled: CompiledModel, p: Array, t: float, q: Array) -> str:
     body, _, part = compiled.source.coordinates[int(np.abs(rates[1] - rates[0]).argmax())].rpartition(".")
     k = compiled.source.coordinates.index(f"{body}.{part}")
     name, unit = f"{body}.{'omega' if part == 'theta' else f'v{part}'}", "rad/s" if part == "theta" else "m/s"
-    told = " or ".join(f"{name} = {v[k]:.6g} {unit}" for v in rates)
-    return f"two branches of the motion meet there, with {told}"
+    message = " or ".join(f"{name} = {v[k]:.6g} {unit}" for v in rates)
+    return f"two branches of the motion meet there, with {message}"

@@ -52,9 +52,9 @@ def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     with np.errstate(all="ignore"):  # Newton handles undefined directions itself
         q, closed = closure.nearest()
     if not closed:
-        from gudgeon.assembly.failures import not_closed
+        from gudgeon.assembly.failures import closure_error
 
-        raise not_closed(closure, q)
+        raise closure_error(closure, q)
     return Start(q, velocities(closure, q), float(np.abs(closure.residual(q)).max(initial=0.0)))
 
 
@@ -67,8 +67,8 @@ def _time_of_rates(closure: Closure) -> float:
 def velocities(closure: Closure, q: Array) -> Array:
     """Return q̇ with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M."""
     names = {"x": "vx", "y": "vy", "theta": "omega"}
-    wanted = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.place)]
-    index = [wanted.index(name) for name in closure.linkage.source.start_rates]
+    expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.place)]
+    index = [expected.index(name) for name in closure.linkage.source.start_rates]
     extra = np.zeros((len(index), len(q)))
     extra[np.arange(len(index)), index] = 1.0
     matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), extra])

@@ -12,18 +12,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.commands import assembly_story as story
+from gudgeon.commands import assembly_report as story
 from gudgeon.commands.common import settings
 from gudgeon.commands.progress import status_line
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.ledger import Story
-from gudgeon.contract.ledger_words import ledger_lines, outcome
 from gudgeon.contract.methods import KINEMATIC
+from gudgeon.contract.reduction_log import ReductionLog
+from gudgeon.contract.reduction_words import outcome, reduction_lines
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
-from gudgeon.integrators.adaptive import begins_with
+from gudgeon.integrators.adaptive import first_method
 from gudgeon.language.shown import print_json
 from gudgeon.loading.find import derived, find_mechanism, read_bytes
-from gudgeon.model.contours import in_contours
+from gudgeon.model.contours import contour_parameters
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -116,7 +116,7 @@ def _count_facts(source: KernelSource) -> dict[str, int]:
         "non-zeros of Φ_q": source.story.jacobian,
         "joints with play": len({joint.joint for joint in source.clearances}),
         "numbers that can be set": len(source.slots),
-        **({"of them depths of contours": len(in_contours(source))} if source.contours else {}),
+        **({"of them depths of contours": len(contour_parameters(source))} if source.contours else {}),
     }
     return facts | {_label(name): count for name, count in source.operations.items()}
 
@@ -149,13 +149,13 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
         "driven": list(driven(source)),
         "operations of the accelerations": operations,
         "methods": [*source.methods, *(REFERENCE_SOLVERS if _fits_reference_solvers(source) else ())],
-        "auto begins with": begins_with(source),
+        "auto begins with": first_method(source),
     }
 
 
 def _further_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
     """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
-    yield "methods", f"{', '.join(_reduction(source)['methods'])}; auto begins with {begins_with(source)}"
+    yield "methods", f"{', '.join(_reduction(source)['methods'])}; auto begins with {first_method(source)}"
     if source.events:
         yield "events", ", ".join(_events(source))
     for note in source.notes:
@@ -268,7 +268,7 @@ def tell(
 
     known: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
     for scene, source in scenes.items():
-        ledger, lines = list(ledger_lines(source)), [*outcome(source), *rest(source)]
+        ledger, lines = list(reduction_lines(source)), [*outcome(source), *rest(source)]
         same = next((other for other in known if other[1] == ledger), None)
         if same:
             lines = [line for line in lines if line not in same[2]]
@@ -296,7 +296,7 @@ def _ledger_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[
     return table
 
 
-def story_data(story: Story) -> dict[str, Any]:
+def story_data(story: ReductionLog) -> dict[str, Any]:
     """Return the reduction log for `--json`, with the coordinates and constraint equations that each step leaves."""
     left = [{"coordinates left": n, "rows left": m} for _, n, m in story.ledger()]
     data = asdict(story)

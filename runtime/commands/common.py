@@ -42,16 +42,16 @@ def scene_names(mechanism: str) -> tuple[str, ...]:
     return tuple(json.loads((entry / SCENES).read_text(encoding="utf-8")))
 
 
-def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
+def select_scenes(mechanism: str, expected: tuple[str, ...]) -> tuple[str, ...]:
     """Return the requested scenes, each once, or all scenes if none is named.
 
     Raises UnknownNameError, which names the nearest.
     """
     names = scene_names(mechanism)
-    for scene in wanted:
+    for scene in expected:
         if scene not in names:
             raise unknown(f"no scene {scene!r} in {mechanism}", scene, names)
-    return tuple(dict.fromkeys(wanted)) or names
+    return tuple(dict.fromkeys(expected)) or names
 
 
 def settings(texts: Iterable[str]) -> dict[str, float | str]:
@@ -78,12 +78,12 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
         if name in known:
             continue
         for source in sources:
-            told, hint = as_parameter(source, name)
-            if told:
+            message, hint = as_parameter(source, name)
+            if message:
                 every = (*source.written, *source.expressions)
                 meant = (name, f"expressions.{name}")
                 place = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
-                raise UnknownNameError(f"--set: {told}", place, hint)
+                raise UnknownNameError(f"--set: {message}", place, hint)
         raise unknown(f"--set: no scene has a number {name!r}", name, known)
 
 
@@ -131,16 +131,16 @@ def check_folder(option: str, out: Path) -> None:
             with suppress(FileNotFoundError, NotADirectoryError):
                 (there / name).lstat()  # a name too long
     except OSError as error:  # a name too long, a folder that may not be entered
-        told = f"{option} {shortened(out)}: {error.strerror or error}"
-        raise InputError(told, hint="name another folder") from error
+        message = f"{option} {shortened(out)}: {error.strerror or error}"
+        raise InputError(message, hint="name another folder") from error
     if not there.is_dir():
         raise InputError(f"{option} {shortened(out)}: {shortened(there)} is a file", hint="name a folder")
     try:
         with tempfile.TemporaryFile(dir=there):  # permissions are not sufficient: the file system may be read-only
             pass
     except OSError as error:
-        told = f"{option} {shortened(out)}: nothing can be written to {shortened(there)} ({error.strerror or error})"
-        raise InputError(told, hint="name another folder") from error
+        message = f"{option} {shortened(out)}: nothing can be written to {shortened(there)} ({error.strerror or error})"
+        raise InputError(message, hint="name another folder") from error
 
 
 def check_file(option: str, path: Path) -> None:

@@ -17,20 +17,20 @@ import numpy as np
 from gudgeon.commands.common import (
     check_addresses,
     check_file,
-    chosen_scenes,
     linkage_at_values,
     require_suffix,
+    select_scenes,
     settings,
 )
+from gudgeon.commands.outcome import wrote
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import quantity
 from gudgeon.language.quantities import number_of_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.model.parameters import spaced
-from gudgeon.waiting.asking import working
+from gudgeon.waiting.asking import report_work
 
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import Closure
@@ -82,7 +82,7 @@ def draw_file(request: Request) -> int:
     if request.at is not None and request.branches:
         raise BadValueError("--branches with --at: assemblies are those of the start", hint="leave one of them out")
     values = settings(request.settings)
-    chosen_scenes(request.file, (request.scene,))
+    select_scenes(request.file, (request.scene,))
     file = find_mechanism(request.file)
     target = request.target or Path("out") / f"{file.stem}_{request.scene}.svg"
     require_suffix(target, SUFFIXES)
@@ -99,7 +99,7 @@ def draw_file(request: Request) -> int:
         if at > 0.0:
             drawn, failure = _draw_moved(request, at, values), None
         else:
-            with status_line(), working(f"deriving {file.stem}, scene {request.scene}"):
+            with status_line(), report_work(f"deriving {file.stem}, scene {request.scene}"):
                 drawn, failure = _draw_start(request, file, values)
         data = drawn.as_bytes(target.suffix.lower())
     write_bytes(target, data)
@@ -220,11 +220,11 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
 
 def _draw_open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
     """Return the picture of a linkage that does not close, with its gaps marked, and its error."""
-    from gudgeon.assembly.failures import not_closed
+    from gudgeon.assembly.failures import closure_error
     from gudgeon.drawing.failures import gaps
     from gudgeon.drawing.sketch import make_sketch
 
-    failure = not_closed(closure, q)
+    failure = closure_error(closure, q)
     if not (np.isfinite(q).all() and np.isfinite(closure.residual(q)).all()):
         raise failure
     posture = _make_posture(closure.linkage, q, None)  # type: ignore[arg-type]
@@ -237,7 +237,7 @@ def _draw_assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[
     """Return a sketch of each assembly and the guess that selects it, the start first."""
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
-    from gudgeon.commands.assembly_story import guess_text
+    from gudgeon.commands.assembly_report import guess_text
 
     linkage: Any = closure.linkage
     with np.errstate(all="ignore"):

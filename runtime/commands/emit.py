@@ -8,11 +8,11 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.commands.common import check_folder, chosen_scenes
+from gudgeon.commands.common import check_folder, select_scenes
+from gudgeon.commands.outcome import note, wrote
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.told import note, wrote
 from gudgeon.errors import InputError, shortened
-from gudgeon.files.writing import PART, Aside, check_target, read_regular
+from gudgeon.files.writing import PART, AtomicFiles, check_target, read_regular
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
@@ -31,12 +31,14 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
     if folder.suffix.lower() == ".fmu":
         return _emit_fmu(mechanism, folder, scene_names)
     check_folder("--out", folder)
-    scenes, rooms = chosen_scenes(mechanism, scene_names), _engine_folders()
+    scenes, rooms = select_scenes(mechanism, scene_names), _engine_folders()
     _refuse_one_folder(scenes)
     for scene in scenes:
-        refuse_foreign(folder / scene)
+        refuse_foreign_files(folder / scene)
     for room in rooms:
-        refuse_foreign(folder / room, {inner.rpartition("/")[2] for inner in rooms if inner.startswith(f"{room}/")})
+        refuse_foreign_files(
+            folder / room, {inner.rpartition("/")[2] for inner in rooms if inner.startswith(f"{room}/")}
+        )
     file = find_mechanism(mechanism)
     data = read_bytes(file)
     needs_engine = False
@@ -44,33 +46,33 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
         with status_line():
             source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
-        _write(folder / scene, {name: text.encode() for name, text in texts.items()})
+        _write_folder(folder / scene, {name: text.encode() for name, text in texts.items()})
         wrote(scene, folder / scene, f": {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for room, texts in rooms.items():
-            _write(folder / room, {name: text.encode() for name, text in texts.items()})
+            _write_folder(folder / room, {name: text.encode() for name, text in texts.items()})
         wrote(ENGINE, folder / ENGINE, ": what all scenes share")
     return 0
 
 
 def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int:
     """Write an FMU of one scene, and return the exit code."""
-    scenes = chosen_scenes(mechanism, scene_names or ("ideal",))
+    scenes = select_scenes(mechanism, scene_names or ("ideal",))
     if len(scenes) != 1:
         raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
     check_target(target)
     from gudgeon.exchange.fmu import write_fmu
-    from gudgeon.exchange.fmu_description import kept_from_exchange
+    from gudgeon.exchange.fmu_description import exchange_obstacle
     from gudgeon.simulation.from_file import load
 
     with status_line():
         simulation = load(mechanism, scene=scenes[0])
         write_fmu(simulation, target)
-    why = kept_from_exchange(simulation.source)
+    why = exchange_obstacle(simulation.source)
     kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
     wrote("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
-    if others := [scene for scene in chosen_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
+    if others := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
         note(f"other scenes, by --scene: {', '.join(others)}")
     if not compiler.is_there():
         note("no C compiler was found: it holds the sources alone, which importers compile")
@@ -100,7 +102,7 @@ def _engine_folders() -> dict[str, dict[str, str]]:
     return dict(sorted(rooms.items()))
 
 
-def _write(folder: Path, texts: dict[str, bytes]) -> None:
+def _write_folder(folder: Path, texts: dict[str, bytes]) -> None:
     """Write all texts and their list of checksums into a folder, or none.
 
     Files that an earlier version wrote and this one does not are removed. A list of old and new files is written first,
@@ -108,7 +110,7 @@ def _write(folder: Path, texts: dict[str, bytes]) -> None:
     """
     old, new = _read_list(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
     both = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
-    with Aside(folder, follow=False) as aside:
+    with AtomicFiles(folder, follow=False) as aside:
         aside.write(LIST, _format_list(both))
         for name, text in texts.items():
             aside.write(name, text)
@@ -138,7 +140,7 @@ def _read_list(folder: Path) -> dict[str, set[str]]:
     return found
 
 
-def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
+def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
     """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`.
 
     inner: names of subfolders that are checked separately.

@@ -8,14 +8,14 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.commands.common import check_file, chosen_scenes, require_suffix
+from gudgeon.commands.common import check_file, require_suffix, select_scenes
+from gudgeon.commands.outcome import show, wrote
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.told import show, wrote
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.waiting.asking import working
+from gudgeon.waiting.asking import report_work
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
@@ -37,8 +37,8 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     if len(scenes) > 1:
         message = f"{path_text(target)} holds the equations of one scene, not of {', '.join(scenes)}"
         raise BadValueError(message, hint="name a folder: -o pages/")
-    (scene,) = chosen_scenes(mechanism, scenes or (DEFAULT,))
-    with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
+    (scene,) = select_scenes(mechanism, scenes or (DEFAULT,))
+    with status_line(), report_work(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = _format_equations(mechanism, scene, target)
     if target == TERMINAL:
         show("equations", text.removesuffix("\n"))
@@ -58,12 +58,12 @@ def _run_once(mechanism: str, scene: str, notebook: Path) -> None:
         with status_line(), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # the notebook shows them
             simulation = load(mechanism, scene)
-            with working(f"running {simulation.source.mechanism}, scene {scene}, as the notebook will"):
+            with report_work(f"running {simulation.source.mechanism}, scene {scene}, as the notebook will"):
                 run = simulation.simulate()
     except GudgeonError as error:
-        told = GudgeonError(f"{path_text(notebook)} is written, but what it runs in its last cells fails: {error}")
-        told.exit_code = error.exit_code
-        raise told from error
+        message = GudgeonError(f"{path_text(notebook)} is written, but what it runs in its last cells fails: {error}")
+        message.exit_code = error.exit_code
+        raise message from error
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
 
@@ -74,12 +74,12 @@ def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
     from gudgeon.web.page import write
 
     name = find_mechanism(mechanism).stem
-    files = {scene: f"{name}_{scene}.html" for scene in chosen_scenes(mechanism, scenes)}
+    files = {scene: f"{name}_{scene}.html" for scene in select_scenes(mechanism, scenes)}
     for file in files.values():
         check_file("--out", folder / file)
     with status_line():
         for scene, file in files.items():
-            with working(f"deriving {name}, scene {scene}"):
+            with report_work(f"deriving {name}, scene {scene}"):
                 text = write(load(mechanism, scene), files)
             folder.mkdir(parents=True, exist_ok=True)
             write_text(folder / file, text)

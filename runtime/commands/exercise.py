@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.commands.common import check_file, chosen_scenes, require_suffix
+from gudgeon.commands.common import check_file, require_suffix, select_scenes
+from gudgeon.commands.outcome import wrote
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.told import wrote
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
-from gudgeon.files.writing import Aside
+from gudgeon.files.writing import AtomicFiles
 from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.waiting.asking import working
+from gudgeon.waiting.asking import report_work
 
 if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
@@ -27,11 +27,11 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
     solutions = target.with_name(f"{target.stem}-solutions{target.suffix}")
     for file in (target, solutions):
         check_file("--out", file)
-    chosen_scenes(mechanism, (scene,))
+    select_scenes(mechanism, (scene,))
     with status_line():
         sheet, solved, drawn = make(mechanism, scene, seed, at)
         texts = [_format_document(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
-    with Aside(target.parent) as aside:  # both files or neither: a sheet needs its own solutions
+    with AtomicFiles(target.parent) as aside:  # both files or neither: a sheet needs its own solutions
         for file, text in zip((target, solutions), texts, strict=True):
             aside.write(file.name, text.encode())
         aside.move()
@@ -51,14 +51,14 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
     from gudgeon.generator.reader.read import read_scene
     from gudgeon.teaching.sheet import make_sheets, make_subject, units_of
 
-    with working(f"running {file.stem}, scene {scene}, with other numbers"):
+    with report_work(f"running {file.stem}, scene {scene}, with other numbers"):
         try:
             drawn = draw_numbers(simulation, seed, at, units_of(read_scene(data, str(file), scene)))
         except (AssemblyError, SolverError) as error:
             failure = GudgeonError(f"no sheet: the run that its numbers come from fails, the file's own too: {error}")
             failure.exit_code = error.exit_code
             raise failure from error
-    with working(f"deriving {file.stem}, scene {scene}"):
+    with report_work(f"deriving {file.stem}, scene {scene}"):
         from gudgeon.generator.pipeline import derive
         from gudgeon.teaching.questions import make_questions
 

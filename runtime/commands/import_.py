@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gudgeon.commands.outcome import note, wrote
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.told import note, wrote
 from gudgeon.errors import InputError
 from gudgeon.exchange.read import mechanism_of
 from gudgeon.files.writing import write_text
@@ -37,7 +37,7 @@ def import_linkage(file: Path, target: Path | None) -> int:
 def _try_assembly(text: str, file: Path) -> bool:
     """Return True if all scenes assemble, False if the linkage is too large to try. Raises InputError if they do
     not."""
-    from gudgeon.commands.assembly_story import assemble_scenes
+    from gudgeon.commands.assembly_report import assemble_scenes
     from gudgeon.generator.reader.read import read_mechanism
 
     mechanism = read_mechanism(text.encode(), str(file))

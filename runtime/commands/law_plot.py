@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.told import wrote
+from gudgeon.commands.outcome import wrote
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.names import unknown_name
@@ -49,13 +49,15 @@ Function = Callable[..., Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Chosen:
-    """A law with all its parameter values and options; `told` is the text of those that are not the law's defaults."""
+    """A law with all its parameter values and options; `message` is the text of those that are not the law's
+    defaults.
+    """
 
     law: Law
     name: str
     numbers: Mapping[str, Any]
     options: Mapping[str, str | bool]
-    told: str
+    message: str
 
 
 def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | str]) -> None:
@@ -76,20 +78,20 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
             f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
             f"  gudgeon laws {name} tells what it does"
         )
-    chosen = _choose_values(law, name, settings)
+    selected = _choose_values(law, name, settings)
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
     from gudgeon.generator.kinds.laws.built import alone
 
-    function = alone(law, chosen.numbers, chosen.options, STEEL)
+    function = alone(law, selected.numbers, selected.options, STEEL)
     with rc_context(plots.STYLE), np.errstate(all="ignore"):
         figure = Figure(figsize=(6.4, 4.2), dpi=120, layout="constrained")
         ax = figure.subplots()
         ax.set_prop_cycle(color=plots.COLOURS)
-        _DRAWN[law.role](ax, function, chosen)
+        _DRAWN[law.role](ax, function, selected)
         ax.legend(fontsize=8)
-        figure.suptitle(f"{name}: {chosen.told}" if chosen.told else name, fontsize=10, x=0.012, ha="left")
+        figure.suptitle(f"{name}: {selected.message}" if selected.message else name, fontsize=10, x=0.012, ha="left")
     return figure
 
 
@@ -104,22 +106,22 @@ def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> 
     made: Mapping[str, str | bool] = law.also.get(name, {})
     options = {own.name: made.get(own.name, own.choice) for own in law.options}
     numbers: dict[str, Any] = {}
-    told = []
+    message = []
     for own in fields.values():
         if own in law.options:
             if own.name in settings:
                 options[own.name] = _read_option(own, settings[own.name])
-                told.append(f"{own.name}: {settings[own.name]}")
+                message.append(f"{own.name}: {settings[own.name]}")
         elif own.varies:
             text = str(settings.get(own.name, FORCE))
             numbers[own.name] = _read_expression(own, text)
-            told.append(f"{own.name} = {text}")
+            message.append(f"{own.name} = {text}")
         elif (value := _find_value(own, settings)) is not None:
             numbers[own.name] = value
             if value != own.default or own.name in settings:
-                told.append(f"{own.name} = {quantity(value, _unit(own))}")
+                message.append(f"{own.name} = {quantity(value, _unit(own))}")
     law.check(numbers)
-    return Chosen(law, name, numbers, options, ", ".join(told))
+    return Chosen(law, name, numbers, options, ", ".join(message))
 
 
 def chosen_numbers(law: Law) -> dict[str, float | str]:
@@ -192,23 +194,23 @@ def _draw_curves(
 
     across, up: symbol and unit of the axes. Raises BadValueError if a curve has no finite value.
     """
-    found = [(np.where(np.isfinite(y), y, np.nan), told) for y, told in lines]
-    for y, told in found:
+    found = [(np.where(np.isfinite(y), y, np.nan), message) for y, message in lines]
+    for y, message in found:
         if np.isnan(y).all():
-            raise BadValueError(f"nothing to draw: with these numbers {told} is no finite number anywhere")
+            raise BadValueError(f"nothing to draw: with these numbers {message} is no finite number anywhere")
     wide, x_unit = scale(float(np.abs(x).max()), across[1])
     high, y_unit = scale(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in found])), up[1])
-    for y, told in found:
-        ax.plot(wide * x, high * y, label=told)
+    for y, message in found:
+        ax.plot(wide * x, high * y, label=message)
     ax.set(xlabel=label(across[0], x_unit), ylabel=label(up[0], y_unit))
 
 
-def _draw_normal(ax: Axes, law: Function, chosen: Chosen) -> None:
+def _draw_normal(ax: Axes, law: Function, selected: Chosen) -> None:
     """Draw the normal force over penetration during approach, rest and separation."""
     from gudgeon.generator.kinds.laws.built import reads_besides
 
     delta = np.linspace(0.0, MAX_PENETRATION * STEEL["c"], POINTS)
-    further = [SPEED] * reads_besides(chosen.law)
+    further = [SPEED] * reads_besides(selected.law)
     curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
     same = np.array_equal(curves[1.0], curves[-1.0])
     lines = (
@@ -221,17 +223,17 @@ def _draw_normal(ax: Axes, law: Function, chosen: Chosen) -> None:
     ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
 
 
-def _draw_friction(ax: Axes, law: Function, chosen: Chosen) -> None:
+def _draw_friction(ax: Axes, law: Function, selected: Chosen) -> None:
     """Draw F_t/F_n over the slip velocity; for laws with inner states over two oscillations of the slip."""
-    speeds = [chosen.numbers[own.name] for own in chosen.law.parameters if _unit(own) == "m/s"]
+    speeds = [selected.numbers[own.name] for own in selected.law.parameters if _unit(own) == "m/s"]
     fastest = 3.0 * max(speeds, default=SPEED / 3.0)
-    if not chosen.law.states:
+    if not selected.law.states:
         v_t = np.linspace(-fastest, fastest, 2 * POINTS)
         _draw_curves(ax, v_t, iter([(law(1.0, v_t)["F_t"], "F_t/F_n")]), ("v_t", "m/s"), ("F_t/F_n", ""))
         ax.set_title("the force on the journal by the slip of its surface on the bearing's")
         return
     for amplitude in (2e-5, 2e-4):
-        v_t, force = _oscillate_slip(law, chosen.law, fastest, amplitude)
+        v_t, force = _oscillate_slip(law, selected.law, fastest, amplitude)
         text = f"to and fro, {quantity(2 * amplitude, 'm', 2)} apart"
         _draw_curves(ax, v_t, iter([(force, text)]), ("v_t", "m/s"), ("F_t/F_n", ""))
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
@@ -265,7 +267,7 @@ def _oscillate_slip(law: Function, of: Law, fastest: float, amplitude: float) ->
     return v_t, law(1.0, v_t, *found.y)["F_t"]
 
 
-def _draw_film(ax: Axes, law: Function, chosen: Chosen) -> None:
+def _draw_film(ax: Axes, law: Function, selected: Chosen) -> None:
     """Draw the film force of a journal that turns, closes the gap, or opens it (w = 1 1/s)."""
     epsilon = np.linspace(0.01, 0.95, POINTS)
     turning, closing, opening = (law(epsilon, *w) for w in ((0.0, -0.5 * epsilon), (1.0, 0.0), (-1.0, 0.0)))
@@ -282,9 +284,9 @@ def _draw_film(ax: Axes, law: Function, chosen: Chosen) -> None:
     ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
 
 
-def _draw_mixed(ax: Axes, law: Function, chosen: Chosen) -> None:
+def _draw_mixed(ax: Axes, law: Function, selected: Chosen) -> None:
     """Draw the fraction of the dry contact over the penetration of the asperities."""
-    max_penetration = 7.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
+    max_penetration = 7.0 * sum(x for name, x in selected.numbers.items() if name.startswith("roughness"))
     delta = np.linspace(0.0, max_penetration, POINTS)
     shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
     _draw_curves(ax, delta, shares, ("δ, how deep the tips lie in each other", "m"), ("share b", ""))

@@ -91,8 +91,8 @@ def _print_table() -> None:
     for role, some in _by_role():
         for k, law in enumerate(some):
             also = f"also as {', '.join(law.also)}" if law.also else ""
-            told = "\n".join(filter(None, (one_line(law.title), also)))
-            table.add_row(role if k == 0 else "", law.name, Text(told), end_section=k == len(some) - 1)
+            message = "\n".join(filter(None, (one_line(law.title), also)))
+            table.add_row(role if k == 0 else "", law.name, Text(message), end_section=k == len(some) - 1)
     plain_console(WIDTH).print(table)
     print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
 
@@ -109,7 +109,7 @@ def _law_data(law: Law, name: str) -> dict[str, Any]:
     from gudgeon.generator.targets.latex.law import forms, in_a_line
 
     first, *others = (
-        {"chosen": dict(form.chosen), "equations": [in_a_line(one) for one in form.equations]}
+        {"chosen": dict(form.selected), "equations": [in_a_line(one) for one in form.equations]}
         for form in forms(law, name)
     )
     return {
@@ -130,7 +130,7 @@ def _law_data(law: Law, name: str) -> dict[str, Any]:
 
 def _key_data(own: Field) -> dict[str, Any]:
     """Return a key of a law as a dictionary: a quantity with its SI unit, or an option with its values."""
-    told: dict[str, Any] = {
+    message: dict[str, Any] = {
         "key": own.name,
         "kind": own.kind,
         "meaning": own.meaning,
@@ -138,7 +138,7 @@ def _key_data(own: Field) -> dict[str, Any]:
         "default": own.default,
     }
     if own.values:
-        return {**told, "values": [*own.values], "sources": dict(own.sources or {})}
+        return {**message, "values": [*own.values], "sources": dict(own.sources or {})}
     unit = None if own.dimension is None else si_unit(own.dimension)
     bounds = [[bound.relation, bound.limit] for bound in own.bounds]
-    return {**told, "symbol": own.symbol, "unit": unit, "bounds": bounds, "otherwise": own.otherwise}
+    return {**message, "symbol": own.symbol, "unit": unit, "bounds": bounds, "otherwise": own.otherwise}

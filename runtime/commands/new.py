@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from gudgeon.commands.told import note, wrote
+from gudgeon.commands.outcome import note, wrote
 from gudgeon.errors import BadNameError, BadValueError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name

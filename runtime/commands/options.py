@@ -18,10 +18,10 @@ def whole(least: int) -> Callable[[str], int]:
 
     def read(text: str) -> int:
         """Return the number. Raises typer.BadParameter."""
-        told = str(text).strip()
-        if not (told.isascii() and told.removeprefix("-").isdigit()) or len(told) > 18 or int(told) < least:
+        message = str(text).strip()
+        if not (message.isascii() and message.removeprefix("-").isdigit()) or len(message) > 18 or int(message) < least:
             raise typer.BadParameter(f"{visible(text)!r}: expected a whole number, {least} or more")
-        return int(told)
+        return int(message)
 
     return read
 

@@ -9,13 +9,13 @@ from contextlib import contextmanager
 from typing import Any
 
 from gudgeon.language.shown import visible
-from gudgeon.waiting.asking import told_to
+from gudgeon.waiting.asking import report_through
 
 Report = Callable[[float, str], None]  # fraction done, short text
 SPEED_WINDOW_S = 600.0  # s over which speed is measured: blocks of a long study take minutes
 
 
-def looked_at() -> bool:
+def is_terminal() -> bool:
     """Return whether stderr is a terminal."""
     return sys.stderr.isatty()
 
@@ -23,7 +23,7 @@ def looked_at() -> bool:
 @contextmanager
 def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
     """Yield a function `bar(name)` that returns a callback for `simulate(progress=…)`, or None without a terminal."""
-    if quiet or not looked_at():
+    if quiet or not is_terminal():
         yield lambda name: None
         return
     shown: list[Any] = []  # rich's Progress, once the first piece of work is done
@@ -52,10 +52,10 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
 @contextmanager
 def status_line(quiet: bool = False) -> Iterator[None]:
     """Show, on a terminal, one line on stderr about derivations and compilations while the block runs."""
-    if quiet or not looked_at():
+    if quiet or not is_terminal():
         yield
         return
-    with told_to(_show_status):
+    with report_through(_show_status):
         yield
 
 

@@ -27,14 +27,14 @@ from gudgeon.commands.common import (
     check_addresses,
     check_folder,
     check_name,
-    chosen_scenes,
     have,
     known_settings,
+    select_scenes,
     settings,
 )
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shortened
-from gudgeon.files.room import check_disk, check_memory
+from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.names import unknown
 from gudgeon.language.shown import path_text, print_json, visible
@@ -102,7 +102,7 @@ def run_scenes(request: Request) -> int:
     """Run the scenes of a request, compare, save and show them, and return the exit code."""
     values = settings(request.settings)
     check_folder("--out", request.out)
-    names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
+    names = dict.fromkeys([IDEAL, *select_scenes(request.file, request.scenes)])
     with status_line(quiet=request.json):
         renew, how = request.regenerate, request.formulation
         simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
@@ -241,8 +241,8 @@ def _deliver(request: Request, simulations: Mapping[str, Simulation], session: S
             """Save results whose diagnostics have changed."""
             _save(request, some, session)
 
-        told = session.files, session.unwritten, request.json
-        write_reports(runs, simulations, session.references, request.out, save, *told)
+        message = session.files, session.unwritten, request.json
+        write_reports(runs, simulations, session.references, request.out, save, *message)
     first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
     watch = request.watch or default_watch(first)
     reports = [compare(run, session.references.get(scene), watch) for scene, run in runs.items()]
@@ -259,8 +259,8 @@ def _find_references(ideal: Simulation, session: Session) -> None:
             try:
                 reference = _ideal_run(ideal, run, session)
             except (GudgeonError, MemoryError) as error:
-                told = MemoryShortage(error) if isinstance(error, MemoryError) else error
-                session.failures.setdefault(IDEAL, told)
+                message = MemoryShortage(error) if isinstance(error, MemoryError) else error
+                session.failures.setdefault(IDEAL, message)
                 continue
             if len(reference.t) < len(run.t):
                 session.interrupted = True
@@ -321,7 +321,7 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
     from gudgeon.results.reports.run_report import beyond
 
     if request.json:
-        scenes = {name: told | {"beyond": beyond(session.runs[name])} for name, told in as_json(reports).items()}
+        scenes = {name: message | {"beyond": beyond(session.runs[name])} for name, message in as_json(reports).items()}
         document = {"mechanism": source.mechanism, "scenes": scenes, "files": session.files}
         print_json(document)
     else:
@@ -329,9 +329,9 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
         for table in tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
         runs = [(r.scene, session.runs[r.scene]) for r in reports]
-        told = [f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *beyond(run))]
-        told += [f"{name}: {note}" for name, note in session.haste.items() if note and name in session.runs]
-        for note in dict.fromkeys(told):
+        message = [f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *beyond(run))]
+        message += [f"{name}: {note}" for name, note in session.haste.items() if note and name in session.runs]
+        for note in dict.fromkeys(message):
             console.print(f"note: {visible(note)}")
         print("".join(f"wrote {path_text(path)}\n" for path in session.files.values()), end="")
     session.shown = True

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from gudgeon.commands.common import check_addresses, check_file, check_name, chosen_scenes, require_suffix, settings
+from gudgeon.commands.common import check_addresses, check_file, check_name, require_suffix, select_scenes, settings
 from gudgeon.commands.progress import Report, progress_bar, status_line
 from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError
@@ -59,7 +59,7 @@ class Request:
     def of(self, simulation: Simulation) -> dict[str, float | str]:
         """Return the settings that a scene has: an ideal scene has no viscosity."""
         known = set(addresses(simulation.source))
-        return {name: told for name, told in self.parameters.items() if name in known}
+        return {name: message for name, message in self.parameters.items() if name in known}
 
     def seconds(self, option: str, text: str | None) -> float | None:
         """Return a positive time in s from the text of an option, or None. Raises BadValueError."""
@@ -117,7 +117,7 @@ def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupt
 def load_scenes(request: Request) -> list[Simulation]:
     """Load all scenes of a request and check their parameters before anything runs."""
     with status_line(quiet=request.json):
-        loaded = [load(request.file, scene, quick=False) for scene in chosen_scenes(request.file, request.scenes)]
+        loaded = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])
     for simulation in loaded:
         prepare(simulation.compiled, request.of(simulation))

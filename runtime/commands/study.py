@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.common import check_file, check_folder, require_suffix, settings
+from gudgeon.commands.outcome import report_as_json, wrote
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.commands.told import report_as_json, wrote
 from gudgeon.errors import BadValueError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import path_text

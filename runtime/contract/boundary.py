@@ -131,24 +131,24 @@ IMPACT_t_peak: Final = 4
 N_IMPACT_COLUMNS: Final = 5
 IMPACT_COLUMN_NAMES = ("t_on", "t_off", "deltadot", "F_peak", "t_peak")
 
-# enum TapeColumn
-TAPE_JUMPED: Final = 0
-TAPE_T: Final = 1
-N_TAPE_HEAD: Final = 2
-TAPE_COLUMN_NAMES = ("JUMPED", "T")
+# enum RecordColumn
+RECORD_JUMPED: Final = 0
+RECORD_T: Final = 1
+N_RECORD_HEAD: Final = 2
+RECORD_COLUMN_NAMES = ("JUMPED", "T")
 
-# enum TraceColumn
-TRACE_F_low: Final = 0
-TRACE_t_F_low: Final = 1
-TRACE_F_high: Final = 2
-TRACE_t_F_high: Final = 3
-TRACE_ex_out: Final = 4
-TRACE_ey_out: Final = 5
-TRACE_t_out: Final = 6
-TRACE_ex: Final = 7
-TRACE_ey: Final = 8
-N_TRACE_COLUMNS: Final = 9
-TRACE_COLUMN_NAMES = ("F_low", "t_F_low", "F_high", "t_F_high", "ex_out", "ey_out", "t_out", "ex", "ey")
+# enum EnvelopeColumn
+ENVELOPE_F_low: Final = 0
+ENVELOPE_t_F_low: Final = 1
+ENVELOPE_F_high: Final = 2
+ENVELOPE_t_F_high: Final = 3
+ENVELOPE_ex_out: Final = 4
+ENVELOPE_ey_out: Final = 5
+ENVELOPE_t_out: Final = 6
+ENVELOPE_ex: Final = 7
+ENVELOPE_ey: Final = 8
+N_ENVELOPE_COLUMNS: Final = 9
+ENVELOPE_COLUMN_NAMES = ("F_low", "t_F_low", "F_high", "t_F_high", "ex_out", "ey_out", "t_out", "ex", "ey")
 
 # enum Work
 WORK_drives: Final = 0

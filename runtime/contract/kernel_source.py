@@ -15,8 +15,8 @@ from hashlib import sha256
 from typing import Any
 
 from gudgeon.contract.clearance_info import ClearanceInfo, ContourInfo
-from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
+from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.contract.stored import as_text, complete, shorten, tuples
 
 HEADER = "model.h"
@@ -191,7 +191,7 @@ class KernelSource:
     chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: evaluated, not integrated
     chain_rows: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
-    story: Story = Story()  # record of the reduction (check -v)
+    story: ReductionLog = ReductionLog()  # record of the reduction (check -v)
     written: tuple[WrittenInfo, ...] = ()
     expressions: tuple[WrittenInfo, ...] = ()  # named expressions of the file that are used by name here
     lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
@@ -300,7 +300,7 @@ class KernelSource:
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
-        return KernelSource(**data | {"story": Story.from_data(data.get("story", {}))})
+        return KernelSource(**data | {"story": ReductionLog.from_data(data.get("story", {}))})
 
 
 def _defaults() -> dict[str, Any]:

@@ -79,11 +79,11 @@ class _Layers:
     def __call__(self, part: str, tint: int) -> str:
         """Return the layer of a part, created on first use."""
         if part not in self._names:
-            wanted = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
-            name, count = wanted, 1
+            expected = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
+            name, count = expected, 1
             while name in self._table:
                 count += 1
-                name = f"{wanted} {count}"
+                name = f"{expected} {count}"
             colour = EDGES[tint % len(EDGES)] if part.startswith("body ") else "#222222"
             self._table.add(name, true_color=_as_dxf_colour(colour))
             self._names[part] = name

@@ -34,9 +34,9 @@ def in_contact(posture: Posture) -> frozenset[str]:
 def magnification(posture: Posture, joint: str, unit: float) -> float:
     """Return the magnification of an inset over the drawing, with two digits, so that its clearance or gap fits."""
     share = APART if joint in posture.guides else 1.0 - JOURNAL
-    wanted = RADIUS * share * unit / posture.play(joint)
-    step = 10.0 ** (np.floor(np.log10(wanted)) - 1.0)
-    return float(np.floor(wanted / step) * step)
+    expected = RADIUS * share * unit / posture.play(joint)
+    step = 10.0 ** (np.floor(np.log10(expected)) - 1.0)
+    return float(np.floor(expected / step) * step)
 
 
 def insets(

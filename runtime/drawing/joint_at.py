@@ -15,7 +15,7 @@ from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.posture import GROUND, Posture, body_of, type_of
 from gudgeon.drawing.shapes import turned, unit_vector
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import corner_at
+from gudgeon.model.contours import corner_approach
 
 GAP = 0.5  # units: between a slider and each wall of its guide, if not more
 
@@ -168,7 +168,7 @@ def corners(posture: Posture, joint: str) -> Mapping[str, float]:
     first, second = part.ends
     (_, along, _), tilt = axis_of(posture, part), _tilt_in_guide(posture, part)
     offset = float((posture.place(second) - posture.place(first)) @ turned(along))
-    return {one.name: corner_at(posture.source, posture.p, one, offset, tilt) for one in posture.guides[joint]}
+    return {one.name: corner_approach(posture.source, posture.p, one, offset, tilt) for one in posture.guides[joint]}
 
 
 def in_walls(posture: Posture) -> frozenset[str]:

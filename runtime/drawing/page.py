@@ -47,7 +47,7 @@ def page(
     frames = [_make_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
     names = [label for label in first.labels if label.part in beside]
     parts = [label.part for label in names]
-    offsets_by_picture = _followed(sketches, beside, halves, scale)
+    offsets_by_picture = _track_names(sketches, beside, halves, scale)
     places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, offsets_by_picture, strict=True)]
     data = {
         "times": [round(t, 9) for t in times],
@@ -124,7 +124,7 @@ def _style_of(role: str, tint: int) -> str:
     return f"stroke:{colour_of(look.edge, tint)};fill:{colour_of(look.face, tint)};stroke-width:{width:.2f}{dashes}"
 
 
-def _followed(
+def _track_names(
     sketches: Sequence[Sketch], beside: Mapping[str, tuple[float, float]], halves: Mapping[str, Array], scale: float
 ) -> Iterator[Mapping[str, tuple[float, float]]]:
     """Yield the offsets of names for each picture; a name without room keeps its previous offset."""

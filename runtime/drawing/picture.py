@@ -14,7 +14,7 @@ from typing import Any
 from gudgeon.drawing.labels import Names, gid
 from gudgeon.drawing.roles import ROLES, Role, colour_of
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
-from gudgeon.language.shown import in_figure
+from gudgeon.language.shown import figure_title
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
@@ -39,8 +39,8 @@ def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
         patch = _make_patch(shape, role, pale)
         patch.set_zorder(role.order - (2.0 if pale else 0.0))
         seen[shape.part] += 1
-        told = gid("", shape.part)
-        patch.set_gid(told if seen[shape.part] == 1 else f"{told}-{seen[shape.part]}")
+        message = gid("", shape.part)
+        patch.set_gid(message if seen[shape.part] == 1 else f"{message}-{seen[shape.part]}")
         ax.add_artist(patch)  # limits are set below: add_patch would look for them shape by shape
     if sketch.labels:
         names = Names(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
@@ -96,7 +96,7 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
             picture.text(*place, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
         width = int(PER_INCH * across)
         picture.suptitle(
-            in_figure(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5
+            figure_title(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5
         )
     return picture
 
@@ -104,11 +104,11 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
 @contextmanager
 def report_missing_glyphs() -> Iterator[None]:
     """Report characters that the font lacks once for a picture, instead of once for each layout."""
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as message:
         warnings.simplefilter("always")
         yield
-    lacking = dict.fromkeys(found[1] for w in told if (found := _LACKS.match(str(w.message))))
-    for w in told:
+    lacking = dict.fromkeys(found[1] for w in message if (found := _LACKS.match(str(w.message))))
+    for w in message:
         if not _LACKS.match(str(w.message)):
             warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
     if lacking:

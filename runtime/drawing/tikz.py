@@ -65,10 +65,10 @@ def _draw_path(shape: Shape, to_points: Callable[[Array], Array], colours: _Colo
         look.append("dash pattern=" + " ".join(f"{word} {length * role.width:.2f}bp" for length, word in on_off))
     if isinstance(shape, Disc):
         centre, rim = to_points(shape.centre), to_points(shape.centre + [shape.radius, 0.0])
-        told = f"{_coordinates(centre)} circle[radius={rim[0] - centre[0]:.2f}]"
+        message = f"{_coordinates(centre)} circle[radius={rim[0] - centre[0]:.2f}]"
     else:
-        told = " -- ".join([*map(_coordinates, to_points(shape.points)), *(["cycle"] if shape.closed else [])])
-    return rf"\path[{', '.join(look)}] {told};"
+        message = " -- ".join([*map(_coordinates, to_points(shape.points)), *(["cycle"] if shape.closed else [])])
+    return rf"\path[{', '.join(look)}] {message};"
 
 
 def _coordinates(point: Sequence[float] | Array) -> str:

@@ -24,9 +24,9 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.methods import FINE
 from gudgeon.errors import BadValueError, BuildError
-from gudgeon.exchange.fmu_description import UNITS, build, description, jumps, kept_from_exchange, outputs, token
+from gudgeon.exchange.fmu_description import UNITS, build, description, exchange_obstacle, jumps, outputs, token
 from gudgeon.files.writing import write_bytes
-from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles, stiff_of
+from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, first_method, integrated_angles, stiff_method
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files
@@ -77,7 +77,7 @@ def fmu_bytes(simulation: Simulation) -> bytes:
 def _readme_text(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
     """Return the README of the folder `sources`; own: the scene's files in it."""
     lines = [line for line in source.files.get(README, "").splitlines() if line.startswith("- `")]
-    told = [line for line in lines if line.split("`")[1] in own]
+    message = [line for line in lines if line.split("`")[1] in own]
     flags = "-O1 -std=c11 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I."
     return "\n".join(
         [
@@ -85,7 +85,7 @@ def _readme_text(source: KernelSource, name: str, own: Mapping[str, str]) -> str
             "",
             f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.",
             "",
-            *told,
+            *message,
             "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
             "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events",
             "",
@@ -131,7 +131,7 @@ def _header_text(simulation: Simulation) -> str:
     """Return the text of fmu.h, the tables of this scene that engine/fmi/fmi3.c reads."""
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
-    methods = {rtol: (begins_with(source, rtol), stiff_of(source, rtol)) for rtol in (2.0 * FINE, 0.5 * FINE)}
+    methods = {rtol: (first_method(source, rtol), stiff_method(source, rtol)) for rtol in (2.0 * FINE, 0.5 * FINE)}
     (begins, stiff), (begins_fine, stiff_fine) = methods.values()
     gains = [source.place[name] for name in GAINS if name in source.place]
     sizes, plays = size_places(source), [joint.clearance for joint in source.clearances]
@@ -157,7 +157,7 @@ def _header_text(simulation: Simulation) -> str:
         "FMU_STIFF": f'"{stiff}"',
         "FMU_BEGINS_FINE": f'"{begins_fine}"',
         "FMU_STIFF_FINE": f'"{stiff_fine}"',
-        "FMU_EXCHANGE": int(not kept_from_exchange(source)),
+        "FMU_EXCHANGE": int(not exchange_obstacle(source)),
         "FMU_CONDITIONS": len(conditions(source)),
         "FMU_JUMPS": len(jumps(source)),
         "FMU_LEAST_CLEARANCE": repr(LEAST_CLEARANCE),
@@ -190,9 +190,9 @@ def _condition_tables(source: KernelSource) -> list[str]:
     bounds: list[int] = []
     for one in conditions(source):
         number = 0.0 if isinstance(one.bound, str) else float(one.bound)
-        told = _c_string(f"{one.message}; expected {expected(source, one.address)}")
+        message = _c_string(f"{one.message}; expected {expected(source, one.address)}")
         place = source.place[one.address]
-        rows.append(f'{{{place}, {len(bounds)}, {len(one.addresses)}, "{one.relation}", {number!r}, {told}}}')
+        rows.append(f'{{{place}, {len(bounds)}, {len(one.addresses)}, "{one.relation}", {number!r}, {message}}}')
         bounds += [source.place[address] for address in one.addresses]
     return [
         _c_array(

@@ -75,8 +75,8 @@ def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
 
 def _bound_attributes(source: KernelSource, address: str) -> str:
     """Return the XML attributes of a parameter: its description, and constant bounds. FMI has no other conditions."""
-    told = expected(source, address)
-    found = f" description={quoteattr(f'expected {told}')}" if told else ""
+    message = expected(source, address)
+    found = f" description={quoteattr(f'expected {message}')}" if message else ""
     for name, relation, best in (("min", ">=", max), ("max", "<=", min)):
         own = [c.bound for c in conditions(source) if c.address == address and c.relation == relation]
         numbers = [bound for bound in own if not isinstance(bound, str)]
@@ -91,7 +91,7 @@ def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
             yield k, slot.address, slot.unit, slot.default
 
 
-def kept_from_exchange(source: KernelSource) -> str:
+def exchange_obstacle(source: KernelSource) -> str:
     """Return why a scene supports co-simulation only, or "" if an importer may integrate it too."""
     if source.degrees_of_freedom == 0:
         return "no freedom is left: it follows its drives"
@@ -108,7 +108,7 @@ def kept_from_exchange(source: KernelSource) -> str:
 
 def states(source: KernelSource) -> list[tuple[str, str]]:
     """Return name and unit of each state of model exchange: coordinates, their velocities, the works."""
-    if kept_from_exchange(source):
+    if exchange_obstacle(source):
         return []
     names = source.tree if source.formulation == "reduced" else source.coordinates
     angles = integrated_angles(source)
@@ -188,7 +188,7 @@ def jumps(source: KernelSource) -> list[int]:
 
     The branches of contact laws meet at their switching points.
     """
-    if kept_from_exchange(source):
+    if exchange_obstacle(source):
         return []
     meets = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
     return [k for k in range(sizes(source)["N_SWITCHES"]) if int(meets[k]) == 0]
@@ -196,7 +196,7 @@ def jumps(source: KernelSource) -> list[int]:
 
 def indicators(source: KernelSource) -> list[tuple[str, str]]:
     """Return name and unit of each event indicator: penetrations, then switching functions."""
-    if kept_from_exchange(source):
+    if exchange_obstacle(source):
         return []
     corners = [(f"corner {k + 1}", "") for k in range(len(jumps(source)))]
     return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + corners
@@ -204,9 +204,9 @@ def indicators(source: KernelSource) -> list[tuple[str, str]]:
 
 def _structure_elements(source: KernelSource) -> Iterator[str]:
     """Yield XML of the model structure: outputs, derivatives, initial unknowns, event indicators."""
-    told, integrated = len(list(outputs(source))), len(states(source))
+    message, integrated = len(list(outputs(source))), len(states(source))
     rates = range(VR_RATES, VR_RATES + integrated)
-    found = {"Output": range(VR_OUTPUTS, VR_OUTPUTS + told), "ContinuousStateDerivative": rates}
+    found = {"Output": range(VR_OUTPUTS, VR_OUTPUTS + message), "ContinuousStateDerivative": rates}
     for kind, places in found.items():
         yield from (f'    <{kind} valueReference="{place}"/>' for place in places)
     for places in (found["Output"], range(VR_STATES, VR_STATES + integrated), found["ContinuousStateDerivative"]):

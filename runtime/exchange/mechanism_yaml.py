@@ -150,9 +150,9 @@ class _Writer:
             notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
         if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
-        told = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment_text, notes))
+        message = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment_text, notes))
         name = _Names("mechanism").of("", linkage.name)
-        out = [HEAD.format(title=_comment_text(linkage.name), notes=told, name=name)]
+        out = [HEAD.format(title=_comment_text(linkage.name), notes=message, name=name)]
         if linkage.gravity is not None:
             out.append(f"gravity: [{_number(linkage.gravity[0])}, {_number(linkage.gravity[1])} m/s^2]\n")
         if linkage.drives:

@@ -4,7 +4,7 @@ After "?" follow, separated by dots, flags, decimal and whole settings, units, a
 part for each link, an empty part, and forces. Numbers are in thousandths to the base 64; a leading 0 makes a number
 negative. Until June 2023 joints and links had no names, and a part with names by id could precede the joints.
 
-Links that PMKS+ shared until April 2023 are plain text, which PMKS+ itself no longer reads (`of_old_pmks`). After "?"
+Links that PMKS+ shared until April 2023 are plain text, which PMKS+ itself no longer reads (`read_old_pmks`). After "?"
 follow `j=` and a line for each joint, `&l=` and a line for each link, `&f=` and forces, `&s=` and settings; commas
 separate the values of a line. The columns changed over the years: their number decides how they are read.
 """
@@ -60,7 +60,7 @@ def address_in(text: str) -> str | None:
     return None
 
 
-def of_pmks(address: str, name: str = "pmks") -> Linkage:
+def read_pmks(address: str, name: str = "pmks") -> Linkage:
     """Return the linkage of a link of PMKS+; address: the text after the question mark.
 
     Inches become metres, since gudgeon has no inches. Raises InputError for text that PMKS+ does not write.
@@ -293,7 +293,7 @@ def _add_piston(linkage: Linkage, link: _Link, found: Joints) -> None:
     linkage.notes.append(f"the mass of piston {link.name} is left out: its pin runs in a slot")
 
 
-def of_old_pmks(address: str, name: str = "pmks") -> Linkage:
+def read_old_pmks(address: str, name: str = "pmks") -> Linkage:
     """Return the linkage of a link from before April 2023; address: the text after the question mark.
 
     Raises InputError for text that such links do not contain.

@@ -22,7 +22,7 @@ _ARC = ("arc_start", "arc_end")
 Entry = Mapping[str, Any]
 
 
-def of_pylinkage(data: Any) -> Linkage:
+def read_pylinkage(data: Any) -> Linkage:
     """Return the linkage of parsed JSON. Raises InputError for data that pylinkage does not write."""
     joints = data.get("joints") if isinstance(data, dict) else None
     if not isinstance(joints, list) or not joints or not all(isinstance(joint, dict) for joint in joints):

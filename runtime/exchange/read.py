@@ -9,8 +9,8 @@ from pathlib import Path
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.exchange.linkage import Linkage
 from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import BEGIN, address_in, of_old_pmks, of_pmks
-from gudgeon.exchange.pylinkage import of_pylinkage
+from gudgeon.exchange.pmks import BEGIN, address_in, read_old_pmks, read_pmks
+from gudgeon.exchange.pylinkage import read_pylinkage
 from gudgeon.files.reading import MAX_BYTES, read_named
 
 KNOWN = "JSON of pylinkage (Linkage.to_json, mechanism_to_json), or a text with a link that PMKS+ shares"
@@ -27,8 +27,8 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
     try:
         address = None if text.lstrip()[:1] in ("{", "[") else address_in(text)
         if address is None:
-            return of_pylinkage(_parse_json(text))
-        return (of_old_pmks if address.startswith(BEGIN) else of_pmks)(address, Path(file).stem)
+            return read_pylinkage(_parse_json(text))
+        return (read_old_pmks if address.startswith(BEGIN) else read_pmks)(address, Path(file).stem)
     except InputError as error:
         raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error
 

@@ -23,7 +23,7 @@ def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: st
     Raises InputError if it cannot be read or is not a regular file, LimitError if it is too large. Devices and pipes
     are not opened: they may have no end or block, and files are read more than once.
     """
-    told = f"{what} {shortened(file)}".strip()
+    message = f"{what} {shortened(file)}".strip()
     try:
         found = os.stat(file)
         if stat.S_ISREG(found.st_mode):
@@ -32,20 +32,20 @@ def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: st
                 found = os.fstat(handle)
                 data = opened.read(most + 1) if found.st_size <= most else b""
     except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
-        raise InputError(f"cannot read {told}: {getattr(error, 'strerror', '') or error}", hint=hint) from error
-    check_regular(found, told, hint)
+        raise InputError(f"cannot read {message}: {getattr(error, 'strerror', '') or error}", hint=hint) from error
+    check_regular(found, message, hint)
     size = max(found.st_size, len(data))
     if size > most:
         raise LimitError(f"a file of {size} bytes", Location(os.fspath(file), 1, 1), f"expected at most {most}")
     return data
 
 
-def check_regular(found: os.stat_result, told: str, hint: str = "") -> None:
-    """Raise InputError for a folder, a device or a pipe; `told` is its name in the message."""
+def check_regular(found: os.stat_result, message: str, hint: str = "") -> None:
+    """Raise InputError for a folder, a device or a pipe; `message` is its name in the message."""
     if not stat.S_ISREG(found.st_mode):
         pipe = stat.S_ISFIFO(found.st_mode)
         hint = "write what comes through the pipe to a file first" if pipe else hint
-        raise InputError(f"cannot read {told}: it is {kind(found)}, not a file", hint=hint)
+        raise InputError(f"cannot read {message}: it is {kind(found)}, not a file", hint=hint)
 
 
 def read_beside(file: str | os.PathLike[str], name: str, most: int, where: Location | None = None) -> bytes:

@@ -19,7 +19,7 @@ class Untrusted(Exception):
     """Signal that another user may have written a file; the text says which and who."""
 
 
-def check_way(path: str | os.PathLike[str]) -> None:
+def check_path(path: str | os.PathLike[str]) -> None:
     """Raise Untrusted if another user may write the folder or replace it; it need not exist yet."""
     passed, there = _path_components(os.fspath(path))
     for above, found in passed[:-1] if there else passed:
@@ -51,11 +51,11 @@ def _check_above(path: str, found: os.stat_result) -> None:
     In folders whose files only their owners may rename (/tmp), all may write.
     """
     mine = (os.geteuid(), 0)
-    if found.st_uid not in mine and not (found.st_uid == _nobody() and _root_has_no_name()):
+    if found.st_uid not in mine and not (found.st_uid == _overflow_user() and _root_has_no_name()):
         raise Untrusted(f"{path} belongs to another user (uid {found.st_uid})")
     if stat.S_ISLNK(found.st_mode) or found.st_mode & stat.S_ISVTX:
         return
-    if found.st_mode & 0o002 or (found.st_mode & 0o020 and not _own_group(found.st_gid)):
+    if found.st_mode & 0o002 or (found.st_mode & 0o020 and not _is_own_group(found.st_gid)):
         who = "everybody" if found.st_mode & 0o002 else f"the group (gid {found.st_gid})"
         raise Untrusted(f"{who} may write {path}")
 
@@ -99,7 +99,7 @@ def _path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]
     return [*passed, (here, os.lstat(here))] if passed[-1][0] != here else passed, True
 
 
-def _own_group(group: int) -> bool:
+def _is_own_group(group: int) -> bool:
     """Return whether a group has the user's name and no other member, as many systems make one for each user."""
     import grp
     import pwd
@@ -112,7 +112,7 @@ def _own_group(group: int) -> bool:
 
 
 @cache
-def _nobody() -> int:
+def _overflow_user() -> int:
     """Return the user id that stands for unknown users."""
     try:
         with open("/proc/sys/kernel/overflowuid") as file:

@@ -25,7 +25,7 @@ _OPEN = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC | os.O_NOFOLLOW
 _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # O_PATH: a folder of which no list is had
 
 
-class Aside:
+class AtomicFiles:
     """Write files of one folder under temporary names and move them into place; a context.
 
     The folder is made if it does not exist; follow: it may be a link. Files that were not moved are removed at the end
@@ -40,7 +40,7 @@ class Aside:
         self._parts: list[str] = []  # temporary files on the disk
         self._whole: list[tuple[str, str]] = []  # temporary name, name
 
-    def __enter__(self) -> Aside:
+    def __enter__(self) -> AtomicFiles:
         """Make and open the folder."""
         with telling(self.folder):
             self._made = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
@@ -119,7 +119,7 @@ def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[Bin
     Raises OutputError, also for an OSError of the block; `path` is then unchanged. sync: as in Aside.
     """
     path = _file_path(path)
-    with Aside(path.parent, sync=sync) as aside:
+    with AtomicFiles(path.parent, sync=sync) as aside:
         with aside.file(path.name) as file:
             yield file
         aside.move()

@@ -55,24 +55,24 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
     except InputError:
         value = math.nan
     if not SMALLEST <= value < 1.0:
-        told = f"{value:g}" if math.isfinite(value) else repr(rtol)
+        message = f"{value:g}" if math.isfinite(value) else repr(rtol)
         raise BadValueError(
-            f"rtol is {told}: expected a share from {SMALLEST:g} to 1, such as 1e-8",
+            f"rtol is {message}: expected a share from {SMALLEST:g} to 1, such as 1e-8",
             hint="below that rounding would be controlled" if 0.0 < value < 1.0 else "",
         )
     return value
 
 
-def stiff_of(source: KernelSource, rtol: float) -> str:
+def stiff_method(source: KernelSource, rtol: float) -> str:
     """Return the name of the stiff method that `auto` uses for a scene at a tolerance."""
     return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
 
 
-def begins_with(source: KernelSource, rtol: float = RTOL) -> str:
+def first_method(source: KernelSource, rtol: float = RTOL) -> str:
     """Return the name of the first method of `auto`; with a film it is the stiff one (physics.md, section 4)."""
     if KINEMATIC in source.methods:
         return KINEMATIC
-    return stiff_of(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT
+    return stiff_method(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT
 
 
 def _has_film(source: KernelSource) -> bool:
@@ -84,7 +84,7 @@ def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, i
     """Return C's numbers of the first method and of the stiff one that it may change to; 0: it may not change."""
     if method != ADAPTIVE:
         return int(compiled.lib.gudgeon_method(method.encode())), 0
-    names = begins_with(compiled.source, rtol), stiff_of(compiled.source, rtol)
+    names = first_method(compiled.source, rtol), stiff_method(compiled.source, rtol)
     first, stiff = (int(compiled.lib.gudgeon_method(name.encode())) for name in names)
     return first, stiff
 

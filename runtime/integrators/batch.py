@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.followed import unfollowed
+from gudgeon.assembly.guess_warnings import unfollowed
 from gudgeon.assembly.rank import check_start, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.boundary import (
@@ -36,9 +36,9 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes
 from gudgeon.integrators.failure import INTERRUPTED, audit_failure, failure
 from gudgeon.integrators.lanes import Flow
-from gudgeon.integrators.steps import Look, Tape
+from gudgeon.integrators.steps import Look, StepLog
 from gudgeon.integrators.stored import StoredRuns
-from gudgeon.integrators.threads import in_threads
+from gudgeon.integrators.threads import run_in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
@@ -81,7 +81,7 @@ class Runs(StoredRuns):
         self.stop, self.audit = stop, audit
         self.over: Callable[[Sequence[int]], None] | None = None  # stores the results of finished runs
         n, N = len(p), times.most
-        beside = side_by_side and not drive and lanes.wanted(compiled, method, n)
+        beside = side_by_side and not drive and lanes.expected(compiled, method, n)
         if beside:
             compiled.lib.best()  # whose functions are called from within lanes, for all runs
         self.flow = Flow(compiled) if beside else None
@@ -165,9 +165,9 @@ class Runs(StoredRuns):
             try:
                 if self.drive or left_out(self.compiled):
                     self._assemble_all(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
-                in_threads(self, progress, range(self.n), ctrl_c)
+                run_in_threads(self, progress, range(self.n), ctrl_c)
                 if left := self._not_closed():
-                    in_threads(self, progress, self._assemble_all(left, ctrl_c), ctrl_c)
+                    run_in_threads(self, progress, self._assemble_all(left, ctrl_c), ctrl_c)
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
@@ -251,7 +251,7 @@ class Runs(StoredRuns):
             return
         self.are_over([i])
 
-    def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
+    def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: StepLog | None = None) -> None:
         """Integrate run i alone from where it is to its end."""
         self.alone(i, i + 1, memory, tape)
         self.are_over([i])
@@ -268,7 +268,7 @@ class Runs(StoredRuns):
         first: int,
         end: int,
         memory: NDArray[np.uint8],
-        tape: Tape | None,
+        tape: StepLog | None,
         poll: Callable[[], object] = lambda: None,
     ) -> None:
         """Integrate runs first to end − 1 one after the other; `poll` is called after each call of C.
@@ -304,7 +304,7 @@ class Runs(StoredRuns):
         """Integrate the only run by the time loop in C. After Ctrl-C, what was reached is kept."""
         compiled, x = self.compiled, self.arrays
         memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
-        run, tape = compiled.pointer(memory, "void *", True), Tape(compiled) if self.looks else None
+        run, tape = compiled.pointer(memory, "void *", True), StepLog(compiled) if self.looks else None
         if tape:
             tape.lay(run)
         asker = Asker(compiled, lambda: self._poll(problem, run))

@@ -34,10 +34,18 @@ from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
-from gudgeon.model.written import of_time, rate_reason, reason, steep_force, trees, unbounded_drive, undefined_here
+from gudgeon.model.written import (
+    rate_reason,
+    reason,
+    steep_force,
+    trees,
+    unbounded_drive,
+    undefined_here,
+    values_of_time,
+)
 
 # messages by status
-TOLD = {
+MESSAGES = {
     FRICTION_INCONSISTENT: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring "
     "the surfaces nearer, or grow beyond all bounds (Painlevé)\n"
     "  less friction, or surfaces that give: another normal law",
@@ -109,12 +117,12 @@ def _error_of_status(
             return _unbounded_drive_error(drive, t)
         if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{why}\n  {NO_SLOPE}", t)
-        fast = drives_at(compiled, p, t, TOO_FAST)
+        fast = drives_text(compiled, p, t, TOO_FAST)
         advice = GROWN if fast else advice
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
-    if status in TOLD:
-        return SolverError(TOLD[status].format(method=method, t=t), t)
+    if status in MESSAGES:
+        return SolverError(MESSAGES[status].format(method=method, t=t), t)
     if status == CHATTERING:
         return _chattering_error(compiled, t)
     if status == TOO_SMALL:
@@ -129,14 +137,14 @@ def _error_of_status(
     if status == STOPPED:
         return SolverError(INTERRUPTED, t)
     if status == STALLED:
-        return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_at(compiled, p, t)}\n  {advice}", t)
+        return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_text(compiled, p, t)}\n  {advice}", t)
     return _singular_error(compiled, status, t, advice, last, p, fast)
 
 
 def _unbounded_drive_error(drive: str, t: float) -> SolverError:
     """Return the error for a drive whose second rate is unbounded at t (s)."""
-    told = f"the second rate of drive {drive} grows beyond all bounds there"
-    return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
+    message = f"the second rate of drive {drive} grows beyond all bounds there"
+    return SolverError(f"no step leads beyond t = {t:.9g} s: {message}\n  {BOUNDED}", t)
 
 
 def _chattering_error(compiled: CompiledModel, t: float) -> SolverError:
@@ -150,10 +158,10 @@ def _chattering_error(compiled: CompiledModel, t: float) -> SolverError:
     source = compiled.source
     used = f"  dry_friction sticks at a slip below {AT_REST:g} m/s: speeds that small are not resolved"
     advice = [used] if source.frictions else []
-    if with_corners(source) or not advice:
+    if forces_with_switching_points(source) or not advice:
         advice.append(f"  {JUMPS}")
-    told = f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s"
-    return SolverError("\n".join([told, *advice]), t)
+    message = f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s"
+    return SolverError("\n".join([message, *advice]), t)
 
 
 def _singular_error(
@@ -164,7 +172,7 @@ def _singular_error(
     if row in compiled.source.chain_rows:
         return SingularError(
             f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
-            f" row {row}{drives_at(compiled, p, t)}\n"
+            f" row {row}{drives_text(compiled, p, t)}\n"
             "  the lengths do not let the drives move on from there; end the run before it, or change the drive; in rk4"
             " a shorter step follows a faster one",
             t,
@@ -201,18 +209,18 @@ class Pace:
         return self.left / max(self.gained, 1e-300) * self.steps
 
 
-def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
+def drives_text(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
     """Return a text with the value and rate of each drive at least `fast`: "; drive motor is at 12.3 rad, ..."."""
     source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
     written = {info.address.split(".")[1]: tree for info, tree in trees(source, ("drives",))}
     with np.errstate(all="ignore"):
-        values = {name: of_time(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
-    told = [
+        values = {name: values_of_time(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
+    message = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
         for row, rate in zip(source.start_rows, rates, strict=True)
         if row.kind == "drive" and row.owner in values and not abs(rate) < fast  # a number alone stays where it is
     ]
-    return "".join(f"; {text}" for text in told)
+    return "".join(f"; {text}" for text in message)
 
 
 def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
@@ -223,13 +231,13 @@ def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError |
     rates = [compiled.closed_nu(s, np.zeros(compiled.n), p) for s in (t, 0.5 * t)]
     if not (np.abs(rates) >= OVERFLOWING).all(axis=0).any():
         return None
-    if fast := drives_at(compiled, p, t, OVERFLOWING):
-        told = f"velocities and accelerations are too large for doubles at t = {t:.9g} s{fast}"
-        return NonFiniteError(f"{told}\n  {SLOWER}", t)
+    if fast := drives_text(compiled, p, t, OVERFLOWING):
+        message = f"velocities and accelerations are too large for doubles at t = {t:.9g} s{fast}"
+        return NonFiniteError(f"{message}\n  {SLOWER}", t)
     return None
 
 
-def outgrown(pace: Pace, drives: str) -> SolverError:
+def runaway_error(pace: Pace, drives: str) -> SolverError:
     """Return the error for a run whose `drives` (see drives_at) move ever faster."""
     return SolverError(
         f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
@@ -239,7 +247,7 @@ def outgrown(pace: Pace, drives: str) -> SolverError:
     )
 
 
-def too_far(pace: Pace) -> SolverError:
+def too_slow_error(pace: Pace) -> SolverError:
     """Return the error for a run whose end no computer reaches at this pace."""
     return SolverError(
         f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the {pace.left:.3g} s"
@@ -249,7 +257,7 @@ def too_far(pace: Pace) -> SolverError:
     )
 
 
-def with_corners(source: KernelSource) -> str:
+def forces_with_switching_points(source: KernelSource) -> str:
     """Return the addresses and lines of the file's forces with switching points; "" if there are none."""
     found = [info for info, tree in trees(source, ("forces",)) if not CORNERED.isdisjoint(functions(tree))]
     return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in found)
@@ -264,13 +272,13 @@ def _stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float
     t, (steps, crawls), ended, p = float(run["t_last"]), run["paced"].tolist(), run["ended"], run["p_motion"]
     pace = Pace(t, t_end - t, float(run["gained"]), steps, bool(crawls))
     if not pace.crawls:
-        return too_far(pace)
+        return too_slow_error(pace)
     # a drive that still turns on in steps so short is what they are short for
-    fast = drives_at(compiled, p, t, FELT * pace.steps / max(pace.gained, 1e-300))
-    film, whose = squeezed_film(compiled, e_max, p), int(ended.argmax())
+    fast = drives_text(compiled, p, t, FELT * pace.steps / max(pace.gained, 1e-300))
+    film, whose = squeezed_film_text(compiled, e_max, p), int(ended.argmax())
     if fast and not film and ended[whose] <= 0.01 * pace.steps:
-        return outgrown(pace, fast)
-    cornered = with_corners(compiled.source)
+        return runaway_error(pace, fast)
+    cornered = forces_with_switching_points(compiled.source)
     form = f" in {cornered}" if cornered else " of a law"
     kinds = (
         "a contact begins or ends",
@@ -294,7 +302,7 @@ def _stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float
     )
 
 
-def squeezed_film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
+def squeezed_film_text(compiled: CompiledModel, e_max: Array, p: Array) -> str:
     """Return a text on a film that is squeezed out (e/c near 1); "" if there is none."""
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])

@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.rank import branches_told
+from gudgeon.assembly.rank import branches_text
 from gudgeon.contract.boundary import EVENT_STOPS, EVENTS_FULL, MAX_LISTED, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.integrators.failure import NO_NUMBER, Pace, drives_at, outgrown, overflowing, too_far
+from gudgeon.integrators.failure import NO_NUMBER, Pace, drives_text, overflowing, runaway_error, too_slow_error
 from gudgeon.integrators.steps import Course, Look, Steps
 from gudgeon.integrators.trajectory import (
     EVENT_DTYPE,
@@ -180,7 +180,9 @@ class _KinematicRun:
         t, t_end = float(at[0]), float(self.problem.t[-1])
         if status == STALLED:
             pace = Pace(t, t_end - t, gained, steps, bool(crawls))
-            return outgrown(pace, drives_at(self.compiled, self.problem.p, t)) if crawls else too_far(pace)
+            return (
+                runaway_error(pace, drives_text(self.compiled, self.problem.p, t)) if crawls else too_slow_error(pace)
+            )
         if status == NOT_FINITE:
             return self._not_a_number_error(float(at[1]))
         return _failure(self.problem, status, t, self._positions_at(t))
@@ -197,7 +199,7 @@ class _KinematicRun:
         compiled, p = self.compiled, self.problem.p
         why = reason(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
         why = why or rate_reason(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
-        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_at(compiled, p, t)}"
+        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_text(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
 
     def _progress(self) -> tuple[Array, float, int, int]:
@@ -289,8 +291,8 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
 
 def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
     """Return the error for a motion that cannot be followed beyond t (s), with positions q (n,) there."""
-    if told := overflowing(problem.compiled, problem.p, t):
-        return told
+    if message := overflowing(problem.compiled, problem.p, t):
+        return message
     later = problem.t[problem.t > t]
     until = float(later[0]) if len(later) else t
     why, when = reason_between(problem.compiled.source, problem.p, t, until)
@@ -302,24 +304,24 @@ def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"
-            f" there{drives_at(problem.compiled, problem.p, t)}\n"
+            f" there{drives_text(problem.compiled, problem.p, t)}\n"
             "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
             t,
         )
     row = problem.compiled.source.start_pivots[status - 1]
-    if branches := branches_told(problem.compiled, problem.p, t, q):
+    if branches := branches_text(problem.compiled, problem.p, t, q):
         begun = t > float(problem.t[0])
         remedy = "end the run before it" if begun else "give one of these rates in start.rates, or begin elsewhere"
         return SingularError(
             f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}"
-            f"{drives_at(problem.compiled, problem.p, t)}\n"
+            f"{drives_text(problem.compiled, problem.p, t)}\n"
             f"  the drives do not tell on which one it goes on: {remedy}",
             t,
             row,
         )
     return SingularError(
         f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
-        f" vanished{drives_at(problem.compiled, problem.p, t)}\n"
+        f" vanished{drives_text(problem.compiled, problem.p, t)}\n"
         "  links lie in one line (a dead centre) or do not reach further, or constraints are redundant: end the run"
         " before it, or change lengths or drives",
         t,
@@ -353,8 +355,8 @@ class Events:
                 self.capacity *= 4  # one interval may have more than there was room for
             elif status and times[done] < self.end:
                 t = float(times[done])
-                told = f"events cannot be looked for beyond t = {t:.9g} s: no position was found there"
-                raise SolverError(told, t)
+                message = f"events cannot be looked for beyond t = {t:.9g} s: no position was found there"
+                raise SolverError(message, t)
             elif status:
                 break  # beyond the end
         return False

@@ -29,7 +29,7 @@ from gudgeon.waiting.programs import until
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
-    from gudgeon.integrators.steps import Tape
+    from gudgeon.integrators.steps import StepLog
 
 NONE = -1  # in place of the number of a run
 FEW = 16  # smallest number of runs for which vectors are used
@@ -56,7 +56,7 @@ class Lanes:
         self.single = self.ffi.cast("void *", int(single))
 
     def flow(
-        self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
+        self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[StepLog], place: int
     ) -> None:
         """Integrate all runs of `supply`, each with a row of `memories` as its storage.
 
@@ -168,7 +168,7 @@ def _is_compiled(compiled: CompiledModel) -> bool:
     return is_compiled(_source_of_lanes(compiled), portable=compiled.portable)
 
 
-def _fetch_lists(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
+def _fetch_lists(runs: Runs, i: int, run: Any, tape: StepLog | None = None) -> None:
     """Fetch the contacts and events of run i, and its step record if it is full or the run is over."""
     if runs.arrays["status"][i] == NOT_CLOSED:
         return
@@ -179,7 +179,7 @@ def _fetch_lists(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None
     runs.fetch(i, run, over)
 
 
-def wanted(compiled: CompiledModel, method: str, runs: int) -> bool:
+def expected(compiled: CompiledModel, method: str, runs: int) -> bool:
     """Return whether the runs of a batch may share vectors: enough runs, and a method that the lanes have.
 
     Scenes derived for Taylor's method have lanes for it only.

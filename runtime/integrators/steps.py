@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.boundary import N_TAPE_HEAD, N_WORK, TAPE_JUMPED, TAPE_T
+from gudgeon.contract.boundary import N_RECORD_HEAD, N_WORK, RECORD_JUMPED, RECORD_T
 from gudgeon.model.compiled import Array, CompiledModel
 
 ROWS = 4096  # rows of a block
@@ -47,13 +47,13 @@ class Steps:
 Look: TypeAlias = Callable[[Steps], None]  # observer of the states of all steps of a run
 
 
-class Tape:
+class StepLog:
     """Hold the rows that a run in C fills, and pass them to the observer `look`."""
 
     def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
         self.compiled, self.look = compiled, look
         joints = len(compiled.source.clearances)
-        self.widths = (N_TAPE_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
+        self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
         self.rows = np.zeros((ROWS, sum(self.widths)))
 
     def lay(self, run: Any) -> None:
@@ -71,13 +71,13 @@ class Tape:
         (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(
-            head[:, TAPE_T],
+            head[:, RECORD_T],
             y[:, :n],
             y[:, n : 2 * n],
             y[:, 2 * n :],
             memory[:, : self.compiled.n_memory],
             state[:, :joints].astype(np.int8),
-            head[:, TAPE_JUMPED] > 0.0,
+            head[:, RECORD_JUMPED] > 0.0,
         )
 
 

@@ -52,7 +52,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 BLOCK = 16 * MAX_LISTED  # contacts that are stored in one block
 
 
-def as_impacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
+def impacts_from_c(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
     """Return contacts (IMPACT_DTYPE) from their values (n, N_IMPACT_COLUMNS) and joints (n,) as C lists them."""
     impacts = np.empty(len(joints), dtype=IMPACT_DTYPE)
     impacts["joint"] = joints
@@ -95,7 +95,7 @@ class Contacts:
         self.all.clear()
         # complex numbers are ordered by their real parts first; the rows nearly are, which a lexsort does not use
         row = row[np.argsort(whose + 1j * numbers[row, IMPACT_t_on], kind="stable")]
-        return as_impacts(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n + 1))
+        return impacts_from_c(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n + 1))
 
 
 class _Fetched:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.integrators.lanes import NEW, OVER, numbers_of
-from gudgeon.integrators.steps import Tape
+from gudgeon.integrators.steps import StepLog
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
@@ -43,10 +43,10 @@ def wait_for(
             progress(fraction(len(waiting)), "integrating")
 
 
-def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
-    """Integrate all `wanted` runs to their ends in threads. Ctrl-C ends them where they are."""
-    portion = max(1, min(PORTION, len(wanted) // (8 * runs.threads)))
-    portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
+def run_in_threads(runs: Runs, progress: Progress | None, expected: range | list[int], ctrl_c: CtrlC) -> None:
+    """Integrate all `expected` runs to their ends in threads. Ctrl-C ends them where they are."""
+    portion = max(1, min(PORTION, len(expected) // (8 * runs.threads)))
+    portions = deque(expected[k : k + portion] for k in range(0, len(expected), portion))
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
             work = _work_in_python if runs.drive else _work_in_c
@@ -68,7 +68,7 @@ def _work_in_python(runs: Runs, portions: deque[range | list[int]], worker: int)
 def _work_in_c(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
     """Integrate portions of runs in one thread, alone or in lanes, until none is left."""
     memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
-    tapes, place = [Tape(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.places
+    tapes, place = [StepLog(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.places
     for memory, own in zip(memories, tapes, strict=False):
         own.lay(runs.compiled.pointer(memory, "void *"))
     tape = tapes[0] if tapes else None

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from gudgeon.contract.audit import Finding
 from gudgeon.contract.boundary import (
     COUNT_NAMES,
+    ENVELOPE_COLUMN_NAMES,
     MAX_LISTED,
-    N_TRACE_COLUMNS,
+    N_ENVELOPE_COLUMNS,
     N_WORK,
     RESIDUAL_NAMES,
-    TRACE_COLUMN_NAMES,
 )
 from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import Look
@@ -172,13 +172,13 @@ class Trace:
     @staticmethod
     def of_rows(rows: Array, clearances: int) -> Trace:
         """Return the envelope from the rows that C writes, (R, width)."""
-        joints = rows[:, 1:].reshape(len(rows), clearances, N_TRACE_COLUMNS)
-        return Trace(rows[:, 0].copy(), joints[:, :, [TRACE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
+        joints = rows[:, 1:].reshape(len(rows), clearances, N_ENVELOPE_COLUMNS)
+        return Trace(rows[:, 0].copy(), joints[:, :, [ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
 
 
 def trace_width(clearances: int) -> int:
     """Return the number of values in a row of the envelope."""
-    return 1 + N_TRACE_COLUMNS * clearances
+    return 1 + N_ENVELOPE_COLUMNS * clearances
 
 
 def resolution(t: Array) -> float:

@@ -49,7 +49,7 @@ class Curve:
     over: str = ""  # unit of x in the file; "": SI
     source: str = ""  # file that the points came from
     interpolation: str = SPLINE
-    points: int = 0  # number of points; one piece may have been halved (`in_pairs`)
+    points: int = 0  # number of points; one piece may have been halved (`even_pieces`)
 
     @property
     def repeats(self) -> bool:
@@ -85,11 +85,11 @@ class Curve:
 
     def outside(self, x: float) -> str:
         """Return a text on an argument x outside the range, with enough digits to show the difference."""
-        from gudgeon.language.plot_units import told_apart
+        from gudgeon.language.plot_units import distinct_texts
         from gudgeon.language.units import parse_unit
 
         low, high = self.x[0], self.x[-1]
-        here, end = told_apart(x, high if x > high else low, 6)
+        here, end = distinct_texts(x, high if x > high else low, 6)
         ends = (f"{low:.6g}", end) if x > high else (end, f"{high:.6g}")
         found = parse_unit(self.over) if self.over else None
         size = found[0].to_si(Fraction(1)) if found else 1.0
@@ -99,7 +99,7 @@ class Curve:
             " ends: periodic repeats it, extrapolate: hold or line goes on"
         )
 
-    def told(self) -> str:
+    def message(self) -> str:
         """Return a description of the curve: interpolation, points, ends, range."""
         ends = f"{self.ends.replace('_', '-')} ends"
         after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
@@ -174,7 +174,7 @@ def _unpacked(x: str, pieces: str) -> tuple[tuple[float, ...], tuple[tuple[float
     return tuple(knots.tolist()), tuple(map(tuple, rows.reshape(-1, 4).tolist()))
 
 
-def in_pairs(
+def even_pieces(
     x: Sequence[float], pieces: Sequence[tuple[float, float, float, float]]
 ) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
     """Return knots and pieces of an even number; if it is odd, the last piece is halved.

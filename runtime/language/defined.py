@@ -18,19 +18,19 @@ DEFINED = names_where(lambda f: f.is_total)  # functions that are finite for all
 DIVIDING = names_where(lambda f: f.divides)  # functions that divide by their last argument
 
 
-def is_defined_everywhere(expr: Expr) -> bool:
+def is_total_expression(expr: Expr) -> bool:
     """Return whether no part can be undefined: only sums, products, and functions of every number."""
     match expr:
         case Unary(operand=operand):
-            return is_defined_everywhere(operand)
+            return is_total_expression(operand)
         case Binary(operator=operator, left=left, right=right):
-            return operator in ("+", "-", "*") and is_defined_everywhere(left) and is_defined_everywhere(right)
+            return operator in ("+", "-", "*") and is_total_expression(left) and is_total_expression(right)
         case Call(arguments=arguments):
-            return functions(expr) <= DEFINED and all(map(is_defined_everywhere, arguments))
+            return functions(expr) <= DEFINED and all(map(is_total_expression, arguments))
     return True
 
 
-def undefined_part(expr: Expr, known: Mapping[str, float]) -> float | None:
+def find_undefined_part(expr: Expr, known: Mapping[str, float]) -> float | None:
     """Return the value of the first part that is not finite and depends on the `known` names alone; else None."""
     parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_absorbed_parts(part, known)))
     numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
@@ -53,8 +53,8 @@ def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
             if function == "where":
                 less, more, then, otherwise = arguments
                 is_less = evaluate(less, known.__getitem__) < evaluate(more, known.__getitem__)
-                chosen, other = (then, otherwise) if is_less else (otherwise, then)
-                arguments = (less, more, chosen, *_constant_parts(other, {}))
+                selected, other = (then, otherwise) if is_less else (otherwise, then)
+                arguments = (less, more, selected, *_constant_parts(other, {}))
             yield from arguments
             if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])

@@ -240,10 +240,10 @@ class _Parser:
             found.append(self.sum(level))
         self.close(opened)
         known = None if function.text in self.curves else FUNCTIONS[function.text]
-        wanted = len(known.arguments) if known else 1
-        if len(found) + 1 != wanted:
-            wanted, got = wanted - compares, len(found) + 1 - compares
-            message = f"{function.text} takes {wanted} argument{'s' * (wanted > 1)}, got {got}"
+        expected = len(known.arguments) if known else 1
+        if len(found) + 1 != expected:
+            expected, got = expected - compares, len(found) + 1 - compares
+            message = f"{function.text} takes {expected} argument{'s' * (expected > 1)}, got {got}"
             self.fail(message, function.offset, known.usage if known else "")
         return _ordered_arguments(left, operator, *found) if compares else (left, *found)
 

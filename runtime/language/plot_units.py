@@ -52,7 +52,7 @@ def quantity(value: float, unit: str, digits: int = 4) -> str:
     return f"{value * factor:.{digits}g} {text}".strip()
 
 
-def told_apart(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
+def distinct_texts(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
     """Return two numbers as text, with at least `digits` digits and enough of them to differ."""
     while digits < 17 and value != limit and f"{value:.{digits}g}" == f"{limit:.{digits}g}":
         digits += 1

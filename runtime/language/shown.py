@@ -46,7 +46,7 @@ def one_line(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
-def in_figure(text: str, width: int = LONGEST) -> str:
+def figure_title(text: str, width: int = LONGEST) -> str:
     """Return a title for matplotlib, folded into lines of `width` characters; $ begins no formula."""
     return "\n".join(textwrap.wrap(one_line(text), width)).replace("$", r"\$")
 

@@ -11,11 +11,11 @@ from fractions import Fraction
 from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
+from gudgeon.language.argument_checks import IN_RANGE
 from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import WORDS, advice_on, character_text, nearest
 from gudgeon.language.tree import Number
 from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit, symbol_dimension, unit
-from gudgeon.language.wanted import IN_RANGE
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
 _MAX_LENGTH = 1000  # characters of a number: Python reads no integer of more than 4300 digits
@@ -229,8 +229,10 @@ class Tokenizer:
             hint = f"a product of units is written {symbol}*{power}, a power {symbol}^2"
         elif re.fullmatch(_HALF, power):
             hint = f"a unit that contains pi has no roots: write rad for {symbol}"
-        told = f"{power!r} is not a power of the unit {symbol}" if power else f"the unit {symbol} has ^ without a power"
-        self.fail(told, found.start("symbol"), hint, UnitError)
+        message = (
+            f"{power!r} is not a power of the unit {symbol}" if power else f"the unit {symbol} has ^ without a power"
+        )
+        self.fail(message, found.start("symbol"), hint, UnitError)
 
     def _refuse_ambiguous_unit(self, start: int, begin: int, after: int) -> None:
         """Raise ExpressionError for `2m` and `3 N m` where m is a name of the file: m may be meant as a factor."""

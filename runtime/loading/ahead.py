@@ -1,6 +1,6 @@
 """Compile the parts of a library in the background, each as soon as the texts that it reads exist.
 
-Scenes with equal sizes and tables share the object file of the engine (`Shared`).
+Scenes with equal sizes and tables share the object file of the engine (`SharedObject`).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import subprocess
 
 
-def own_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
+def own_command_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
     """Return the compiler's command lines for a scene's own object files, by the names of these."""
     if source.cdef or not source.units:
         unit = "lanes" if source.cdef else ""
@@ -41,7 +41,7 @@ def _part_line(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, 
     return name, unit_line(portable, [f"-DPART={part}", MAIN], name, quick)
 
 
-class Ahead:
+class BackgroundCompilation:
     """Compile parts of a library in the background; a context at whose end all compilers are stopped.
 
     Errors are ignored here; they appear when the library is made. quick: compile without optimization
@@ -53,7 +53,7 @@ class Ahead:
         self._folder: Path | None = None
         self._begun: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
-    def __enter__(self) -> Ahead:
+    def __enter__(self) -> BackgroundCompilation:
         """Return the context."""
         return self
 
@@ -72,18 +72,18 @@ class Ahead:
         if header and (os.cpu_count() or 1) > 1:
             self.begin(ENGINE_PART, {HEADER: header})
 
-    def shared_objects(self, source: KernelSource, quick: bool = False) -> list[Shared]:
+    def shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
         """Return the object files that a scene shares with others: the engine, or none if it is compiled alone."""
         return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
 
-    def _engine(self, header: str, quick: bool) -> Shared:
+    def _engine(self, header: str, quick: bool) -> SharedObject:
         """Return the engine's object file; a quick library uses the optimized one if the cache has it."""
         engine = engine_object(header, self._portable)
         if not quick or engine.is_there(self._portable, self._cache or default_cache()):
             return engine
         return engine_object(header, self._portable, quick=True)
 
-    def begin_shared(self, shared: Shared) -> None:
+    def begin_shared(self, shared: SharedObject) -> None:
         """Start to compile a shared object file that the cache lacks. Raise GudgeonError or OSError if that fails."""
         if self.is_under_way(shared.name, shared.line, shared.texts):
             return
@@ -147,7 +147,7 @@ class Ahead:
 
 
 @dataclass(frozen=True)
-class Shared:
+class SharedObject:
     """Describe an object file that scenes share: kind in the cache, name, command line, what decides it, its texts."""
 
     kind: str
@@ -165,7 +165,7 @@ class Shared:
         """Return whether the cache has the object file."""
         return cache.has(self.kind, self.key(portable, cache))
 
-    def fetch(self, portable: bool, cache: Cache, ahead: Ahead, renew: bool = False) -> Path:
+    def fetch(self, portable: bool, cache: Cache, ahead: BackgroundCompilation, renew: bool = False) -> Path:
         """Return the object file, compiled if the cache lacks it or `renew` is set. Raise BuildError."""
 
         def make(folder: Path) -> None:
@@ -183,7 +183,7 @@ class Shared:
         return cache.fetch(self.kind, self.key(portable, cache), make, renew=renew) / self.name
 
 
-def engine_object(header: str, portable: bool, quick: bool = False) -> Shared:
+def engine_object(header: str, portable: bool, quick: bool = False) -> SharedObject:
     """Return the object file of the time loops for a scene with this model.h.
 
     They read only the part of it before its values.
@@ -191,4 +191,4 @@ def engine_object(header: str, portable: bool, quick: bool = False) -> Shared:
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]
     line = unit_line(portable, [str(UNIT)], "engine.o", quick, "loops")
-    return Shared("engines", "engine.o", line, (read, engine_digest()), {HEADER: read})
+    return SharedObject("engines", "engine.o", line, (read, engine_digest()), {HEADER: read})

@@ -50,7 +50,7 @@ def is_allowed(cache: Cache) -> bool:
     return os.access(there, os.W_OK)
 
 
-class Behind:
+class OptimizedLibrary:
     """Provide the optimized library `key` of a scene while another process makes it. `build` makes it here."""
 
     def __init__(self, cache: Cache, key: str, build: Callable[[Path], None], open_: Callable[[Path], Library]) -> None:
@@ -62,8 +62,8 @@ class Behind:
         """Start the other process, which reads the cache entry `quick`; return whether it could be started."""
         import subprocess
 
-        told = json.dumps([str(self._cache.root), str(quick), portable])
-        line = [sys.executable, "-c", OTHER, told, *sys.path]
+        message = json.dumps([str(self._cache.root), str(quick), portable])
+        line = [sys.executable, "-c", OTHER, message, *sys.path]
         nothing = subprocess.DEVNULL
         with CtrlC() as ctrl_c, suppress(OSError):
             self._process = subprocess.Popen(
@@ -107,13 +107,13 @@ class Behind:
             functions.become(self._open(entry).lib)
 
 
-def make(told: str) -> None:
+def make(message: str) -> None:
     """Compile the optimized library; called in the other process. The next start reports errors."""
     from filelock import FileLock
 
     from gudgeon.loading.build import compile_kernels
 
-    root, quick, portable = json.loads(told)
+    root, quick, portable = json.loads(message)
     os.nice(NICE)
     if is_whole(Path(quick)):
         source = KernelSource.from_json(Path(quick, SOURCE).read_bytes().decode())

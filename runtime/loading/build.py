@@ -13,13 +13,13 @@ from threading import Lock
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
-from gudgeon.loading.ahead import Ahead, own_lines
-from gudgeon.loading.behind import KIND, SOURCE, Behind, is_allowed
-from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
+from gudgeon.loading.ahead import BackgroundCompilation, own_command_lines
+from gudgeon.loading.behind import KIND, SOURCE, OptimizedLibrary, is_allowed
+from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, warn_once
 from gudgeon.loading.compiler import begin, finish
 from gudgeon.loading.engine import engine_digest, own_texts
 from gudgeon.loading.library import Library, carried, opened
-from gudgeon.waiting.asking import working
+from gudgeon.waiting.asking import report_work
 from gudgeon.waiting.programs import Programs
 
 LIBRARY = "kernels.so"  # file name of the library in an entry of the cache
@@ -34,7 +34,7 @@ def compile_kernels(
     portable: bool = False,
     rebuild: bool = False,
     cache: Cache | None = None,
-    ahead: Ahead | None = None,
+    ahead: BackgroundCompilation | None = None,
     quick: bool = False,
 ) -> Library:
     """Return the library of a kernel source, compiled if the cache lacks it; without a compiler, the wheel's.
@@ -59,16 +59,19 @@ def compile_kernels(
             known.lib.best()
         return known
 
-    def build(folder: Path, quick: bool = False, ahead: Ahead | None = ahead) -> None:
+    def build(folder: Path, quick: bool = False, ahead: BackgroundCompilation | None = ahead) -> None:
         """Build the library in a folder, and report that this takes a while."""
-        with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
+        with (
+            report_work(f"compiling {source.mechanism}, scene {source.scene}"),
+            BackgroundCompilation(portable, cache) as none,
+        ):
             _build(source, folder, portable, ahead or none, cache, rebuild, quick)
 
     library = _compile_quickly(source, portable, cache, key, build) if quick and not rebuild else None
     if library is None:
         entry = cache.fetch("libraries", key, build, renew=rebuild)
         try:
-            library = _open(entry, source.cdef)
+            library = _open_entry(entry, source.cdef)
         except ImportError as error:  # whole, and yet it cannot be mapped
             library = _open_elsewhere(key, entry, source.cdef, cache, build, error)
     with _lock:
@@ -100,9 +103,11 @@ def _compile_quickly(
     entry = cache.fetch(KIND, own, quickly)
     if not entry.is_relative_to(cache.root):
         return None
-    behind = Behind(cache, key, lambda folder: build(folder, ahead=None), lambda entry: _open(entry, source.cdef))
+    behind = OptimizedLibrary(
+        cache, key, lambda folder: build(folder, ahead=None), lambda entry: _open_entry(entry, source.cdef)
+    )
     try:
-        library = _open(entry, source.cdef)
+        library = _open_entry(entry, source.cdef)
     except ImportError:  # reported for the optimized one
         return None
     if not behind.begin(entry, portable):
@@ -128,7 +133,7 @@ def library_key(
     return digest(["library/6", *own, identity, cpu, engine_digest(), *texts])
 
 
-def _open(entry: Path, cdef: str) -> Library:
+def _open_entry(entry: Path, cdef: str) -> Library:
     """Open the library of a cache entry. Raise ImportError if it cannot be loaded or lacks its functions."""
     found = opened(entry / LIBRARY, cdef)
     if not cdef and not hasattr(found.lib, PRESENT):
@@ -139,33 +144,33 @@ def _open(entry: Path, cdef: str) -> Library:
 def _open_elsewhere(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
     """Open the library built anew, or a copy of it in a temporary folder, with a warning. Raise BuildError."""
     private, root = private_cache(), entry.parents[1]
-    if not _noexec(root):  # what the compiler wrote may be broken
+    if not _is_noexec(root):  # what the compiler wrote may be broken
         try:
             entry = cache.fetch("libraries", key, build, renew=True)
-            return _open(entry, cdef)
+            return _open_entry(entry, cdef)
         except ImportError as again:
             error = again
     if not entry.is_relative_to(private.root):
         try:
-            found = _open(private.fetch("libraries", key, lambda folder: _copy(entry, folder)), cdef)
+            found = _open_entry(private.fetch("libraries", key, lambda folder: _copy(entry, folder)), cdef)
         except ImportError as again:
             error = again
         else:
-            why = "is mounted noexec" if _noexec(root) else f"cannot be loaded from ({error})"
+            why = "is mounted noexec" if _is_noexec(root) else f"cannot be loaded from ({error})"
             copied = f"what is compiled is copied to {private.root} at each start"
             do = "Set GUDGEON_CACHE to a folder whose programs may be run"
-            tell_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
+            warn_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
             return found
     command = " ".join(compiler.find_compiler())
-    told = f"the compiler {command} ended without an error, and made a library that cannot be loaded: {error}"
+    message = f"the compiler {command} ended without an error, and made a library that cannot be loaded: {error}"
     hint = "set CC to a compiler that makes programs for this machine, as CC=gcc"
-    if _noexec(private.root):
-        told = f"the compiled library cannot be loaded: {error}"
+    if _is_noexec(private.root):
+        message = f"the compiled library cannot be loaded: {error}"
         hint = f"{private.root} is mounted noexec: set GUDGEON_CACHE or TMPDIR to a folder that is not"
-    raise BuildError(f"{told}\n  {hint}") from error
+    raise BuildError(f"{message}\n  {hint}") from error
 
 
-def _noexec(folder: Path) -> bool:
+def _is_noexec(folder: Path) -> bool:
     """Return whether the file system forbids to execute files in a folder; False where that is unknown (macOS)."""
     return bool(os.statvfs(folder).f_flag & getattr(os, "ST_NOEXEC", 0))
 
@@ -177,13 +182,19 @@ def _copy(entry: Path, folder: Path) -> None:
 
 def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
     """Build a portable library in a folder, for the processor that $CC compiles for; return its path."""
-    with Ahead(True, cache) as none:
+    with BackgroundCompilation(True, cache) as none:
         _build(source, folder, True, none, cache, False, False)
     return folder / LIBRARY
 
 
 def _build(
-    source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache, renew: bool, quick: bool
+    source: KernelSource,
+    folder: Path,
+    portable: bool,
+    ahead: BackgroundCompilation,
+    cache: Cache,
+    renew: bool,
+    quick: bool,
 ) -> None:
     """Write the C files into the folder, compile the scene's own parts, and link them with the shared ones.
 
@@ -191,7 +202,7 @@ def _build(
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    lines = own_lines(source, portable, quick)
+    lines = own_command_lines(source, portable, quick)
     early = {name for name, line in lines.items() if ahead.is_under_way(name, line, source.files)}
     with Programs() as programs:
         made = [(begin(programs, line, folder), name) for name, line in lines.items() if name not in early]

@@ -23,7 +23,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from gudgeon.errors import LIMITED, BadValueError, CacheError
-from gudgeon.files.trust import Untrusted, check_folder, check_way, read
+from gudgeon.files.trust import Untrusted, check_folder, check_path, read
 from gudgeon.waiting.ctrl_c import CtrlC
 
 LIST = "checksums"
@@ -66,9 +66,9 @@ class Cache:
             return self._make(entry, make, renew)
         except (OSError, Untrusted) as error:
             if self.private:
-                told = f"the temporary folder {self.root} cannot be used: {error}"
-                is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in told
-                raise CacheError(f"{told}\n  {LIMITED}" if is_limit else told) from error
+                message = f"the temporary folder {self.root} cannot be used: {error}"
+                is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in message
+                raise CacheError(f"{message}\n  {LIMITED}" if is_limit else message) from error
             self._warn_unusable(error)
         return private_cache().fetch(kind, key, make, renew=renew)
 
@@ -93,7 +93,7 @@ class Cache:
             if self.private:
                 check_folder(self.root)
             else:
-                check_way(self.root)
+                check_path(self.root)
             for folder in folders:
                 check_folder(self.root / folder)
         except FileNotFoundError:
@@ -108,7 +108,7 @@ class Cache:
             do = "Set GUDGEON_CACHE to a folder that is yours alone."
             if self.root.is_dir():
                 do = f"Make it yours alone (chown; chmod -R go-w {self.root}) or set GUDGEON_CACHE to a folder that is."
-        tell_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
+        warn_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
 
     def _make(self, entry: Path, make: Make, renew: bool) -> Path:
         """Make an entry under a lock in a temporary folder, and move it into place; return its path."""
@@ -176,14 +176,14 @@ def _is_own_folder(folder: Path) -> bool:
     return stat.S_ISDIR(found.st_mode) and found.st_uid == os.geteuid()
 
 
-def tell_once(text: str, about: str = "") -> None:
+def warn_once(text: str, about: str = "") -> None:
     """Issue a warning once per process, identified by `about` or its text."""
-    if (about or text) not in _told:
-        _told.add(about or text)
+    if (about or text) not in _message:
+        _message.add(about or text)
         warnings.warn(text, RuntimeWarning, stacklevel=4)
 
 
-_told: set[str] = set()  # warnings that were issued
+_message: set[str] = set()  # warnings that were issued
 
 
 def _is_usable(entry: Path) -> bool:
@@ -191,7 +191,7 @@ def _is_usable(entry: Path) -> bool:
     try:
         return is_whole(entry)
     except Untrusted as error:
-        tell_once(f"an entry of the cache is not used, since {error}; it is made anew")
+        warn_once(f"an entry of the cache is not used, since {error}; it is made anew")
         return False
 
 
@@ -239,17 +239,17 @@ def _remove(path: Path) -> None:
 
 def default_cache() -> Cache:
     """Return the user's cache: $GUDGEON_CACHE, or the platform's cache folder. Raise BadValueError for "~nobody"."""
-    chosen = os.environ.get("GUDGEON_CACHE")
-    if chosen:
+    selected = os.environ.get("GUDGEON_CACHE")
+    if selected:
         try:
-            return Cache(Path(chosen).expanduser().absolute())
+            return Cache(Path(selected).expanduser().absolute())
         except RuntimeError as error:
             hint = "name a folder by its path, or leave the variable out"
-            raise BadValueError(f"GUDGEON_CACHE={chosen}: no such user, or no home folder", hint=hint) from error
+            raise BadValueError(f"GUDGEON_CACHE={selected}: no such user, or no home folder", hint=hint) from error
     folder = _user_folder()
     if os.path.isabs(folder):
         return Cache(folder)
-    tell_once("no home folder is known; what this process compiles is not kept. Set GUDGEON_CACHE to a folder.")
+    warn_once("no home folder is known; what this process compiles is not kept. Set GUDGEON_CACHE to a folder.")
     return private_cache()
 
 

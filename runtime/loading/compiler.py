@@ -124,8 +124,8 @@ def find_compiler() -> tuple[str, ...]:
     if not named:
         with suppress(ImportError):
             return (str(zig()), "cc", *ZIG)
-    wanted = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
-    raise BuildError(f"{wanted}\n  {INSTALL_COMPILER}")
+    expected = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
+    raise BuildError(f"{expected}\n  {INSTALL_COMPILER}")
 
 
 def is_there() -> bool:
@@ -194,13 +194,13 @@ def cpu() -> str:
         import subprocess
 
         return subprocess.run(["sysctl", "-n", "machdep.cpu.brand_string"], capture_output=True, text=True).stdout
-    wanted = ("vendor_id", "cpu family", "model", "stepping", "flags", "CPU ", "Features")
+    expected = ("vendor_id", "cpu family", "model", "stepping", "flags", "CPU ", "Features")
     lines = []
     with open("/proc/cpuinfo", errors="replace") as file:
         for line in file:
             if not line.strip():
                 break  # the first core speaks for all: a node of hundreds would cost milliseconds
-            if line.startswith(wanted):
+            if line.startswith(expected):
                 lines.append(line.strip())
     return "\n".join(lines)
 
@@ -233,15 +233,15 @@ def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Ex
     out, err = programs.wait(process)
     if process.returncode == 0 and made.is_file():
         return None
-    said = (err or out).strip()
+    specified = (err or out).strip()
     for text, code in FULL.items():
-        if text in said:
+        if text in specified:
             return OSError(code, f"the compiler said: {text}")
     if process.returncode == -signal.SIGXFSZ:
         return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
-    first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
+    first = "\n  ".join(specified.splitlines()[:8]) or "it said nothing"
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
-    told = f"failed (exit status {process.returncode})"
+    message = f"failed (exit status {process.returncode})"
     if process.returncode == 0:
-        told = f"ended without an error, and made no {made.name}"
-    return BuildError(f"the C compiler {told}:\n  {first}\n  called as {line}")
+        message = f"ended without an error, and made no {made.name}"
+    return BuildError(f"the C compiler {message}:\n  {first}\n  called as {line}")

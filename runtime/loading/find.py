@@ -15,15 +15,15 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import SMOOTH, STAGES
 from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_beside, read_named
-from gudgeon.language.wanted import mapping, number_of, path, text
+from gudgeon.language.argument_checks import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.engine import contents
 from gudgeon.loading.shipped import PACKAGE, committed, committed_header, shipped, shipped_file
-from gudgeon.waiting.asking import working
-from gudgeon.waiting.imports import GENERATOR, READER, at_rest, whole
+from gudgeon.waiting.asking import report_work
+from gudgeon.waiting.imports import GENERATOR, READER, pause_garbage_collector, whole
 
 if TYPE_CHECKING:
-    from gudgeon.loading.ahead import Ahead
+    from gudgeon.loading.ahead import BackgroundCompilation
 
 Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # exists in every file
@@ -86,7 +86,7 @@ def kernel_source(
     formulation: str = "reduced",
     regenerate: bool = False,
     cache: Cache | None = None,
-    ahead: Ahead | None = None,
+    ahead: BackgroundCompilation | None = None,
 ) -> tuple[KernelSource, str]:
     """Return the kernel source of a scene, and its origin: the cache, the committed files, or a new derivation.
 
@@ -142,9 +142,9 @@ def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
 def _changes_scene(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
     """Return whether overrides change what the scene is derived from."""
     whole(*READER)
-    from gudgeon.generator.reader.read import touches
+    from gudgeon.generator.reader.read import overrides_change_scene
 
-    return touches(data, str(file), scene, overrides)
+    return overrides_change_scene(data, str(file), scene, overrides)
 
 
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
@@ -168,13 +168,16 @@ def derived(
     overrides: Overrides | None = None,
     formulation: str = "reduced",
     seconds: dict[str, float] | None = None,
-    ahead: Ahead | None = None,
+    ahead: BackgroundCompilation | None = None,
 ) -> KernelSource:
     """Derive the kernel source of a scene; each stage records its time in `seconds`.
 
     Errors in the file are reported before SymPy is imported.
     """
-    with working(f"deriving {file.stem}, scene {scene}"), at_rest():  # nearly all that SymPy makes stays in its caches
+    with (
+        report_work(f"deriving {file.stem}, scene {scene}"),
+        pause_garbage_collector(),
+    ):  # nearly all that SymPy makes stays in its caches
         whole(*READER)
         from gudgeon.generator.reader.read import read_scene
 
@@ -192,8 +195,8 @@ def derived(
 
 def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:
     """Return the cache key of a kernel source: a digest of the file's bytes, the request and the generator."""
-    asked = json.dumps([scene, sorted(overrides.items()), formulation])
-    return digest(["model/1", data, asked, generator_hash()])
+    requested = json.dumps([scene, sorted(overrides.items()), formulation])
+    return digest(["model/1", data, requested, generator_hash()])
 
 
 def generator_hash(package: Path = PACKAGE) -> str:

@@ -103,7 +103,7 @@ class Functions:
 
 def opened(file: Path, cdef: str = "") -> Library:
     """Open the library in a file, of the engine or with given declarations. Raise ImportError."""
-    ffi = _engines() if cdef in ("", lane_declarations()) else _parse_declarations(cdef)
+    ffi = _engine_interface() if cdef in ("", lane_declarations()) else _parse_declarations(cdef)
     try:
         return Library(file, ffi, Functions(ffi.dlopen(str(file))))
     except (OSError, UnicodeEncodeError) as error:  # cffi takes a path as UTF-8
@@ -111,7 +111,7 @@ def opened(file: Path, cdef: str = "") -> Library:
 
 
 @lru_cache(maxsize=1)
-def _engines() -> Any:
+def _engine_interface() -> Any:
     """Return cffi's interface to the engine's declarations."""
     text = all_declarations()
     return declared.ffi if digest([text]) == declared.OF else _parse_declarations(text)

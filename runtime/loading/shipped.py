@@ -59,8 +59,8 @@ def shipped_study(name: str) -> Path:
 def _unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputError:
     """Return the error for an unknown name, or for an installation without such files."""
     if not names:
-        told = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
-        return InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
+        message = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
+        return InputError(message, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
     from gudgeon.language.names import nearest
 
     guess = nearest(name, names)

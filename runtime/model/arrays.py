@@ -1,6 +1,6 @@
 """Convert arrays to the form that C reads, and pass their memory to C; all arrays enter C through this module.
 
-`taken` converts a list, a table column or any NumPy array to an aligned, C-contiguous array of native byte order, of
+`used` converts a list, a table column or any NumPy array to an aligned, C-contiguous array of native byte order, of
 the required shape and type. No number changes. `pointer` gives C the memory of such an array and of no other.
 """
 
@@ -49,7 +49,7 @@ def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool
     raise ArrayError(f"an array of {array.dtype} for {kind}")
 
 
-def taken(
+def used(
     values: ArrayLike,
     name: str,
     shape: Shape | None = None,
@@ -86,8 +86,8 @@ def address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
 
 def _fits(have: tuple[int, ...], shape: Shape) -> bool:
     """Return whether an array's shape agrees with a required shape."""
-    for wanted, own in zip(shape, have, strict=False):
-        if wanted is not None and wanted != own:
+    for expected, own in zip(shape, have, strict=False):
+        if expected is not None and expected != own:
             return False
     return len(have) == len(shape)
 
@@ -95,14 +95,14 @@ def _fits(have: tuple[int, ...], shape: Shape) -> bool:
 def _check_shape(array: NDArray[Any], name: str, shape: Shape) -> None:
     """Raise ArrayError if an array's shape differs from the required one."""
     if not _fits(array.shape, shape):
-        told = ", ".join("N" if size is None else str(size) for size in shape)
-        raise ArrayError(f"{name} has shape {array.shape}, expected ({told}{',' * (len(shape) == 1)})")
+        message = ", ".join("N" if size is None else str(size) for size in shape)
+        raise ArrayError(f"{name} has shape {array.shape}, expected ({message}{',' * (len(shape) == 1)})")
 
 
 def _convert(
     values: ArrayLike, name: str, shape: Shape | None, dtype: np.dtype[Any], own: bool, most: int
 ) -> NDArray[Any]:
-    """Return values converted to a C-contiguous array of `dtype`; see `taken` for the arguments."""
+    """Return values converted to a C-contiguous array of `dtype`; see `used` for the arguments."""
     _refuse_masked(values, name)
     try:
         given: NDArray[Any] = np.asarray(values)
@@ -160,9 +160,11 @@ def _any_field_masked(ma: Any, values: Any) -> NDArray[np.bool_]:
     return np.logical_or.reduce([mask[field] for field in mask.dtype.names])
 
 
-def _raise_not_real(name: str, told: str) -> NoReturn:
+def _raise_not_real(name: str, message: str) -> NoReturn:
     """Raise ArrayError: expected real numbers."""
-    raise ArrayError(f"{name} {told}: expected real numbers", hint="an array, a list or a column of floats or integers")
+    raise ArrayError(
+        f"{name} {message}: expected real numbers", hint="an array, a list or a column of floats or integers"
+    )
 
 
 def _index_text(at: tuple[int, ...]) -> str:

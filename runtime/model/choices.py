@@ -16,25 +16,25 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
+from gudgeon.language.argument_checks import message
 from gudgeon.language.names import unknown_name
 from gudgeon.language.tree import from_json, names
-from gudgeon.language.wanted import told
 
 Array: TypeAlias = NDArray[Any]
 
 OTHERWISE = "the scene's is"  # phrase in notes on choices
 
 
-def place_of_word(value: Any, slot: Slot) -> float:
+def index_of_word(value: Any, slot: Slot) -> float:
     """Return the value of a parameter that has words: the index of a word. Raise UnknownNameError, BadValueError."""
     if not isinstance(value, str):
-        raise BadValueError(f"{slot.address} is {told(value)}: expected one of: {', '.join(slot.words)}")
+        raise BadValueError(f"{slot.address} is {message(value)}: expected one of: {', '.join(slot.words)}")
     if value.strip() not in slot.words:
         raise unknown_name(f"choice of {slot.address}", value.strip(), slot.words, None)
     return float(slot.words.index(value.strip()))
 
 
-def choice_of_a_law(source: KernelSource, address: str) -> tuple[str, str]:
+def explain_law_choice(source: KernelSource, address: str) -> tuple[str, str]:
     """Return message and hint for the address of a contact's law or its options, which are compiled; else ""."""
     from gudgeon.generator.kinds.laws.law import called  # imports no SymPy
 
@@ -50,7 +50,7 @@ def choice_of_a_law(source: KernelSource, address: str) -> tuple[str, str]:
     )
 
 
-def expression_by_name(source: KernelSource, address: str) -> tuple[str, str]:
+def explain_named_expression(source: KernelSource, address: str) -> tuple[str, str]:
     """Return message and hint for the address of a named expression of the file, which is compiled; else ""."""
     whole = f"expressions.{address.removeprefix('expressions.')}"
     one = next((one for one in source.expressions if one.address == whole), None)
@@ -65,7 +65,7 @@ def expression_by_name(source: KernelSource, address: str) -> tuple[str, str]:
     )
 
 
-def said(slot: Slot, value: float) -> float | str:
+def specified(slot: Slot, value: float) -> float | str:
     """Return a parameter's value as users see it: its word, or the number. Raise ValueError for an invalid index."""
     if not slot.words:
         return float(value)
@@ -76,7 +76,7 @@ def said(slot: Slot, value: float) -> float | str:
 
 def of_runs(slot: Slot, values: Array) -> Any:
     """Return the values of a parameter in n runs, (n,): numbers, or words."""
-    return np.array([said(slot, x) for x in values.tolist()], dtype=object) if slot.words else values.copy()
+    return np.array([specified(slot, x) for x in values.tolist()], dtype=object) if slot.words else values.copy()
 
 
 def choices(source: KernelSource) -> tuple[int, ...]:
@@ -84,27 +84,29 @@ def choices(source: KernelSource) -> tuple[int, ...]:
     return tuple(k for k, slot in enumerate(source.slots) if slot.words)
 
 
-def filled_in(source: KernelSource, chosen: Iterable[int], given: Array, is_given: Array, p: Array) -> tuple[Any, Any]:
-    """Return values and mask (n_slots,) with the values that depend on the `chosen` parameters, taken from p."""
+def filled_in(
+    source: KernelSource, selected: Iterable[int], given: Array, is_given: Array, p: Array
+) -> tuple[Any, Any]:
+    """Return values and mask (n_slots,) with the values that depend on the `selected` parameters, taken from p."""
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     values, mask = given.copy(), is_given.copy()
-    for k in chosen:
-        name, start = said(source.slots[k], float(given[k])), f"{source.slots[k].address}."
+    for k in selected:
+        name, start = specified(source.slots[k], float(given[k])), f"{source.slots[k].address}."
         for address, own in place.items():
             if address.startswith(start) and not is_given[own]:
                 values[own], mask[own] = p[place[f"materials.{name}.{address.removeprefix(start)}"]], True
     return values, mask
 
 
-def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
+def choice_notes(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
     """Return a note for each choice of a run that differs from its scene's."""
     return tuple(
-        f"{slot.address} is {said(slot, float(given[k]))} ({OTHERWISE} {said(slot, slot.default)})"
+        f"{slot.address} is {specified(slot, float(given[k]))} ({OTHERWISE} {specified(slot, slot.default)})"
         for k, slot in ((k, source.slots[k]) for k in np.flatnonzero(is_given).tolist())
         if slot.words and given[k] != slot.default
     )
 
 
-def tells_choice(text: str) -> bool:
+def is_choice_note(text: str) -> bool:
     """Return whether a note is about a choice."""
     return f" ({OTHERWISE} " in text

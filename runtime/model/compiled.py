@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
-from gudgeon.language.wanted import number_of, time
-from gudgeon.model.arrays import FLAG, pointer, taken
+from gudgeon.language.argument_checks import number_of, time
+from gudgeon.model.arrays import FLAG, pointer, used
 from gudgeon.model.choices import choices, filled_in
 from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, nothing
 
@@ -106,13 +106,13 @@ class CompiledModel:
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
         """Return all values of a run, (n_slots + n_derived,), from given parameters (n_slots,) and a mask."""
         shape = (len(self.source.slots),)
-        values, mask = taken(given, "given", shape), taken(is_given, "is_given", shape, dtype=FLAG)
-        p, chosen = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
-        for last in (False, True) if chosen else (True,):  # what is chosen has numbers of this run
+        values, mask = used(given, "given", shape), used(is_given, "is_given", shape, dtype=FLAG)
+        p, selected = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
+        for last in (False, True) if selected else (True,):  # what is chosen has numbers of this run
             self.lib.gudgeon_prepare(
                 self.pointer(values), self.pointer(mask, "unsigned char *"), self._output_pointer(p)
             )
-            values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
+            values, mask = (values, mask) if last else filled_in(self.source, selected, values, mask, p)
         return p
 
     def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero: Sequence[int] = ()) -> Array:
@@ -121,12 +121,12 @@ class CompiledModel:
         Parameters with an index in `zero` are 0.
         """
         slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
-        chosen = is_given[:, list(self._choices)].any()
+        selected = is_given[:, list(self._choices)].any()
         for rows in (slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)):
-            values = np.array(taken(given[rows], "given", (None, slots)))
-            mask = np.array(taken(is_given[rows], "is_given", (None, slots), dtype=FLAG))
+            values = np.array(used(given[rows], "given", (None, slots)))
+            mask = np.array(used(is_given[rows], "is_given", (None, slots), dtype=FLAG))
             values[:, zero], mask[:, zero] = 0.0, True
-            if chosen:
+            if selected:
                 p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
                 continue
             arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._output_pointer(p[rows])
@@ -229,7 +229,7 @@ class CompiledModel:
         if why := self.source.no_slopes:
             raise ValueError(f"this scene has no Jacobian: {why}")
         u = np.empty(2 * self.n + N_WORK + len(self.source.states))
-        right, eta, s = self.pointer(taken(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
+        right, eta, s = self.pointer(used(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
         status = self.lib.gudgeon_newton(
             time(t), *self._state_pointers(y, memory, p), eta, s, right, self._output_pointer(u)
         )
@@ -270,8 +270,8 @@ class CompiledModel:
         """
         if memory is None:
             return self._free
-        array = taken(memory, "memory")
-        return array if not self.n_memory and array.shape == (1,) else taken(array, "memory", (self.n_memory,))
+        array = used(memory, "memory")
+        return array if not self.n_memory and array.shape == (1,) else used(array, "memory", (self.n_memory,))
 
     def check_pivot(
         self, status: int, t: float, pivots: tuple[str, ...] | None = None, p: ArrayLike | None = None
@@ -283,11 +283,11 @@ class CompiledModel:
         if status > 0:
             row = (pivots or self.source.pivots)[status - 1]
             of = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
-            told = f"singular or non-finite at t = {t:.9g} s: the pivot of {of}\n"
-            if p is not None and (masses := far_masses(self.source, self.mass(p))):
-                raise SingularError(f"{told}  {masses}", t, row)
+            message = f"singular or non-finite at t = {t:.9g} s: the pivot of {of}\n"
+            if p is not None and (masses := mass_ratio_message(self.source, self.mass(p))):
+                raise SingularError(f"{message}  {masses}", t, row)
             raise SingularError(
-                f"{told}  the mechanism is at a singular position (dead centre), constraints are redundant,"
+                f"{message}  the mechanism is at a singular position (dead centre), constraints are redundant,"
                 " or the state is no longer finite: check the start, or take a smaller step",
                 t,
                 row,
@@ -302,18 +302,18 @@ class CompiledModel:
 
     def _state_pointers(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
         """Return pointers to the arguments that every right-hand side takes."""
-        state = taken(y, "y")
+        state = used(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
-            taken(state, "y", (2 * self.n,))  # says so
+            used(state, "y", (2 * self.n,))  # says so
         return self.pointer(state), self.pointer(self.memory_array(memory)), self._parameter_pointer(p)
 
     def _parameter_pointer(self, p: ArrayLike) -> Any:
         """Return a pointer to the parameter values."""
-        return self.pointer(taken(p, "p", (self.n_p,)))
+        return self.pointer(used(p, "p", (self.n_p,)))
 
     def _state(self, values: ArrayLike, name: str) -> Any:
         """Return a pointer to q or v."""
-        return self.pointer(taken(values, name, (self.n,)))
+        return self.pointer(used(values, name, (self.n,)))
 
     def _output_pointer(self, array: Array) -> Any:
         """Return a pointer to an array that C fills."""
@@ -325,7 +325,7 @@ def _index(source: KernelSource, row: str) -> int:
     return next(k for k, info in enumerate(source.start_rows) if info.name == row)
 
 
-def far_masses(source: KernelSource, mass: NDArray[Any]) -> str:
+def mass_ratio_message(source: KernelSource, mass: NDArray[Any]) -> str:
     """Return a text on masses or inertias whose ratio is too large for doubles; "" if there are none.
 
     mass (n,): the diagonal of M in kg and kg·m². Inertias of 0 are allowed and not compared.
@@ -340,7 +340,7 @@ def far_masses(source: KernelSource, mass: NDArray[Any]) -> str:
             continue
         least, most = min(of, key=of.__getitem__), max(of, key=of.__getitem__)
         if of[most] >= limit * of[least]:
-            told = f"the {what} of {most} ({of[most]:g} {unit}) and {least} ({of[least]:g} {unit}) are too far apart"
+            message = f"the {what} of {most} ({of[most]:g} {unit}) and {least} ({of[least]:g} {unit}) are too far apart"
             beside = " where a body has an inertia of 0" if limit < MOST_APART else ""
-            return f"{told} for doubles\n  expected none {limit:g} times another one{beside}; check their units"
+            return f"{message} for doubles\n  expected none {limit:g} times another one{beside}; check their units"
     return ""

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, SingularError, UnknownNameError
-from gudgeon.language.wanted import mapping, told
-from gudgeon.model.arrays import taken
+from gudgeon.language.argument_checks import mapping, message
+from gudgeon.model.arrays import used
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ Number = TypeVar("Number", float, Array)
 _DEPTH, _RATE = (CLEARANCE_COLUMNS.index(name) for name in ("delta", "deltadot"))
 
 
-def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
+def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
     """Return the checked depths of the given joints, (n,) each as in the file; with `runs` also (N, n).
 
     Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths, BadValueError for
@@ -38,10 +38,10 @@ def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> di
     for joint, depths in mapping(contour, "contour", _WANTED).items():
         if joint not in known:
             hint = f"joints with a contour: {', '.join(known)}" if known else "contour: 128 in the play of a joint"
-            raise UnknownNameError(f"contour: no contour at {told(joint)}", hint=hint)
+            raise UnknownNameError(f"contour: no contour at {message(joint)}", hint=hint)
         many = runs and np.ndim(depths) == 2
         shape = (None, known[joint].count) if many else (known[joint].count,)
-        found[joint] = taken(depths, f"contour[{joint!r}]", shape, finite=True)
+        found[joint] = used(depths, f"contour[{joint!r}]", shape, finite=True)
     rows = {joint: len(own) for joint, own in found.items() if own.ndim == 2}
     if len(set(rows.values())) > 1 or 0 in rows.values():
         several = ", ".join(f"{joint} has {count}" for joint, count in rows.items())
@@ -98,7 +98,7 @@ def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
     return per_angle**2 * (bend + s * rest * (9.0 + s * (20.0 * s - 30.0)))
 
 
-def narrowest(source: KernelSource, p: Array) -> Array:
+def narrowest_clearances(source: KernelSource, p: Array) -> Array:
     """Return the radial clearances (m), at the shallowest point of contours: (..., n_clearances) of p."""
     own = p[..., [joint.clearance for joint in source.clearances]]
     for one in source.contours:
@@ -107,7 +107,7 @@ def narrowest(source: KernelSource, p: Array) -> Array:
     return own
 
 
-def in_contours(source: KernelSource) -> frozenset[int]:
+def contour_parameters(source: KernelSource) -> frozenset[int]:
     """Return the indices of the parameters that are contour depths; a run sets them together."""
     return frozenset(k for one in source.contours for k in range(one.first, one.first + one.count))
 
@@ -126,7 +126,7 @@ def corner_gap(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, 
     return float(found[_DEPTH]), float(found[_RATE])
 
 
-def corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number) -> Number:
+def corner_approach(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number) -> Number:
     """Return how much nearer to its wall a corner is than in the middle of the guide, m; for one or many positions.
 
     With the slider's offset o across the guide (m), its tilt φ (rad), half length a, half height b and corner radius r

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.language.wanted import mapping, told
-from gudgeon.model.arrays import taken
+from gudgeon.language.argument_checks import mapping, message
+from gudgeon.model.arrays import used
 from gudgeon.model.compiled import AT_ONCE, Array, CompiledModel
 from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, number, without_baumgarte
-from gudgeon.model.sizes import far_clearances
+from gudgeon.model.sizes import unresolved_clearances
 from gudgeon.model.written import undefined_rows
 
 FLOATS = (float, np.floating)  # types that may hold NaN
@@ -110,12 +110,12 @@ def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dic
 
 def given_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
     """Return values and mask (n_runs, n_slots) of the given parameters; raises as `given_slots`."""
-    plain = plain_each(source, rows)
+    plain = read_uniform_rows(source, rows)
     found: tuple[Array, Mask] = each_of(rows, lambda _, row: given_slots(source, row)) if plain is None else plain
     return found
 
 
-def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
+def read_uniform_rows(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
     """Return values and mask (n_runs, n_slots) if all runs give the same parameters as floats; else None.
 
     This is fast: it avoids reading each run by itself. A column with one value for all runs may hold any text of a
@@ -184,8 +184,10 @@ def _read_rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
     columns = {name: _read_column(f"parameters: {name}", values) for name, values in parameters.items()}
     lengths = {name: len(column) for name, column in columns.items() if not isinstance(column, Same)}
     if len(set(lengths.values())) > 1:
-        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
-        raise BadValueError(f"parameters: columns of different lengths: {told}", hint="one value, or one for every run")
+        message = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise BadValueError(
+            f"parameters: columns of different lengths: {message}", hint="one value, or one for every run"
+        )
     found = Columns(columns, next(iter(lengths.values()), 1))
     return list(found) if len(found) == 1 else found
 
@@ -201,13 +203,13 @@ def _read_column(name: str, values: Any) -> Column:
     try:
         shape = () if isinstance(values, (str, bytes, Mapping, type)) else np.shape(values)
     except ValueError:  # rows of different lengths
-        raise BadValueError(f"{name} is {told(values)}: expected one value for every run") from None
+        raise BadValueError(f"{name} is {message(values)}: expected one value for every run") from None
     if not shape:
         return Same(values)
     if len(shape) != 1:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
-        return taken(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
+        return used(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
     return list(values) if hasattr(values, "__iter__") else _read_column(name, np.asarray(values))  # by __array__ alone
 
 
@@ -240,4 +242,4 @@ def _satisfies_conditions(source: KernelSource, p: Array, is_given: Mask) -> Mas
         several = [place[address] for address in condition.addresses]
         bound = p[:, several].sum(axis=1) if several else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
-    return valid & ~far_clearances(source, p).any(axis=1) & ~undefined_rows(source, p, is_given)
+    return valid & ~unresolved_clearances(source, p).any(axis=1) & ~undefined_rows(source, p, is_given)

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnitError, UnknownNameError
+from gudgeon.language.argument_checks import mapping, number_of, whole_digits
 from gudgeon.language.names import near
 from gudgeon.language.tree import from_json, names
-from gudgeon.language.wanted import mapping, number_of, whole_digits
-from gudgeon.model.choices import choice_of_a_law, expression_by_name, place_of_word
+from gudgeon.model.choices import explain_law_choice, explain_named_expression, index_of_word
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import far_clearance, zero_inertia
+from gudgeon.model.sizes import unresolved_clearance_message, zero_inertia_message
 from gudgeon.model.written import undefined_number
 
 # a number as files have it, in ASCII digits without '_'; float() accepts more
@@ -34,7 +34,7 @@ TOGETHER = {"gains": GAINS}  # one name for several parameters
 ZERO = "0.0"  # a literal zero of the file, as JSON
 MOST_GAIN = 1e150  # 1/s: its square is still a double
 # powers of ten from 1 beyond which a value makes others overflow; and how many such values are listed
-FAR, MOST_TOLD = 60.0, 3
+FAR, MAX_REPORTED = 60.0, 3
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
@@ -77,13 +77,19 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     address = meant[-1]  # "motor.value" too
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        several = (expression_by_name, _explain_eccentricity, _explain_material, _explain_motion, choice_of_a_law)
+        several = (
+            explain_named_expression,
+            _explain_eccentricity,
+            _explain_material,
+            _explain_motion,
+            explain_law_choice,
+        )
         return next((words for one in several if (words := one(source, address))[0]), ("", ""))
     key = address.rpartition(".")[2]
     if written is not None and written.tree == ZERO:
         return _explain_zero(address, key)
-    told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
-    return told, (
+    message = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
+    return message, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
@@ -94,8 +100,8 @@ def _explain_run_option(address: str) -> tuple[str, str]:
     section, _, key = address.rpartition(".simulate.")
     if not section.startswith("scenes.") or key not in ("t_end", "output", "step"):
         return "", ""
-    told = f"{address} is how a run goes unless it is told otherwise, and no number of the mechanism"
-    return told, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
+    message = f"{address} is how a run goes unless it is told otherwise, and no number of the mechanism"
+    return message, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
 
 
 def _explain_motion(source: KernelSource, address: str) -> tuple[str, str]:
@@ -103,22 +109,24 @@ def _explain_motion(source: KernelSource, address: str) -> tuple[str, str]:
     body, _, part = address.rpartition(".")
     if body not in (one.name for one in source.bodies) or part not in ("x", "y", "theta", "vx", "vy", "omega"):
         return "", ""
-    told = f"{address} is a result of the motion, and no number of the file"
+    message = f"{address} is a result of the motion, and no number of the file"
     rate, own = part in ("vx", "vy", "omega"), {slot.address for slot in source.slots}
     held = rate and source.degrees_of_freedom <= 0
     if by := _driving_parameters(source, body) or held and _driving_parameters(source, ""):
-        return told, by
-    said = [name for name in (f"start.{section}.{address}" for section in ("rates", "set", "guess")) if name in own]
+        return message, by
+    specified = [
+        name for name in (f"start.{section}.{address}" for section in ("rates", "set", "guess")) if name in own
+    ]
     unit = {"omega": "rad/s", "theta": "deg"}.get(part, "m/s" if rate else "mm")
     section = "rates" if rate else "set"
-    wanted = f"start: {{{section}: {{{address}: 0 {unit}}}}}, then start.{section}.{address} can be set"
-    hint = f"its start is {said[0]}" if said else f"write {wanted}"
-    return told, hint
+    expected = f"start: {{{section}: {{{address}: 0 {unit}}}}}, then start.{section}.{address} can be set"
+    hint = f"its start is {specified[0]}" if specified else f"write {expected}"
+    return message, hint
 
 
 def _driving_parameters(source: KernelSource, body: str) -> str:
     """Return a text on the drives that determine how a body moves ("": any body), and their parameters; else ""."""
-    told = []
+    message = []
     for part in source.parts:
         ends = part.ends[:1] if part.kind in ("angle", "coordinate") else part.ends  # then a reference, which it leaves
         if part.section != "drives" or body and body not in (end.rpartition(".")[0] for end in ends):
@@ -127,9 +135,9 @@ def _driving_parameters(source: KernelSource, body: str) -> str:
         values = [from_json(json.loads(one.tree)) for one in source.written if one.address == address]
         by = dict.fromkeys(name.path for tree in values for name in names(tree) if name.path != "t")
         moves = body or "the linkage, which has no freedom left"
-        told.append(f"{part.name} drives {moves}: how it moves is in {address}")
-        told[-1] += f", here by {', '.join(by)}: set that" if by else ": write a parameter there, and set that"
-    return "; ".join(told)
+        message.append(f"{part.name} drives {moves}: how it moves is in {address}")
+        message[-1] += f", here by {', '.join(by)}: set that" if by else ": write a parameter there, and set that"
+    return "; ".join(message)
 
 
 def _explain_eccentricity(source: KernelSource, address: str) -> tuple[str, str]:
@@ -139,8 +147,8 @@ def _explain_eccentricity(source: KernelSource, address: str) -> tuple[str, str]
     placed = any(slot.address.startswith(f"start.play.{joint}.") for slot in source.slots)
     if (start, play) != ("start", "play") or joint not in able or placed:
         return "", ""
-    wanted = f"start: {{play: {{{joint}: {{{'offset: 0 mm' if able[joint] else 'e: [0 mm, 0 mm]'}}}}}}}"
-    return f"{address}: the file's start does not say where {joint} begins", f"write {wanted}, then it can be set"
+    expected = f"start: {{play: {{{joint}: {{{'offset: 0 mm' if able[joint] else 'e: [0 mm, 0 mm]'}}}}}}}"
+    return f"{address}: the file's start does not say where {joint} begins", f"write {expected}, then it can be set"
 
 
 def _explain_material(source: KernelSource, address: str) -> tuple[str, str]:
@@ -148,14 +156,16 @@ def _explain_material(source: KernelSource, address: str) -> tuple[str, str]:
     owner, _, key = address.rpartition(".")
     if not key.endswith("material") or not any(slot.address.startswith(f"{owner}.") for slot in source.slots):
         return "", ""
-    told = f"{address}: the file has only one material with the numbers that are wanted there, and no other to choose"
-    return told, "write a second one among its materials; their numbers can be set, materials.<name>.E"
+    message = (
+        f"{address}: the file has only one material with the numbers that are wanted there, and no other to choose"
+    )
+    return message, "write a second one among its materials; their numbers can be set, materials.<name>.E"
 
 
 def number(value: float | str, slot: Slot) -> float:
     """Return a value in SI from a float, or a text as in files ('0.5 mm', '1e-9'); of a choice, its index."""
     if slot.words:
-        return place_of_word(value, slot)
+        return index_of_word(value, slot)
     if type(value) is float and sys.float_info.min <= abs(value) < math.inf:
         return value
     if isinstance(value, str):
@@ -235,9 +245,11 @@ def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
     for k, number in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(number):
-            raise BadValueError(zero_inertia(value, source.derived[k]) or _overflow_message(source, value, k, number))
-    if told := undefined_number(source, p, is_given) or far_clearance(source, p):
-        raise BadValueError(told)
+            raise BadValueError(
+                zero_inertia_message(value, source.derived[k]) or _overflow_message(source, value, k, number)
+            )
+    if message := undefined_number(source, p, is_given) or unresolved_clearance_message(source, p):
+        raise BadValueError(message)
 
 
 def _overflow_message(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
@@ -245,20 +257,22 @@ def _overflow_message(source: KernelSource, value: Mapping[str, float], k: int, 
     place, name = len(source.slots) + k, source.derived[k]
     own = (f"{joint.name}.{one}" for joint in source.clearances for one, at in joint.constants.items() if at == place)
     far = [slot for slot in source.slots if not slot.words and abs(math.log10(abs(value[slot.address]) or 1.0)) > FAR]
-    told = ", ".join(f"{slot.address} is {value[slot.address]:g} {slot.unit}".rstrip() for slot in far[:MOST_TOLD])
+    message = ", ".join(
+        f"{slot.address} is {value[slot.address]:g} {slot.unit}".rstrip() for slot in far[:MAX_REPORTED]
+    )
     whose = f"{next(own, f'{name} of the equations')}, which follows"
-    blamed = f"{told}, too far from 1 for doubles: {whose} from that," if told else f"{whose} from these values,"
+    blamed = f"{message}, too far from 1 for doubles: {whose} from that," if message else f"{whose} from these values,"
     return f"{blamed} is {number}"
 
 
 def conditions(source: KernelSource) -> tuple[Condition, ...]:
     """Return the conditions of the file, those of Baumgarte's gains, and those of velocity floors."""
     gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
-    asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
+    requested = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
     floors = {slot.address for slot in source.slots if slot.address.endswith(".velocity_floor")}
     left = sorted(floors - {condition.address for condition in source.conditions})
     least = (Condition(floor, ">", 0.0, "the least impact velocity is positive") for floor in left)
-    return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked), *least)
+    return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in requested), *least)
 
 
 def _format_value(value: float, unit: str) -> str:
@@ -280,22 +294,22 @@ def _changed_parameters(source: KernelSource, condition: Condition, value: Mappi
 
 def expected(source: KernelSource, address: str) -> str:
     """Return the conditions on a parameter as text: "> 0 and <= 1"."""
-    asked = [(c.relation, c.bound) for c in conditions(source) if c.address == address]
-    return " and ".join(f"{one} {bound if isinstance(bound, str) else f'{bound:g}'}" for one, bound in asked)
+    requested = [(c.relation, c.bound) for c in conditions(source) if c.address == address]
+    return " and ".join(f"{one} {bound if isinstance(bound, str) else f'{bound:g}'}" for one, bound in requested)
 
 
 def _explain_zero(address: str, key: str) -> tuple[str, str]:
     """Return message and hint for the address of a literal 0, which is not part of the equations."""
-    told = f"{address} is 0, written so or left out, and stands in no equation: it is no number that can be set"
+    message = f"{address} is 0, written so or left out, and stands in no equation: it is no number that can be set"
     hint = f"write a parameter there (parameters: {{own: 0 …}} with its unit, {key}: own) and set that"
-    return told, f"{hint}; or write another number than 0 there, which can be set, to 0 too"
+    return message, f"{hint}; or write another number than 0 there, which can be set, to 0 too"
 
 
 def _unknown_parameter(name: str, source: KernelSource) -> UnknownNameError:
     """Return the error for an address that is not a run-time parameter, with the best hint."""
-    told, hint = as_parameter(source, name)
-    if told:
-        return UnknownNameError(told, None, hint)
+    message, hint = as_parameter(source, name)
+    if message:
+        return UnknownNameError(message, None, hint)
     start, _, coordinate = name.partition(".")[2].partition(".")
     if start in ("guess", "set", "rates") and name.startswith("start.") and coordinate.count(".") == 1:
         hint = f"expected one that the file's start has; gudgeon.load(..., overrides={{{name!r}: ...}}) brings it in"

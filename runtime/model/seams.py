@@ -12,7 +12,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.curves import Curve
 from gudgeon.language.tree import Call, CurveCall, curve_calls, from_json, names
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import of_time
+from gudgeon.model.written import values_of_time
 
 SAMPLES = 1025  # times at which the run is tested for passing the end of a period
 SAME = 1e-9  # relative difference up to which derivatives count as equal
@@ -20,7 +20,7 @@ _ORDERS = ("value", "slope", "second derivative")
 _SO = ("it", "its rate", "its acceleration")  # quantities of the drive
 
 
-def seams(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
+def curve_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf) -> Iterator[str]:
     """Yield a note on each drive whose value, rate or acceleration jumps where `mod` restarts in t0 < t < t1."""
     for info in source.written:
         if not (info.address.startswith("drives.") and '"curve"' in info.tree and '"mod"' in info.tree):
@@ -28,7 +28,7 @@ def seams(source: KernelSource, p: Array, t0: float = 0.0, t1: float = math.inf)
         for call in curve_calls(from_json(json.loads(info.tree))):
             inner = call.arguments[0]
             if isinstance(inner, Call) and inner.function == "mod" and _restarts_within(source, p, inner, t0, t1):
-                period = float(of_time(source, p, inner.arguments[1], np.array([t0]))[0])
+                period = float(values_of_time(source, p, inner.arguments[1], np.array([t0]))[0])
                 yield from _note_jump(call, period, info.address.split(".")[1])
 
 
@@ -39,7 +39,7 @@ def _restarts_within(source: KernelSource, p: Array, inner: Call, t0: float, t1:
         return False
     with np.errstate(all="ignore"):
         times = np.linspace(t0, t1, SAMPLES)[1:-1] if math.isfinite(t1) else np.zeros(0)
-        turns = np.floor(of_time(source, p, of, times) / of_time(source, p, period, times))
+        turns = np.floor(values_of_time(source, p, of, times) / values_of_time(source, p, period, times))
     return not math.isfinite(t1) or bool(np.ptp(turns) != 0.0)
 
 

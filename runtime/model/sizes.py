@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import contour_of, narrowest
+from gudgeon.model.contours import contour_of, narrowest_clearances
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 SMALL_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
@@ -58,17 +58,17 @@ def _size_columns(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.in
     return kept["size_columns"]
 
 
-def far_clearances(source: KernelSource, p: Array) -> Array:
+def unresolved_clearances(source: KernelSource, p: Array) -> Array:
     """Return a mask (..., n_clearances) of clearances too small for doubles, from p (..., n_slots + n_derived).
 
     The eccentricity is a difference of coordinates, each of which is rounded to 2^-52 of its value.
     """
-    return np.asarray(narrowest(source, p) < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
+    return np.asarray(narrowest_clearances(source, p) < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
 
 
-def far_clearance(source: KernelSource, p: Array) -> str:
+def unresolved_clearance_message(source: KernelSource, p: Array) -> str:
     """Return a message on the first clearance too small for doubles in one run; "" if there is none."""
-    for joint, is_far in zip(source.clearances, far_clearances(source, p).tolist(), strict=True):
+    for joint, is_far in zip(source.clearances, unresolved_clearances(source, p).tolist(), strict=True):
         if is_far:
             size, own = float(mechanism_sizes(source, p)), contour_of(source, p, joint.name)
             c = float(p[joint.clearance]) + (0.0 if own is None else float(own.min()))
@@ -81,7 +81,7 @@ def far_clearance(source: KernelSource, p: Array) -> str:
     return ""
 
 
-def zero_inertia(value: Mapping[str, float], derived: str) -> str:
+def zero_inertia_message(value: Mapping[str, float], derived: str) -> str:
     """Return a message on a derived value that is not finite because a moment of inertia is 0; else ""."""
     zero = next((a for a in value if a.startswith("bodies.") and a.endswith(".inertia") and value[a] == 0.0), "")
     hint = "expected > 0, or 0 in the file, from which equations without it are derived"

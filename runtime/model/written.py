@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.defined import is_defined_everywhere, may_be_undefined, undefined_part
+from gudgeon.language.defined import find_undefined_part, is_total_expression, may_be_undefined
 from gudgeon.language.tree import (
     Binary,
     Call,
@@ -81,7 +81,7 @@ def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> V
     return value
 
 
-def of_time(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
+def values_of_time(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
     """Return the values (N,) of an expression of t and parameters at times t (N,)."""
     slots = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
     return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else slots[f"parameters.{path}"]), t.shape)
@@ -100,9 +100,9 @@ def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array, ahead: 
     later = (*(reach * max(1.0, abs(t)) for reach in _REACH), *(ahead * share for share in (0.01, 0.1, 0.5, 1.0)))
     for h in (0.0, *later):
         with np.errstate(invalid="ignore"):  # a velocity may be infinite
-            told = _message_at(source, found, p, t + h, q + h * v, v)
-        if told:
-            return told
+            message = _message_at(source, found, p, t + h, q + h * v, v)
+        if message:
+            return message
     return ""
 
 
@@ -113,8 +113,8 @@ def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array,
     """
     found = trees(source, ("drives", "forces"))
     for h in (0.0, float(np.spacing(t))):
-        if told := _message_at(source, found, p, t + h, q, v):
-            return told
+        if message := _message_at(source, found, p, t + h, q, v):
+            return message
     reach = max(ahead, 1e-6 * max(1.0, abs(t)))
     for info, tree in found:
         for call in calls(tree, "where"):
@@ -129,8 +129,8 @@ def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array,
                 if ahead_of_zero(low) != ahead_of_zero(high):
                     ends = _neighbours(ahead_of_zero, low, high)
                     words = (_branch_message(source, p, info, call, t + h, q + h * v, v) for h in ends)
-                    if told := next(filter(None, words), ""):
-                        return told
+                    if message := next(filter(None, words), ""):
+                        return message
     return ""
 
 
@@ -146,15 +146,15 @@ def undefined_at_a_corner(
 
         def ahead_of_zero(time: float, gap: Expr = gap) -> bool:
             """Return whether the compared difference is negative at a time."""
-            return bool(of_time(source, p, gap, np.array([time]))[0] < 0.0)
+            return bool(values_of_time(source, p, gap, np.array([time]))[0] < 0.0)
 
-        before = of_time(source, p, gap, t) < 0.0
+        before = values_of_time(source, p, gap, t) < 0.0
         for k in np.flatnonzero(before[1:] != before[:-1])[:MOST_CORNERS].tolist():
             for end in _neighbours(ahead_of_zero, float(t[k]), float(t[k + 1])):
                 values = values_at(source, p, end, none, none)
                 if any(other is call for other in reached(tree, "where", values)):
-                    told = _branch_message(source, p, info, call, end, none, none)
-                    found += [(told, end)] if told else []
+                    message = _branch_message(source, p, info, call, end, none, none)
+                    found += [(message, end)] if message else []
     return min(found, key=lambda one: one[1], default=None)
 
 
@@ -173,7 +173,7 @@ def _branch_message(source: KernelSource, p: Array, info: WrittenInfo, call: Cal
     for k, (value, meant) in enumerate(((then, left <= right), (otherwise, left >= right))):
         if meant and not math.isfinite(value):
             place = f"line {info.line}, column {info.column}"
-            why = culprit(source, call.arguments[2 + k], values)
+            why = explain_culprit(source, call.arguments[2 + k], values)
             corner = f"at t = {t:.9g} s, where its where changes over"
             return f"{info.address} ({place}): {corner}, a branch is {value}: {why}"
     return ""
@@ -181,23 +181,23 @@ def _branch_message(source: KernelSource, p: Array, info: WrittenInfo, call: Cal
 
 def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
     """Return why a drive ceases to be a number between t0 and t1 (s), and when; ("", t1) if none does."""
-    none, first, told = np.zeros(0), t1, ""
+    none, first, message = np.zeros(0), t1, ""
     for info, tree in trees(source, ("drives",)):
         times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just after the end
-        wrong = np.flatnonzero(~np.isfinite(of_time(source, p, tree, times)))
+        wrong = np.flatnonzero(~np.isfinite(values_of_time(source, p, tree, times)))
         if not len(wrong):
             continue
         high = float(times[wrong[0]])
         low = float(times[max(wrong[0] - 1, 0)])
         for _ in range(60):
             middle = 0.5 * (low + high)
-            if np.isfinite(of_time(source, p, tree, np.array([middle])))[0]:
+            if np.isfinite(values_of_time(source, p, tree, np.array([middle])))[0]:
                 low = middle
             else:
                 high = middle
-        if not told or high < first:
-            first, told = high, _message_at(source, [(info, tree)], p, high, none, none)
-    return told, first
+        if not message or high < first:
+            first, message = high, _message_at(source, [(info, tree)], p, high, none, none)
+    return message, first
 
 
 def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tuple[str, float]:
@@ -213,7 +213,7 @@ def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tu
     return "", float(times[-1])
 
 
-def with_undefined(run: Result, evaluation: Evaluation) -> Result:
+def with_notes_on_undefined(run: Result, evaluation: Evaluation) -> Result:
     """Return the run with notes on outputs that are not numbers although all their inputs are.
 
     Drives and forces by a `where` that compares values that are not numbers are noted too: C takes one branch.
@@ -227,7 +227,7 @@ def with_undefined(run: Result, evaluation: Evaluation) -> Result:
     for address, tree in compared.items():
         if all(used.path in probe.parameters or used.path in probe for used in names(tree)):
             outputs[address] = tree
-    odd = [told for name, tree in outputs.items() if (told := _message_if_undefined(probe, name, tree))]
+    odd = [message for name, tree in outputs.items() if (message := _message_if_undefined(probe, name, tree))]
     notes = (*run.diagnostics.notes, *odd)
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if odd else run
 
@@ -240,7 +240,7 @@ def _comparing_expressions(source: KernelSource) -> dict[str, Expr]:
         kept["compared"] = {
             address: tree
             for address, tree in found.items()
-            if not all(is_defined_everywhere(one) for call in calls(tree, "where") for one in call.arguments[:2])
+            if not all(is_total_expression(one) for call in calls(tree, "where") for one in call.arguments[:2])
         }
     return dict(kept["compared"])
 
@@ -255,7 +255,7 @@ def _message_if_undefined(run: Result, name: str, tree: Expr) -> str:
     if not wrong.any():
         return ""
     k, count = int(wrong.argmax()), int(wrong.sum())
-    why = culprit(run.source, tree, lambda path: float(parts[path][k]))
+    why = explain_culprit(run.source, tree, lambda path: float(parts[path][k]))
     others = f"; it is none at {count} of {len(wrong)} samples" if count > 1 else ""
     return f"{name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
 
@@ -269,11 +269,12 @@ def _message_at(
         value = float(evaluate(tree, values))
         if not math.isfinite(value):
             place = f"line {info.line}, column {info.column}"
-            return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {culprit(source, tree, values)}"
+            why = explain_culprit(source, tree, values)
+            return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {why}"
     return ""
 
 
-def culprit(source: KernelSource, tree: Expr, values: Values) -> str:
+def explain_culprit(source: KernelSource, tree: Expr, values: Values) -> str:
     """Return a text on the smallest part of an expression that is not finite although its inputs are."""
     way = _path_to_culprit(tree, values)
     called = _expanded_expressions(source)
@@ -322,18 +323,18 @@ def _parts(tree: Expr, values: Values) -> tuple[Expr, ...]:
 def _describe_part(tree: Expr, values: Values) -> str:
     """Return a description of an expression with the values of its parts: "1 divided by 0"."""
     numbers = [float(evaluate(part, values)) for part in _parts(tree, values)]
-    told = [f"{number:.12g}" for number in numbers]
+    message = [f"{number:.12g}" for number in numbers]
     match tree:
         case Binary(operator="/"):
-            return f"{told[0]} divided by {told[1]}"
+            return f"{message[0]} divided by {message[1]}"
         case Binary(operator="**"):
-            return f"the power {told[1]} of {told[0]}"
+            return f"the power {message[1]} of {message[0]}"
         case Binary(operator=operator):
-            return f"{told[0]} {operator} {told[1]}"
+            return f"{message[0]} {operator} {message[1]}"
         case CurveCall(function=function, curve=curve):
             return f"curve {function} {curve.outside(numbers[0])}"
         case Call(function=function):
-            return f"{function} of {', '.join(told)}"
+            return f"{function} of {', '.join(message)}"
     return "a number that is not finite"
 
 
@@ -411,7 +412,7 @@ def undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generi
         known = {name: float(p[k]) for name, k in one.slots.items()}
         if one.slot >= 0 and is_given[one.slot]:
             continue
-        if (value := undefined_part(one.tree, known)) is not None:
+        if (value := find_undefined_part(one.tree, known)) is not None:
             by = ", ".join(f"{name} = {number:.6g}" for name, number in known.items())
             return f"{one.address} has a part that is {value} with {by}\n  {REMEDY}"
     return ""
@@ -450,6 +451,6 @@ def _read_partials(source: KernelSource) -> list[Partial]:
         expr = from_json(json.loads(tree))
         used = dict.fromkeys(name.path for name in names(expr))
         slots = {name: place.get(f"parameters.{name}", place.get(name, -1)) for name in used}
-        if not is_defined_everywhere(expr):
+        if not is_total_expression(expr):
             found.append(Partial(address, expr, k, {name: at for name, at in slots.items() if at >= 0}))
     return found

@@ -21,9 +21,9 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.threads import available_threads
 from gudgeon.language import tree
+from gudgeon.language.argument_checks import is_whole, message, refuse
+from gudgeon.language.argument_checks import names as plain_names
 from gudgeon.language.shown import counted
-from gudgeon.language.wanted import is_whole, refuse, told
-from gudgeon.language.wanted import names as plain_names
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.peaks import BatchPeaks, batch_extremes
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     import xarray
 
     from gudgeon.results.samples import AtEvents
-    from gudgeon.results.wear import Rubbed
+    from gudgeon.results.wear import SlidingLoads
 
 STATES = "states"
 BLOCK, AHEAD = 8, 4  # runs of a block, which one thread evaluates; blocks per thread that are evaluated in advance
@@ -124,7 +124,9 @@ class Batch:
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
     extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, of the series in `peaks`
-    rubbed: tuple[tuple[Rubbed, ...], ...] = ()  # loads of the surfaces for wear, where a study needs them; not saved
+    rubbed: tuple[
+        tuple[SlidingLoads, ...], ...
+    ] = ()  # loads of the surfaces for wear, where a study needs them; not saved
 
     def __len__(self) -> int:
         """Return the number of runs."""
@@ -180,7 +182,7 @@ class Batch:
         if not is_whole(key):
             refuse("a run of a batch", key, "its number, or the name of a series")
         if not -len(self) <= key < len(self):
-            raise IndexError(f"run {told(key)}: there are {len(self)}")
+            raise IndexError(f"run {message(key)}: there are {len(self)}")
         _ = self._states
         return self.result(int(key) % len(self))
 
@@ -296,7 +298,7 @@ def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
     return tuple(Failure(i, errors[i]) for i in sorted(errors))
 
 
-def wanted_names(source: KernelSource, names: str | Iterable[str], what: str = "names") -> list[str]:
+def check_series_names(source: KernelSource, names: str | Iterable[str], what: str = "names") -> list[str]:
     """Return the names of series as a list without repetitions. Raises UnknownNameError with the nearest name."""
     found, known = list(dict.fromkeys(plain_names(names, what, "a list of names of series"))), blank(source)
     for name in found:
@@ -304,18 +306,18 @@ def wanted_names(source: KernelSource, names: str | Iterable[str], what: str = "
     return found
 
 
-def parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
+def evaluation_parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
     """Return the parts of an Evaluation that the series `names` need."""
     known = catalogue(source)
     return frozenset(part for name in names if name != "t" for part in known[name].parts)
 
 
-def reads_works(source: KernelSource, name: str) -> bool:
+def depends_on_works(source: KernelSource, name: str) -> bool:
     """Return whether a series of a scene is computed from the works, itself or as an output's expression."""
     entry = catalogue(source)[name]
     if name in source.outputs:
         used = tree.names(tree.from_json(source.outputs[name]))
-        return any(reads_works(source, one.path) for one in used if one.path in catalogue(source))
+        return any(depends_on_works(source, one.path) for one in used if one.path in catalogue(source))
     return name == "energy.residual" or (entry.stored is not None and entry.stored[0] == "work")
 
 
@@ -345,7 +347,7 @@ def given_columns(batch: Batch) -> dict[str, Array]:
 
 def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     """Return the named series of all runs, (n, N) each, NaN where a run has no sample. Raises SingularError."""
-    names = wanted_names(batch.source, names)
+    names = check_series_names(batch.source, names)
     check_stored(batch, names)
     found = {name: column for name in names if (column := _stored_column(batch, name)) is not None}
     evaluated = [name for name in names if name not in found]
@@ -377,7 +379,7 @@ def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
     """
     check_stored(batch, names)
     make_row = _stored_row if batch.states is None else _evaluated_row
-    parts = parts_of(batch.source, names)
+    parts = evaluation_parts_of(batch.source, names)
 
     def block(first: int) -> list[Row]:
         """Return the rows of BLOCK runs from `first` on."""

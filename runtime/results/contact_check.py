@@ -19,7 +19,7 @@ from gudgeon.contract.boundary import SHALLOW
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import contour_of, corner_at, depth_at
+from gudgeon.model.contours import contour_of, corner_approach, depth_at
 from gudgeon.results.series import point_motion
 
 if TYPE_CHECKING:
@@ -192,7 +192,7 @@ def _wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
     tilt = _body_angle(run, joint.second) - _body_angle(run, joint.first) - mounted
     distance = _point_positions(run, second) - _point_positions(run, first)
     offset = distance[:, 1] * np.cos(direction) - distance[:, 0] * np.sin(direction)
-    return np.asarray(corner_at(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
+    return np.asarray(corner_approach(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
 
 
 def _has_mounting_angle(run: Result, joint: ClearanceInfo) -> bool:

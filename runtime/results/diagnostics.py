@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.audit import Finding
 from gudgeon.errors import UnknownNameError
-from gudgeon.language.wanted import told
-from gudgeon.results.wear import Rubbed
+from gudgeon.language.argument_checks import message
+from gudgeon.results.wear import SlidingLoads
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import CompiledModel
@@ -71,7 +71,7 @@ class JointExamined:
     joint: str
     impacting: float  # fraction of the time that lies between an onset and the first maximum of the penetration
     F_rms: float  # N, over all of the time
-    taken: float  # J, absorbed by normal contact forces during approach; NaN for rigid surfaces
+    used: float  # J, absorbed by normal contact forces during approach; NaN for rigid surfaces
     returned: float  # J, returned by normal contact forces during separation; the rest was damped
     friction: float  # J, dissipated by tangential contact forces
     film: float  # J, dissipated by the film
@@ -151,7 +151,7 @@ class Diagnostics:
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series in `peaks`
     examined: Examined | None = None  # results of additional runs, for a report; None: not requested
     audit: tuple[Finding, ...] = ()  # largest value of each check, as a multiple of its limit; empty: switched off
-    rubbed: tuple[Rubbed, ...] = ()  # over all steps, of joints whose wear was requested; not saved
+    rubbed: tuple[SlidingLoads, ...] = ()  # over all steps, of joints whose wear was requested; not saved
 
     def peak(self, joint: str) -> Peak:
         """Return the peak at a joint with play. Raises UnknownNameError for any other name."""
@@ -159,7 +159,7 @@ class Diagnostics:
             if isinstance(joint, str) and peak.joint == joint:
                 return peak
         known = ", ".join(peak.joint for peak in self.peaks) or "none"
-        raise UnknownNameError(f"no peak of {told(joint)}: expected a joint with play", hint=f"there are: {known}")
+        raise UnknownNameError(f"no peak of {message(joint)}: expected a joint with play", hint=f"there are: {known}")
 
     def to_json(self) -> str:
         """Return the diagnostics as JSON without NaN or infinity, which RFC 8259 lacks: they are the words "nan",

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import positive
+from gudgeon.language.argument_checks import positive
 from gudgeon.results.motion import Motion, classify
 
 if TYPE_CHECKING:

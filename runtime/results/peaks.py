@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 ENDS = ("max", "t_max", "min", "t_min")
-FEW, TOLD = 3, 3  # smallest number of impacts of a Zeno point; Zeno points that are reported one by one
+FEW, MESSAGES = 3, 3  # smallest number of impacts of a Zeno point; Zeno points that are reported one by one
 
 
 @dataclass(frozen=True)
@@ -203,34 +203,34 @@ def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> N
         own = own[np.flatnonzero(np.diff(runs[own], prepend=-1))]  # the first of each run
         run, begun = runs[own], contacts[own]
         out["first_contact"][run, joint] = begun["t_on"]
-        out["first_peak"][run, joint] = np.where(is_blow(begun), np.nan, begun["F_peak"])
+        out["first_peak"][run, joint] = np.where(is_rigid_impact(begun), np.nan, begun["F_peak"])
     return out
 
 
-def is_blow(impacts: NDArray[Any]) -> NDArray[np.bool_]:
+def is_rigid_impact(impacts: NDArray[Any]) -> NDArray[np.bool_]:
     """Return which of the impacts (k,) have zero duration: impacts of rigid surfaces."""
     found: NDArray[np.bool_] = impacts["t_off"] == impacts["t_on"]
     return found
 
 
-def first_force(impacts: NDArray[Any]) -> float:
+def first_contact_force(impacts: NDArray[Any]) -> float:
     """Return the largest force of a joint's first contact, N; NaN for an impact of rigid surfaces, which has an impulse
     instead.
     """
-    return math.nan if is_blow(impacts[:1])[0] else float(impacts["F_peak"][0])
+    return math.nan if is_rigid_impact(impacts[:1])[0] else float(impacts["F_peak"][0])
 
 
-def piled_up(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
+def find_zeno_points(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
     """Yield a sentence for each Zeno point: impacts in ever shorter intervals until the contact closes."""
     for k, name in enumerate(joints):
         own = impacts[impacts["joint"] == k]
         closings = [(n, float(own["t_on"][i])) for i in range(len(own)) if (n := _bounces_before(own, i)) >= FEW]
-        for count, t in closings[:TOLD]:
+        for count, t in closings[:MESSAGES]:
             yield (
                 f"{name}: {count} bounces piled up until t = {t:.9g} s, where the contact is closed: they part slower"
                 " than the law's threshold there"
             )
-        if len(closings) > TOLD:
+        if len(closings) > MESSAGES:
             yield f"{name}: bounces piled up {len(closings)} times, the last until t = {closings[-1][1]:.9g} s"
 
 
@@ -238,7 +238,7 @@ def _bounces_before(impacts: NDArray[Any], i: int) -> int:
     """Return how many impacts of a joint, each slower than the one before, end in its lasting contact i; 0 for an
     impact.
     """
-    if bool(is_blow(impacts[i : i + 1])[0]):
+    if bool(is_rigid_impact(impacts[i : i + 1])[0]):
         return 0
     count, slower = 0, 0.0
     for impact in impacts[:i][::-1]:

@@ -19,9 +19,9 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, no_events
+from gudgeon.language.argument_checks import text
 from gudgeon.language.shown import counted
-from gudgeon.language.wanted import text
-from gudgeon.model.choices import said
+from gudgeon.model.choices import specified
 from gudgeon.model.evaluation import PARTS, Evaluation
 from gudgeon.model.left_limit import evaluation_times_of
 from gudgeon.results.diagnostics import Diagnostics, Extremes
@@ -115,7 +115,7 @@ class Result(Shown):
         """Values of all run-time parameters and names of choices, by address; `parameters` of the file also by short
         name.
         """
-        values = {slot.address: said(slot, float(x)) for slot, x in zip(self.source.slots, self.p, strict=False)}
+        values = {slot.address: specified(slot, float(x)) for slot, x in zip(self.source.slots, self.p, strict=False)}
         short = {key.removeprefix("parameters."): v for key, v in values.items() if key.startswith("parameters.")}
         return MappingProxyType(values | short)
 
@@ -176,7 +176,7 @@ class Result(Shown):
     def final(self) -> State:
         """The last sample as a state to restart from."""
         source, slots = self.source, zip(self.source.slots, self.given, self.is_given, strict=True)
-        overridden = {slot.address: said(slot, float(x)) for slot, x, is_given in slots if is_given}
+        overridden = {slot.address: specified(slot, float(x)) for slot, x, is_given in slots if is_given}
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
         return State(
             source.mechanism,
@@ -249,8 +249,8 @@ class Result(Shown):
         """
         from gudgeon.results.figures import animation
 
-        wanted = animation.wanted_of(self, seconds, rate, points, velocities, forces, progress)
-        return animation.animate(self, path, wanted)
+        expected = animation.check_animation_options(self, seconds, rate, points, velocities, forces, progress)
+        return animation.animate(self, path, expected)
 
     def report(self) -> RunReport:
         """Return a report on forces in joints with play, energies and accuracy: `print`, `.to_html()`, `.to_dict()`."""
@@ -360,7 +360,7 @@ def read(path: str | os.PathLike[str]) -> Result:
 
 
 @dataclass(eq=False)
-class Bare(Result):
+class EvaluatedSamples(Result):
     """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics."""
 
     parts: frozenset[str] = PARTS
@@ -385,12 +385,12 @@ def bare(
     memory: Array,
     state: Array,
     parts: frozenset[str],
-) -> Bare:
+) -> EvaluatedSamples:
     """Return a result of samples as C stores them, which evaluates `parts` only; works are NaN in a scene without
     masses.
     """
     slots = len(source.slots)
-    return Bare(
+    return EvaluatedSamples(
         compiled=compiled,
         source=source,
         p=p,
@@ -409,7 +409,7 @@ def bare(
     )
 
 
-def blank(source: KernelSource) -> Bare:
+def blank(source: KernelSource) -> EvaluatedSamples:
     """Return a result without samples, which has the names and units of a scene's series."""
     n, joints = len(source.coordinates), len(source.clearances)
     p = np.full(len(source.slots) + len(source.derived), np.nan)

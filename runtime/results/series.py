@@ -30,9 +30,9 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import JointInfo, KernelSource, PointInfo
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language import tree as expression_tree
+from gudgeon.language.argument_checks import message, refuse, text, whole
 from gudgeon.language.names import near
 from gudgeon.language.output_units import unit_of
-from gudgeon.language.wanted import refuse, text, told, whole
 from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
@@ -254,11 +254,16 @@ def _clearance_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield the series of each joint with play: forces, eccentricity, penetration, contact state."""
     for k, joint in enumerate(source.clearances):
         at, parts = f": {'corner' if joint.at_wall else 'joint'} {joint.name} with play", frozenset({"clearance"})
-        told = AT_WALL if joint.at_wall else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
+        message = (
+            AT_WALL if joint.at_wall else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
+        )
         for name, (column, unit, meaning) in CLEARANCE.items():
-            yield f"{joint.name}.{name}", _evaluated_series(unit, told.get(name, meaning) + at, "clearance", k, column)
-        yield f"{joint.name}.F", Series("N", told["F"] + at, partial(_magnitude, name=joint.name), parts)
-        yield f"{joint.name}.eps", Series("", told["eps"] + at, partial(_eccentricity_ratio, joint=joint), parts)
+            yield (
+                f"{joint.name}.{name}",
+                _evaluated_series(unit, message.get(name, meaning) + at, "clearance", k, column),
+            )
+        yield f"{joint.name}.F", Series("N", message["F"] + at, partial(_magnitude, name=joint.name), parts)
+        yield f"{joint.name}.eps", Series("", message["eps"] + at, partial(_eccentricity_ratio, joint=joint), parts)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
         yield f"{joint.name}.state", _stored_series("", f"{states}{at}", "state", k)
         latched = _stored_series("m/s", f"rate of penetration at the last onset{at}", "memory", k)
@@ -321,8 +326,8 @@ def _energy_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Yield the series of energies, works and the energy residual."""
     for k, name in enumerate(("kinetic", "potential")):
         yield f"energy.{name}", _evaluated_series("J", f"{name} energy", "energy", k)
-    told = "kinetic + potential energy less their start less all work"
-    yield "energy.residual", Series("J", told, _energy_residual, frozenset({"energy"}))
+    message = "kinetic + potential energy less their start less all work"
+    yield "energy.residual", Series("J", message, _energy_residual, frozenset({"energy"}))
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
         yield f"work.{name}", _stored_series("J", meaning, "work", k)
@@ -365,8 +370,8 @@ def _energy_residual(run: Result) -> Array:
 def _output_series(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
     """Return the series of an output of the mechanism file, with the unit of its expression."""
     expression = expression_tree.from_json(tree)
-    wanted = {used.path for used in expression_tree.names(expression)}
-    units = {"t": "s"} | {path: known[path].unit for path in wanted if path in known}
+    expected = {used.path for used in expression_tree.names(expression)}
+    units = {"t": "s"} | {path: known[path].unit for path in expected if path in known}
     units |= {slot.address.removeprefix("parameters."): slot.unit for slot in source.slots}
     units |= {slot.address: slot.unit for slot in source.slots}
 
@@ -375,7 +380,7 @@ def _output_series(source: KernelSource, name: str, tree: Any, known: Mapping[st
         values = expression_tree.evaluate(expression, run.value_of)
         return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
 
-    parts = frozenset(part for path in wanted if path in known for part in known[path].parts)
+    parts = frozenset(part for path in expected if path in known for part in known[path].parts)
     return Series(unit_of(expression, units.get), f"output {name}", compute, parts)
 
 
@@ -386,7 +391,7 @@ def unknown_series(
     reason.
     """
     if not isinstance(name, str):
-        return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
+        return UnknownNameError(f"nothing is named {message(name)}", hint="a name is a text: run.names lists all")
     if name in parameters:
         alike = ", ".join(path for path in known if path.rpartition(".")[2] == name)
         hint = f'its value is run.parameters["{name}"]' + (f"; series: {alike}" if alike else "")
@@ -407,11 +412,11 @@ def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
     """Return names of series of a scene without repetitions. Raises UnknownNameError for a name that the scene
     lacks.
     """
-    known, wanted = catalogue(source), list(names)
-    for name in wanted:
+    known, expected = catalogue(source), list(names)
+    for name in expected:
         if not isinstance(name, str) or name not in known:
             raise unknown_series(source, known, name, parameter_names(source))
-    return tuple(dict.fromkeys(wanted))
+    return tuple(dict.fromkeys(expected))
 
 
 def parameter_names(source: KernelSource) -> set[str]:
@@ -445,8 +450,10 @@ def rate_of(t: Array) -> float:
     """Return the sampling rate, Hz. Raises BadValueError for samples at uneven times or fewer than nine."""
     steps = np.diff(t)
     if len(steps) < 8 or not np.all(np.abs(steps - steps.mean()) <= EVEN * steps.mean()):
-        told = "a spectrum or a filter takes nine samples at even times or more"
-        raise BadValueError(told, hint="simulate(…, output=N) has equal intervals; an event that ends a run adds one")
+        message = "a spectrum or a filter takes nine samples at even times or more"
+        raise BadValueError(
+            message, hint="simulate(…, output=N) has equal intervals; an event that ends a run adds one"
+        )
     return float(1.0 / steps.mean())
 
 
@@ -479,8 +486,8 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
     rate, order = rate_of(t), whole(order, "order", 1, MOST_ORDER)
     check_finite(values)
     if not 0.0 < cutoff < 0.499 * rate:
-        told = f"cutoff: {cutoff:g} Hz with {rate:g} samples a second: expected one below half of that"
-        raise BadValueError(told, hint="simulate with a larger output")
+        message = f"cutoff: {cutoff:g} Hz with {rate:g} samples a second: expected one below half of that"
+        raise BadValueError(message, hint="simulate with a larger output")
     warped = np.tan(np.pi * cutoff / rate)  # of the bilinear transform
     if not causal:
         warped *= (2.0**0.5 - 1.0) ** (-1.0 / (2.0 * order))

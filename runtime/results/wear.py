@@ -30,7 +30,7 @@ LAWS = ("archard", "reye")
 
 
 @dataclass(frozen=True)
-class Rubbing:
+class SlidingRequest:
     """A request to accumulate the sliding loads of a joint with play over the interval from `begin` to `end` (s)."""
 
     joint: str
@@ -41,13 +41,13 @@ class Rubbing:
 
 
 @dataclass(frozen=True, eq=False)
-class Rubbed:
+class SlidingLoads:
     """The accumulated sliding loads of a joint, by cells of both circumferences.
 
     Cells count counterclockwise from angle 0 of the body's own frame.
     """
 
-    asked: Rubbing  # the request
+    requested: SlidingRequest  # the request
     load: Array  # (2, points) ∫ F_n |v_t| dt, N·m, by cells of the bearing and of the journal
     friction: Array  # (2, points) ∫ |F_t v_t| dt, J
     slip: float  # m, ∫ |v_t| dt in contact
@@ -58,7 +58,7 @@ class Rubbed:
 
     def depth(self, side: int, law: str = "archard", rate: float = 1.0) -> Array:
         """Return the wear depth (points,), m, of the bearing (side 0) or the journal (side 1); rate is k/H in 1/Pa."""
-        area = self.radii[side] * 2.0 * np.pi / self.asked.points * self.length
+        area = self.radii[side] * 2.0 * np.pi / self.requested.points * self.length
         return np.asarray(rate * (self.load if law == "archard" else self.friction)[side] / area)
 
 
@@ -84,7 +84,7 @@ class Surface:
     @property
     def deepest_angle(self) -> float:
         """Angle of the middle of the deepest cell, rad, within 0 and 2π; NaN without wear."""
-        return float(middles(len(self.depth))[self.depth.argmax()]) if self.deepest > 0.0 else np.nan
+        return float(cell_angles(len(self.depth))[self.depth.argmax()]) if self.deepest > 0.0 else np.nan
 
     @property
     def depth_per_hour(self) -> Array:
@@ -128,7 +128,7 @@ class Wear:
         import xarray
 
         sides = {"bearing": self.bearing, "journal": self.journal}
-        told = {
+        message = {
             f"{name}_{key}": value
             for name, side in sides.items()
             for key, value in (("volume", side.volume), ("arc", side.arc()), ("deepest_angle", side.deepest_angle))
@@ -138,7 +138,7 @@ class Wear:
             for name, side in sides.items()
         }
         own = {"joint": self.joint, "law": self.law, "t_begin": self.t[0], "t_end": self.t[1], "slip": self.slip}
-        return xarray.Dataset(columns, {"angle": ("angle", self.angle, {"units": "rad"})}, own | told)
+        return xarray.Dataset(columns, {"angle": ("angle", self.angle, {"units": "rad"})}, own | message)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a table with a row for each cell: angle (rad) as index, depth of the bearing and of the journal
@@ -150,7 +150,7 @@ class Wear:
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write angle (rad) and both depths (m) as CSV, with a line for each cell and all digits."""
         from gudgeon.files.writing import write_bytes
-        from gudgeon.language.wanted import path as named
+        from gudgeon.language.argument_checks import path as named
 
         rows = zip(self.angle.tolist(), self.bearing.depth.tolist(), self.journal.depth.tolist(), strict=True)
         text = "".join(f"{angle!r},{bearing!r},{journal!r}\n" for angle, bearing, journal in rows)
@@ -219,9 +219,9 @@ class Worn:
         contour = np.full((len(names), *several[0].contour.shape[:2], slots), np.nan)
         for k, one in enumerate(several):
             contour[k, :, :, : one.contour.shape[2]] = one.contour
-        of_round, told = ("joint", "round", "run"), "of the bearing, beyond its circle, before each round"
+        of_round, message = ("joint", "round", "run"), "of the bearing, beyond its circle, before each round"
         columns = {
-            "contour": (("joint", "state", "run", "slot"), contour, {"units": "m", "long_name": f"depth {told}"}),
+            "contour": (("joint", "state", "run", "slot"), contour, {"units": "m", "long_name": f"depth {message}"}),
             "depth": ((*of_round, "angle"), np.stack([one.depth for one in several]), {"units": "m"}),
             "journal": ((*of_round, "angle"), np.stack([one.journal for one in several]), {"units": "m"}),
             "journal_volume": (of_round, np.stack([one.journal_volume for one in several]), {"units": "m^3"}),
@@ -230,19 +230,19 @@ class Worn:
             "peak": (of_round, np.stack([one.peak for one in several]), {"units": "N"}),
         }
         points = several[0].depth.shape[2]
-        places = {"joint": names, "angle": ("angle", middles(points), {"units": "rad"})}
+        places = {"joint": names, "angle": ("angle", cell_angles(points), {"units": "rad"})}
         own = {"law": self.law, "rate": self.rate, "scale": self.scale, "title": self.title}
         return xarray.Dataset(columns, places, own)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the Dataset of `to_xarray` as one complete NetCDF file, which `xarray.open_dataset` reads."""
         from gudgeon.files.writing import write_bytes
-        from gudgeon.language.wanted import path as named
+        from gudgeon.language.argument_checks import path as named
 
         write_bytes(named(path, "path"), bytes(self.to_xarray().to_netcdf(engine="h5netcdf")))
 
 
-def middles(points: int) -> Array:
+def cell_angles(points: int) -> Array:
     """Return the angles of the middles of `points` equal cells of a circumference, (points,), rad."""
     return (np.arange(points) + 0.5) * (2.0 * np.pi / points)
 

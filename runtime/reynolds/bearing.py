@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import is_whole, positive, told
-from gudgeon.model.arrays import taken
+from gudgeon.language.argument_checks import is_whole, message, positive
+from gudgeon.model.arrays import used
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -61,7 +61,7 @@ class Bearing:
 
 def pair(values: ArrayLike, name: str) -> tuple[float, float]:
     """Return two finite components. Raises BadValueError."""
-    x, y = taken(values, name, (2,), finite=True)
+    x, y = used(values, name, (2,), finite=True)
     return float(x), float(y)
 
 
@@ -75,7 +75,7 @@ def check_eccentricity(ratio: float) -> None:
 def choice(value: object, name: str, known: Sequence[str]) -> str:
     """Return the value if it is one of the known texts. Raises BadValueError."""
     if not isinstance(value, str) or value not in known:
-        raise BadValueError(f"{name} is {told(value)}: expected {', '.join(known[:-1])} or {known[-1]}")
+        raise BadValueError(f"{name} is {message(value)}: expected {', '.join(known[:-1])} or {known[-1]}")
     return value
 
 
@@ -85,11 +85,13 @@ def cells_of(cells: object, sealed: bool) -> tuple[int, int]:
     Both can be halved for the estimate of the error. Raises BadValueError.
     """
     if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_whole, cells)):
-        raise BadValueError(f"cells is {told(cells)}: expected two whole numbers, around and from the middle to an end")
+        raise BadValueError(
+            f"cells is {message(cells)}: expected two whole numbers, around and from the middle to an end"
+        )
     around, along = map(int, cells)
     if around < 32 or along < 4 or around % 4 or along % 4 or around * along > MAX_CELLS:
-        wanted = f"expected multiples of 4, at least (32, 4), of {MAX_CELLS} cells at most"
-        raise BadValueError(f"cells is ({around}, {along}): {wanted}")
+        expected = f"expected multiples of 4, at least (32, 4), of {MAX_CELLS} cells at most"
+        raise BadValueError(f"cells is ({around}, {along}): {expected}")
     return around, (0 if sealed else along)
 
 

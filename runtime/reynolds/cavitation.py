@@ -27,7 +27,9 @@ from gudgeon.waiting.asking import apart
 Flags = NDArray[np.bool_]
 MAX_MONOTONE_STEPS = 1000  # iterations of a monotone active set: at most one cell each; from a coarser grid a few
 MAX_STEPS = 100  # iterations of an active set that may cycle
-LONG = 20_000  # unknowns from which on the factorization (0.1 s) runs in a thread, so that Ctrl-C is immediate
+MIN_THREADED_UNKNOWNS = (
+    20_000  # unknowns from which on the factorization (0.1 s) runs in a thread, so that Ctrl-C is immediate
+)
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,7 @@ def _factor_lu(matrix: sparse.csr_matrix, **how: Any) -> Any:
     """Return SuperLU's factors L U. Raises GudgeonError if a pivot vanishes because the gap is almost closed."""
     columns = matrix.tocsc()
     try:
-        if columns.shape[0] < LONG:
+        if columns.shape[0] < MIN_THREADED_UNKNOWNS:
             return splu(columns, **how)
         return apart(lambda: splu(columns, **how))
     except RuntimeError as error:  # SuperLU raises it for a pivot of 0

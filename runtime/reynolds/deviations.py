@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
+from gudgeon.language.argument_checks import number_of, positive, text
 from gudgeon.language.names import unknown_name
-from gudgeon.language.wanted import number_of, positive, text
-from gudgeon.model.arrays import taken
+from gudgeon.model.arrays import used
 from gudgeon.reynolds.bearing import Bearing, check_finite
 from gudgeon.reynolds.equation import Array
 from gudgeon.reynolds.solver import CELLS
@@ -89,7 +89,7 @@ def deviation(
     """
     ratio = positive(l_over_d, "l_over_d")
     own = _make_bearing(ratio)
-    at, alpha = taken(eps, "eps", (None,), finite=True), taken(motion, "motion", (None,), finite=True)
+    at, alpha = used(eps, "eps", (None,), finite=True), used(motion, "motion", (None,), finite=True)
     if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
     by_law = _evaluate_law(law, ratio, at, alpha, keys)
@@ -144,14 +144,14 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
         raise MissingKeyError(f"film law {name}: {lacking[0]} is missing")
     numbers = {own.name: number_of(x, own.name) for own in law.parameters if (x := given[own.name]) is not None}
     law.check(numbers)
-    chosen: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
+    selected: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
     for own in law.options:
-        if not isinstance(chosen[own.name], (str, bool)) or chosen[own.name] not in own.values:
+        if not isinstance(selected[own.name], (str, bool)) or selected[own.name] not in own.values:
             expected = " or ".join(map(str, own.values))
-            raise BadValueError(f"film law {name}: {own.name} is {chosen[own.name]!r}: expected {expected}")
+            raise BadValueError(f"film law {name}: {own.name} is {selected[own.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
     pair = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
-    function = alone(law, numbers, chosen, pair)
+    function = alone(law, numbers, selected, pair)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
         """Return F_r and F_t (…, 2) in N."""

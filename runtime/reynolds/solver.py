@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import instance, number_of
+from gudgeon.language.argument_checks import instance, number_of
 from gudgeon.reynolds.bearing import (
     CAVITATIONS,
     ENDS,
@@ -172,15 +172,15 @@ class Solution:
         out, back = float(end[end > 0.0].sum()), -float(end[end < 0.0].sum())
         grid = self.grid
         closing = self.equation.closing(self.problem.motion.w_n, 0.0).reshape(gain.shape)
-        taken = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
+        used = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
         held = self.pressure.unknown.reshape(gain.shape) == 0.0  # where the equation holds the gain is rounding
         if self.problem.cavitation == "elrod_adams":
             held = np.zeros_like(held)
             held[0] = True
         source = float(gain[held].sum())
         if grid.sealed:
-            return 0.0, 2.0 * source, 2.0 * taken
-        return 2.0 * out, 2.0 * (source + back), 2.0 * taken
+            return 0.0, 2.0 * source, 2.0 * used
+        return 2.0 * out, 2.0 * (source + back), 2.0 * used
 
     def _as_grid(self, values: Array) -> Array:
         """Return the unknowns as an array (n, rows)."""
@@ -254,7 +254,7 @@ def _make_film(
     drag = 2.0 * float(((fine.filled @ grid.height) / grid.h) @ grid.weight)
     drag *= bearing.viscosity * bearing.radius**4 / c * slip
     turn = 0.5 * math.hypot(*e) * tangential
-    leakage, supply, taken = (c * bearing.radius**2 * flow for flow in fine.flows)
+    leakage, supply, used = (c * bearing.radius**2 * flow for flow in fine.flows)
     return Film(
         bearing,
         problem.cavitation,
@@ -275,8 +275,8 @@ def _make_film(
         drag - turn,
         leakage,
         supply,
-        taken,
-        supply - leakage - taken,
+        used,
+        supply - leakage - used,
         _pressure_extent(p[:, 0], grid.phi + widest),
     )
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import instance
-from gudgeon.model.arrays import taken
+from gudgeon.language.argument_checks import instance
+from gudgeon.model.arrays import used
 from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, check_finite, choice
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
@@ -80,8 +80,8 @@ def table(
 
 def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
     """Return the three arrays as views of one shape. Raises BadValueError."""
-    asked = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
-    given = [taken(x, name, finite=True, most=MAX_STATES) for x, name in asked]
+    requested = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
+    given = [used(x, name, finite=True, most=MAX_STATES) for x, name in requested]
     try:
         size = math.prod(np.broadcast_shapes(*(x.shape for x in given)))
     except ValueError:

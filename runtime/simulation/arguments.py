@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
-from gudgeon.files.room import check_memory
+from gudgeon.files.free_space import check_memory
 from gudgeon.integrators import batch, kinematic
 from gudgeon.integrators.batch import Drive
 from gudgeon.integrators.peers import driver
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.language.wanted import is_whole, told
-from gudgeon.model.arrays import taken
+from gudgeon.language.argument_checks import is_whole, message
+from gudgeon.model.arrays import used
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
@@ -69,7 +69,7 @@ def output_times(
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
     if isinstance(output, (float, np.floating)):
-        raise BadValueError(f"output is {told(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
+        raise BadValueError(f"output is {message(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
     if output is not None and not isinstance(output, bool) and not is_whole(output):
         times, requested = _given_times(t0, output)
         kind = np.asarray(output).dtype
@@ -81,7 +81,7 @@ def output_times(
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
     intervals = scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
-        raise BadValueError(f"output is {told(intervals)}: expected {OUTPUT}")
+        raise BadValueError(f"output is {message(intervals)}: expected {OUTPUT}")
     _check_duration("t_end is", t0, end, 4 * int(intervals))
     check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
     return np.linspace(t0, end, int(intervals) + 1), True
@@ -92,7 +92,7 @@ def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
 
     Raises BadValueError for booleans, times that do not increase, and times before t0.
     """
-    times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
+    times = used(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
         for k, value in enumerate(np.asarray(output, object)[:MOST_TRUTHS]):
             if isinstance(value, (bool, np.bool_)):

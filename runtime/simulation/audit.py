@@ -16,7 +16,7 @@ from gudgeon.contract.boundary import AUDIT_FAILS as FAILS
 from gudgeon.contract.boundary import PEAK_F, SHALLOW, CLEARANCE_delta, CLEARANCE_Fx, CLEARANCE_Fy, PEAK_t
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.language.wanted import told
+from gudgeon.language.argument_checks import message
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.sizes import mechanism_sizes
@@ -44,7 +44,7 @@ def audit_level(audit: bool | str) -> int:
     """Return the level of the audit for C. BadValueError for anything but True, False and "full"."""
     if isinstance(audit, (bool, np.bool_, str)) and audit in LEVELS:
         return LEVELS[audit]
-    raise BadValueError(f"audit is {told(audit)}: expected True, False or 'full'", hint="audit=True is the default")
+    raise BadValueError(f"audit is {message(audit)}: expected True, False or 'full'", hint="audit=True is the default")
 
 
 def audit_samples(

@@ -19,7 +19,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 from gudgeon.model.evaluation import PARTS, around
-from gudgeon.results.batch import parts_of, reads_works
+from gudgeon.results.batch import depends_on_works, evaluation_parts_of
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
@@ -63,8 +63,8 @@ class Path:
         self.p, self.given, self.is_given = numbers  # as in a Result
         self.catalogue = catalogue(self.source)
         own = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
-        self.parts = PARTS if names is None else parts_of(self.source, own) | {"a"}
-        self.works = any(reads_works(self.source, name) for name in own)
+        self.parts = PARTS if names is None else evaluation_parts_of(self.source, own) | {"a"}
+        self.works = any(depends_on_works(self.source, name) for name in own)
         self.exact = self.source.methods == (KINEMATIC,)
         self.films = any(joint.film for joint in self.source.clearances)
         self.gives = any(joint.joint not in self.source.rigid for joint in self.source.clearances)

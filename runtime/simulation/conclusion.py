@@ -18,7 +18,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.errors import SolverError
-from gudgeon.integrators.adaptive import stiff_of
+from gudgeon.integrators.adaptive import stiff_method
 from gudgeon.integrators.failure import audit_failure, notes_of
 from gudgeon.integrators.times import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
@@ -26,10 +26,10 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import corner_gap, widest
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import evaluation_times
-from gudgeon.model.seams import seams
-from gudgeon.model.written import unbounded_drive, with_undefined
+from gudgeon.model.seams import curve_seam_notes
+from gudgeon.model.written import unbounded_drive, with_notes_on_undefined
 from gudgeon.results.diagnostics import Diagnostics, Peak, provenance_of
-from gudgeon.results.peaks import first_force, piled_up
+from gudgeon.results.peaks import find_zeno_points, first_contact_force
 from gudgeon.results.results import Result
 from gudgeon.results.samples import without_start
 from gudgeon.results.series import without_masses
@@ -58,7 +58,7 @@ def diagnose(problem: Problem, trajectory: Trajectory, balance: tuple[float, flo
         used = max(last, min(used, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == ADAPTIVE:
-        both = EXPLICIT, stiff_of(compiled.source, problem.rtol)
+        both = EXPLICIT, stiff_method(compiled.source, problem.rtol)
         method = "+".join(both) if 0 < counts.stiff_steps < counts.steps else both[counts.stiff_steps > 0]
     return Diagnostics(
         method=method,
@@ -99,7 +99,7 @@ def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tu
     worst = turned = 0.0
     for first in range(0, len(energy), BLOCK):
         rows = slice(first, first + BLOCK)
-        with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `unbalanced`
+        with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `unbalanced_note`
             residual = energy[rows].sum(axis=1) - energy[0].sum() - (work[rows].sum(axis=1) - work[0].sum())
         worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
         turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
@@ -118,7 +118,7 @@ def coarse(problem: Problem, worst: float, turned: float) -> tuple[str, ...]:
     )
 
 
-def unbalanced(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
+def unbalanced_note(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
     """Return a note that the energy balance is not a number, with the time of the first such sample; else ()."""
     if math.isfinite(worst) or not len(t):
         return ()
@@ -156,12 +156,12 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             f"{passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
             " pass on the smooth branch; forces and torques there are not determined by the rows"
         )
-    notes += unbounded_sample(compiled, problem, trajectory)
-    notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
-    notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
+    notes += unbounded_sample_note(compiled, problem, trajectory)
+    notes += curve_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
+    notes += range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
-        notes += piled_up([joint.name for joint in compiled.source.clearances], trajectory.impacts)
-        notes += stiff_beside_rigid(compiled.source, problem, counts)
+        notes += find_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
+        notes += stiff_film_note(compiled.source, problem, counts)
     notes += notes_of(trajectory.audit)
     notes += indeterminate(compiled.source)
     return tuple(notes)
@@ -174,7 +174,7 @@ def indeterminate(source: KernelSource) -> Iterator[str]:
         yield f"constraints are redundant: the reactions of {owners} are not determined by rigid bodies (NaN)"
 
 
-def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
+def stiff_film_note(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
     """Yield a note on many steps of a stiff film in a scene with rigid contacts: no implicit method fits."""
     films = [joint.name for joint in source.clearances if joint.film]
     if films and counts.steps > MANY and math.isinf(problem.step):
@@ -185,7 +185,7 @@ def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -
         )
 
 
-def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
+def unbounded_sample_note(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
     """Yield a note on the sample of a kinematic run at which the second rate of a drive is unbounded."""
     if compiled.source.methods != ("kinematic",) or not len(trajectory.t) or trajectory.a is None:
         return
@@ -198,8 +198,8 @@ def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Traj
         )
 
 
-def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
-    """Return a mask (n,) of the runs for which `not_held` may yield a note. Shapes: parameter values p (n, ...),
+def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
+    """Return a mask (n,) of the runs for which `range_notes` may yield a note. Shapes: parameter values p (n, ...),
     peaks (n, n_clearances, 3).
     """
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
@@ -207,7 +207,7 @@ def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, pe
     return (phi_max > APART * size) | (e_max > least * c).any(axis=1)
 
 
-def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
+def range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
     """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws. `q0`
     is the start, `peaks` (n_clearances, 3).
     """
@@ -257,7 +257,7 @@ def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
     peaks = []
     for i, joint in enumerate(compiled.source.clearances):
         own = trajectory.impacts[trajectory.impacts["joint"] == i]
-        first = (float(own["t_on"][0]), first_force(own)) if len(own) else (math.nan, math.nan)
+        first = (float(own["t_on"][0]), first_contact_force(own)) if len(own) else (math.nan, math.nan)
         F, t, e_max = (float(trajectory.peaks[i, k]) for k in (PEAK_F, PEAK_t, PEAK_e_max))
         peaks.append(Peak(joint.name, F, t, e_max, *first))
     return tuple(peaks)
@@ -267,7 +267,7 @@ class _TimeLimitReached(Exception):
     """Signal that the rest of an interrupted evaluation is left for later."""
 
 
-def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True) -> Result:
+def build_result(problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, soon: bool = True) -> Result:
     """Return the Result of a run with its diagnostics, after evaluating all samples for the energy balance.
 
     The evaluation is postponed if Ctrl-C comes meanwhile, or if it ended the run and, with `soon`, takes too long.
@@ -315,13 +315,13 @@ def conclude(problem: Problem, trajectory: Trajectory, given: Array, is_given: A
         begun=problem.begun,
     )
     if evaluation is not None:
-        told = unbalanced(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
-        result = result if compiled.source.massless else _with_notes(result, told)
+        message = unbalanced_note(x.t, evaluation.energy, x.work, balance[0]) + coarse(problem, *balance)
+        result = result if compiled.source.massless else _with_notes(result, message)
         result.__dict__["evaluation"] = evaluation  # a cached property: not computed again
     result = result if problem.start_is_sample else without_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
-        result = with_undetermined(with_undefined(result, evaluation), evaluation)
+        result = with_undetermined(with_notes_on_undefined(result, evaluation), evaluation)
         result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation
@@ -346,10 +346,10 @@ def with_undetermined(run: Result, evaluation: Evaluation) -> Result:
     return _with_notes(run, found)
 
 
-def _with_notes(run: Result, told: Sequence[str]) -> Result:
+def _with_notes(run: Result, message: Sequence[str]) -> Result:
     """Return the run with more notes; the same object if there are none."""
-    notes = (*run.diagnostics.notes, *told)
-    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if told else run
+    notes = (*run.diagnostics.notes, *message)
+    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if message else run
 
 
 def _accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
@@ -368,15 +368,15 @@ def without_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory
 
 def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:
     """Return the function that the evaluation calls every few milliseconds: it polls Ctrl-C and reports progress."""
-    begun = told = monotonic()
+    begun = message = monotonic()
 
     def look() -> None:
         """Poll for Ctrl-C and report progress. Raise _TimeLimitReached if an interrupted run takes too long."""
-        nonlocal told
+        nonlocal message
         problem.take()
         now = monotonic()
-        if problem.progress and not interrupted and now - told > EVERY:
-            told = now
+        if problem.progress and not interrupted and now - message > EVERY:
+            message = now
             problem.progress(1.0, "balancing energy")
         if interrupted and soon and now - begun > AFTER_CTRL_C:
             raise _TimeLimitReached
@@ -384,7 +384,7 @@ def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], 
     return look
 
 
-def contradicted(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
+def check_result(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
     """Return the run, and the error that ends it after its samples, or None.
 
     Such errors are the failure of the time loop, contradictory constraints, or a failed audit of the samples. If
@@ -409,5 +409,5 @@ def late(ctrl_c: CtrlC, result: Result) -> Result:
 
 def _mark_interrupted(result: Result) -> Result:
     """Return the result marked as interrupted, with a note."""
-    told = _with_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
-    return replace(told, diagnostics=replace(told.diagnostics, interrupted=True))
+    message = _with_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
+    return replace(message, diagnostics=replace(message.diagnostics, interrupted=True))

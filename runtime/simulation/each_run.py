@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.files.room import check_memory
+from gudgeon.files.free_space import check_memory
 from gudgeon.integrators.times import Times
 from gudgeon.language.quantities import holds_names
-from gudgeon.model.arrays import taken
+from gudgeon.model.arrays import used
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameter_sets import column
 from gudgeon.model.parameters import spaced
@@ -24,7 +24,7 @@ Errors = dict[int, BadValueError]
 def rows_of_times(output: Any) -> list[Any] | None:
     """Return the output times as one row per run, of a list of rows or an array (n, N); None if all runs share them."""
     if getattr(output, "ndim", None) == 2:
-        return list(taken(output, "output", (None, None), most=MOST_OUTPUT))
+        return list(used(output, "output", (None, None), most=MOST_OUTPUT))
     of_objects = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
     if not (isinstance(output, (list, tuple)) or of_objects):
         return None
@@ -52,8 +52,8 @@ class EachRun:
         for name, values in (("t_end", self.ends), ("output", self.rows), ("step", self.steps)):
             if values is not None and (not values or runs not in (1, len(values))):
                 of = "rows of times" if name == "output" else "values"
-                told = f"{name} has {len(values)} {of} for {runs} run{'s' if runs > 1 else ''}"
-                raise BadValueError(told, hint="one for all runs, or one for every run")
+                message = f"{name} has {len(values)} {of} for {runs} run{'s' if runs > 1 else ''}"
+                raise BadValueError(message, hint="one for all runs, or one for every run")
             runs = runs if values is None else len(values)
         return runs
 
@@ -89,10 +89,10 @@ class EachRun:
             end = end_of(source, self.t_end if self.ends is None else _require_time(self.ends[i], "t_end"), p)
         except InputError as error:
             raise BadValueError(f"run {i}: {error}") from None
-        if told := _message_if_not_finite(end, "t_end") or (
+        if message := _message_if_not_finite(end, "t_end") or (
             "" if self.rows is None else _message_if_times_not_finite(row)
         ):
-            self.bad[i] = BadValueError(told)
+            self.bad[i] = BadValueError(message)
             return None
         alike = self.rows is None and not source.simulate_written and isinstance(end, (int, float, str))
         key = (type(end), end) if alike else None
@@ -118,8 +118,8 @@ class EachRun:
             return steps
         for i in own:
             step, t = self.step if self.steps is None else self.steps[i], times.of(i)
-            if told := "" if self.steps is None else _message_if_not_finite(step, "step"):
-                self.bad[i] = BadValueError(told)
+            if message := "" if self.steps is None else _message_if_not_finite(step, "step"):
+                self.bad[i] = BadValueError(message)
                 continue
             steps[i] = self._step_of(i, step, method, p[i], float(t[-1] - t[0]))
         if self.bad and len(self.bad | left_out) == len(p) and self.steps is not None:

@@ -20,13 +20,13 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
-from gudgeon.language.wanted import whole as whole_number
+from gudgeon.language.argument_checks import whole as whole_number
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.contact_check import ContactCheck, check_samples
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
 from gudgeon.results.samples import with_start
 from gudgeon.results.series import MOTION, default_watch, rates
-from gudgeon.simulation.horizon import begin_of, check_own, repeated, settings_of
+from gudgeon.simulation.horizon import check_simulation_of_run, repeat_settings, repeated, start_of_run
 
 if TYPE_CHECKING:
     from gudgeon.contract.clearance_info import ClearanceInfo
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
-    from gudgeon.results.wear import Rubbing
+    from gudgeon.results.wear import SlidingRequest
     from gudgeon.simulation.simulation import Simulation
 
 NODES, WEIGHTS = leggauss(6)  # nodes and weights of Gauss's quadrature on −1 to 1
@@ -51,12 +51,12 @@ def examine(
 
     Raises BadValueError for a run of another scene, or of a file without the scene. Ctrl-C is passed on.
     """
-    check_own(simulation, run, "examine")
+    check_simulation_of_run(simulation, run, "examine")
     notes: list[str] = []
     whole = with_start(run)
     joints = _examine_joints(simulation, whole, notes, progress)
-    differences, told = _estimate_errors(simulation, whole, notes, progress)
-    found = Examined(joints, _ideal_forces(run, ideal, notes), differences, told, tuple(notes))
+    differences, message = _estimate_errors(simulation, whole, notes, progress)
+    found = Examined(joints, _ideal_forces(run, ideal, notes), differences, message, tuple(notes))
     return replace(run, diagnostics=replace(run.diagnostics, examined=found))
 
 
@@ -66,7 +66,7 @@ def _repeat_run(
     t: Array,
     settings: dict[str, Any],
     progress: Progress | None,
-    peaks: tuple[str | Rubbing, ...] = (),
+    peaks: tuple[str | SlidingRequest, ...] = (),
     beyond: float = math.nan,
 ) -> Iterator[Result]:
     """Yield repetitions of the run with samples at times t: from the file's start, then from its first sample.
@@ -74,7 +74,7 @@ def _repeat_run(
     Repetitions that end early are skipped. `beyond` (s): end of the repetition if an event or an error ended the run
     at the last of the times; NaN if nothing did.
     """
-    begin, ends = begin_of(run), math.isfinite(beyond)
+    begin, ends = start_of_run(run), math.isfinite(beyond)
     times = np.append(t, beyond) if ends else t
     for start in (None, begin) if begin.t == 0.0 and run.begun is None else (begin,):
         try:
@@ -96,7 +96,7 @@ def _examine_joints(
     t, weights = _quadrature(run)
     ends = run.impacts["t_off"]
     every = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
-    other = as_it_was(simulation, run, every, progress)
+    other = repeat_exactly(simulation, run, every, progress)
     if other is None:
         notes.append(ANOTHER)
         return ()
@@ -108,15 +108,19 @@ def _examine_joints(
     if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
         return found
     rest = -float(weights @ other.evaluation.power[at, 2])  # its film took, the torque of its shear too, all the rest
-    rest -= sum(x for one in found for x in (one.taken - one.returned, one.friction) if math.isfinite(x))
+    rest -= sum(x for one in found for x in (one.used - one.returned, one.friction) if math.isfinite(x))
     return tuple(replace(one, film=rest) if math.isfinite(one.film) else one for one in found)
 
 
-def as_it_was(
-    simulation: Simulation, run: Result, t: Array, progress: Progress | None, peaks: tuple[str | Rubbing, ...] = ()
+def repeat_exactly(
+    simulation: Simulation,
+    run: Result,
+    t: Array,
+    progress: Progress | None,
+    peaks: tuple[str | SlidingRequest, ...] = (),
 ) -> Result | None:
     """Return the run repeated bit for bit at times t, which include its own; None if that does not succeed."""
-    usual, to = settings_of(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
+    usual, to = repeat_settings(run)[0], math.nan if run.diagnostics.interrupted else run.diagnostics.t_end
     for other in (
         x for own in _exact_settings(usual) for x in _repeat_run(simulation, run, t, own, progress, peaks, to)
     ):
@@ -181,13 +185,13 @@ def _examine_joint(
     film = float(weights @ np.where(touching, of_both - in_film, -in_film))
     impacting = _compression_time(run, other, k, name) / span if joint.dry else math.nan
     rms = math.sqrt(float(weights @ force**2) / span)
-    taken, returned, friction = found if joint.dry else (math.nan,) * 3
-    taken, returned = (math.nan, math.nan) if rigid else (taken, returned)
+    used, returned, friction = found if joint.dry else (math.nan,) * 3
+    used, returned = (math.nan, math.nan) if rigid else (used, returned)
     return JointExamined(
         name,
         impacting,
         rms,
-        taken,
+        used,
         returned,
         friction,
         film if joint.film else math.nan,
@@ -195,7 +199,7 @@ def _examine_joint(
     )
 
 
-def known_to_rub(source: KernelSource, joint: ClearanceInfo) -> bool:
+def has_known_contact_force(source: KernelSource, joint: ClearanceInfo) -> bool:
     """Return whether a joint's surfaces touch with a known contact force; not beside a film of a user-defined law."""
     return joint.dry and not (joint.film and source.laws)
 
@@ -296,13 +300,13 @@ def _estimate_errors(
     """
     if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
         return (), ""  # Newton's method at each sample, without steps
-    usual, tighter = settings_of(run)
+    usual, tighter = repeat_settings(run)
     fixed = "step" in usual
-    told = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
+    message = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
     settings = usual | {"step": usual["step"] / 2.0} if fixed else tighter
     other = next(_repeat_run(simulation, run, run.t, settings, progress), None)
     if other is None:
-        notes.append(f"a run with {told} does not come to the end of this one")
+        notes.append(f"a run with {message} does not come to the end of this one")
         return (), ""
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
@@ -314,7 +318,7 @@ def _estimate_errors(
         if np.isfinite(apart).all():
             at = int(apart.argmax())
             found.append(Difference(name, run.unit(name), float(apart[at]), float(run.t[at]), until))
-    return tuple(found), told
+    return tuple(found), message
 
 
 def check_contacts(run: Result, samples: int, progress: Progress | None = None) -> ContactCheck:
@@ -328,6 +332,6 @@ def check_contacts(run: Result, samples: int, progress: Progress | None = None) 
     dense = run
     if run.compiled is not None:
         times = np.union1d(run.t, np.linspace(run.t[0], run.t[-1], samples + 1))
-        dense = as_it_was(Simulation(run.compiled, ""), run, times, progress) or run
+        dense = repeat_exactly(Simulation(run.compiled, ""), run, times, progress) or run
     found = check_samples(dense, run)
     return found if dense is not run else replace(found, notes=(STORED,))

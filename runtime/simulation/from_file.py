@@ -7,8 +7,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from gudgeon.language.wanted import flag, text
-from gudgeon.loading.ahead import Ahead
+from gudgeon.language.argument_checks import flag, text
+from gudgeon.loading.ahead import BackgroundCompilation
 from gudgeon.loading.behind import is_allowed
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.cache import default_cache
@@ -78,7 +78,7 @@ def load_bytes(
     """
     read = perf_counter()
     start = read if start is None else start
-    with EndingSignals(), Ahead(portable, quick=quick and is_allowed(default_cache())) as ahead:
+    with EndingSignals(), BackgroundCompilation(portable, quick=quick and is_allowed(default_cache())) as ahead:
         source, origin = kernel_source(
             data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
         )

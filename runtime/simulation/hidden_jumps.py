@@ -24,7 +24,7 @@ from gudgeon.integrators.failure import NO_NUMBER
 from gudgeon.language.functions import CORNERED, JUMPING, names_where
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import of_time, trees, undefined_at_a_corner
+from gudgeon.model.written import trees, undefined_at_a_corner, values_of_time
 
 _HIDING = names_where(lambda f: f.hides_corners)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_break`
@@ -40,7 +40,7 @@ class Jump:
     """Describe a jump of a drive: its time (s), kind and size.
 
     Kinds: "rate" (by `size`, in the drive's unit per second), "infinite rate", "value" (by `size`), or a message
-    `told`.
+    `message`.
     """
 
     drive: str
@@ -48,13 +48,13 @@ class Jump:
     kind: str
     size: float
     breaks: bool = False  # whether it lies between the branches of where or mod
-    told: str = ""  # message: a branch of a where is not a number at its own switching point
+    message: str = ""  # message: a branch of a where is not a number at its own switching point
 
 
 _Search: TypeAlias = tuple[str, Expr, Callable[..., list[Jump]]]  # in a drive with this expression
 
 
-def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
+def find_hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
     """Return the jumps of all drives between t0 and t1 (s), ordered by time; at most MOST per drive."""
     found = []
     for drive, tree in _drives_that_may_hide(source) if t1 > t0 else ():
@@ -136,14 +136,14 @@ def end_before(jump: Jump, t0: float) -> float:
 def jump_failure(source: KernelSource, jump: Jump) -> SolverError:
     """Return the error that ends a run at a jump of a drive."""
     why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
-    told = _jump_message(jump, "the impulse there would be left out" if _integrates(source) else why)
-    return (NonFiniteError if jump.told else SolverError)(told, jump.t)
+    message = _jump_message(jump, "the impulse there would be left out" if _integrates(source) else why)
+    return (NonFiniteError if jump.message else SolverError)(message, jump.t)
 
 
 def _jump_message(jump: Jump, why: str) -> str:
     """Return the error message of a jump; `why` says what makes it an error."""
-    if jump.told:
-        return f"{jump.told}\n  {NO_NUMBER}"
+    if jump.message:
+        return f"{jump.message}\n  {NO_NUMBER}"
     if jump.kind == "infinite rate":
         return (
             f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
@@ -204,15 +204,15 @@ def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0
         at = t0 + (k + 1) * h
         jump = _classify_jump(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
         if jump and jump.kind == "value":
-            near = of_time(source, p, tree, np.array([at - h, at, at + h]))
+            near = values_of_time(source, p, tree, np.array([at - h, at, at + h]))
             if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else a jump of the rate, so near an end
                 return [replace(jump, breaks=True)]
-    return [Jump(drive, t1, "no number", np.nan, breaks=True, told=undefined[0])] if undefined else []
+    return [Jump(drive, t1, "no number", np.nan, breaks=True, message=undefined[0])] if undefined else []
 
 
 def _curvature_ratio(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, beyond: Any = "edge") -> Array:
     """Return the ratio (GRID − 1,) of second differences on the grid to the median of those around them."""
-    f = of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
+    f = values_of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
     bent = np.abs(np.diff(f, 2))
     around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode=beyond), 17), axis=1)
     return np.asarray(bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300))
@@ -247,7 +247,7 @@ def _classify_jump(source: KernelSource, p: Array, tree: Expr, drive: str, a: fl
     sizes: list[float] = []  # of the rate's change
     for _ in range(LEVELS):
         times = np.linspace(a, b, POINTS + 1)
-        f = of_time(source, p, tree, times)
+        f = values_of_time(source, p, tree, times)
         bent = np.abs(np.diff(f, 2))
         if not np.isfinite(bent).all():
             return None  # no number there: another matter

@@ -26,13 +26,13 @@ import numpy as np
 from gudgeon.assembly.linkage import mechanism_size, project
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST, lengths
-from gudgeon.language.wanted import instance
+from gudgeon.language.argument_checks import instance
 from gudgeon.model.compiled import Array
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.results import Result, State
-    from gudgeon.results.wear import Rubbing
+    from gudgeon.results.wear import SlidingRequest
     from gudgeon.simulation.simulation import Simulation
 
 APART = 0.25  # of the clearance: difference at which runs count as parted
@@ -61,11 +61,11 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     The runs use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error ends is
     compared as far as it came. Ctrl-C is passed on. `apart`: limit of the difference, as in the head of this file.
     """
-    begin, t1 = begin_of(run), float(run.t[-1])
+    begin, t1 = start_of_run(run), float(run.t[-1])
     t0 = begin.t
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    usual, tighter = settings_of(run)
+    usual, tighter = repeat_settings(run)
     variants = ((begin, usual), (begin, tighter), (_perturb_start(simulation, run, begin), usual))
     known = t0
     for times in _intervals_to_compare(t0, t1):
@@ -119,7 +119,7 @@ def repeated(
     start: State | None,
     settings: dict[str, Any],
     progress: Progress | None,
-    peaks: tuple[str | Rubbing, ...] = (),
+    peaks: tuple[str | SlidingRequest, ...] = (),
     stop: bool = False,
 ) -> Result | None:
     """Return a run through `times`, as far as it goes, or None if it fails at its start. `stop`: events may end it."""
@@ -139,7 +139,7 @@ def _compare_runs(simulation: Simulation, runs: list[Result], limit: float) -> t
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
     apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
     last = int(apart[0]) - 1 if len(apart) else count - 1
-    agreed = float(runs[0].t[last]) if last >= 0 else begin_of(runs[0]).t
+    agreed = float(runs[0].t[last]) if last >= 0 else start_of_run(runs[0]).t
     return agreed, bool(len(apart)) or any(len(run.t) > count for run in runs)
 
 
@@ -160,18 +160,20 @@ def _is_angle(run: Result) -> Any:
     return np.array([name.endswith(".theta") for name in run.source.coordinates])
 
 
-def check_own(simulation: Simulation, run: Result, asked: str) -> None:
-    """Raise BadValueError unless `run` is a Result of `simulation`'s scene. `asked` names the caller in messages."""
+def check_simulation_of_run(simulation: Simulation, run: Result, requested: str) -> None:
+    """Raise BadValueError unless `run` is a Result of `simulation`'s scene. `requested` names the caller in
+    messages.
+    """
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
     instance(simulation, "simulation", Simulation)
     instance(run, "run", Result)
     if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
-        raise BadValueError(f"{asked}: expected the simulation whose run it is")
+        raise BadValueError(f"{requested}: expected the simulation whose run it is")
 
 
-def settings_of(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
+def repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the arguments of simulate that repeat a run, and those of a more accurate one."""
     from gudgeon.simulation.arguments import METHODS
 
@@ -195,7 +197,7 @@ def _tolerances(simulation: Simulation, run: Result) -> Array:
     return np.concatenate([of_q, np.full(len(of_q), MOVED)])
 
 
-def begin_of(run: Result) -> State:
+def start_of_run(run: Result) -> State:
     """Return the start of a run as a state to resume from: the state it was given, or its first sample."""
     if run.begun is not None:
         return replace(run.begun, parameters=run.final.parameters)

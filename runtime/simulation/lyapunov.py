@@ -23,9 +23,9 @@ from gudgeon.assembly.linkage import angles
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.adaptive import tolerance
+from gudgeon.language.argument_checks import refuse, text
 from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import functions, names
-from gudgeon.language.wanted import refuse, text
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import prepare_slots
 from gudgeon.model.sizes import mechanism_sizes
@@ -33,8 +33,8 @@ from gudgeon.model.written import trees
 from gudgeon.results.lyapunov import Lyapunov, Section
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import end_of, seconds
-from gudgeon.simulation.horizon import begin_of, check_own, settings_of
-from gudgeon.simulation.neighbours import NEAR, Neighbours, Twin
+from gudgeon.simulation.horizon import check_simulation_of_run, repeat_settings, start_of_run
+from gudgeon.simulation.neighbours import NEAR, Neighbours, SecondRun
 from gudgeon.simulation.restart import numbers, own
 from gudgeon.simulation.tangent import Flow, Tangent
 
@@ -55,7 +55,7 @@ SHORTEST = 2.0**-12  # shortest interval, relative to the longest
 ON_TIME = 1e-6  # of a period: by which a time may differ from a multiple of it
 
 
-def no_tangent(source: KernelSource) -> str:
+def reason_without_tangent(source: KernelSource) -> str:
     """Return why the Jacobian does not describe all motions of neighbours; "" where it does."""
     if source.no_slopes:
         return source.no_slopes
@@ -103,8 +103,8 @@ def lyapunov(
     measure = Neighbours.of(looked, simulation.compiled)
     _refuse_short(looked, measure)
     transverse = bool(returns.event) and not _depends_on_time(source)
-    arguments = (simulation, measure, settings, begin_of(looked), transverse)
-    pair = Twin(*arguments) if why is not None else Tangent(*arguments, Flow(simulation.compiled, looked))
+    arguments = (simulation, measure, settings, start_of_run(looked), transverse)
+    pair = SecondRun(*arguments) if why is not None else Tangent(*arguments, Flow(simulation.compiled, looked))
     t, growth = [float(looked.t[0])], []
     for run, grown in _intervals(pair, t[0], float(looked.t[-1]), returns.period, progress):
         t.append(float(run.t[-1]))
@@ -123,7 +123,7 @@ def lyapunov(
     )
 
 
-def slow_tangent(source: KernelSource) -> str:
+def reason_against_tangent(source: KernelSource) -> str:
     """Return why `auto` follows a second run although the tangent would do; "" where the tangent is fast."""
     films = [joint.name for joint in source.clearances if joint.film]
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
@@ -133,8 +133,8 @@ def _refuse_short(run: Result, measure: Neighbours) -> None:
     """Raise BadValueError for a span in which the motion hardly changes: no mean over it is a rate of growth."""
     if measure.is_short(run):
         span = float(run.t[-1] - run.t[0])
-        told = f"a span of {span:.3g} s is too short for a Lyapunov exponent: nothing turns or strikes in it"
-        raise BadValueError(told, hint="expected a span of several swings, turns or contacts: an exponent is a mean")
+        message = f"a span of {span:.3g} s is too short for a Lyapunov exponent: nothing turns or strikes in it"
+        raise BadValueError(message, hint="expected a span of several swings, turns or contacts: an exponent is a mean")
 
 
 def _of_run(
@@ -148,17 +148,17 @@ def _of_run(
 
     Raises BadValueError for a run of another scene, or if parameters or a start are given too.
     """
-    check_own(simulation, run, "lyapunov")
+    check_simulation_of_run(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
         hint = "leave out parameters and start"
         raise BadValueError("lyapunov of a run: it has its own start and numbers", hint=hint)
-    usual = {name: value for name, value in settings_of(run)[0].items() if name in ("method", "step")}
-    told = {name: value for name, value in settings.items() if value is not None and value != "auto"}
-    return float(run.t[-1]), begin_of(run), settings | usual | told
+    usual = {name: value for name, value in repeat_settings(run)[0].items() if name in ("method", "step")}
+    message = {name: value for name, value in settings.items() if value is not None and value != "auto"}
+    return float(run.t[-1]), start_of_run(run), settings | usual | message
 
 
 def _intervals(
-    pair: Twin | Tangent, begin: float, end: float, period: float, progress: Progress | None
+    pair: SecondRun | Tangent, begin: float, end: float, period: float, progress: Progress | None
 ) -> Iterator[tuple[Result, float]]:
     """Yield the run of each interval and ln of the growth of the difference in it.
 
@@ -186,10 +186,10 @@ def _reason_for_twin(source: KernelSource, by: str) -> str | None:
     """Return None if the tangent is used, else the reason for a second run. Raises BadValueError."""
     if by not in WAYS:
         refuse("by", by, f"one of {', '.join(WAYS)}")
-    why = no_tangent(source)
+    why = reason_without_tangent(source)
     if by == "tangent" and why:
         raise BadValueError(f"no exponent by the tangent: {why}", hint='by="twin" takes a second run')
-    why = why or (slow_tangent(source) if by == "auto" else "")
+    why = why or (reason_against_tangent(source) if by == "auto" else "")
     return None if by == "tangent" or (by == "auto" and not why) else why
 
 
@@ -200,8 +200,8 @@ def _run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
         return given
     given = {"rtol": RTOL} | given
     if is_twin and tolerance(given["rtol"], "auto", False) > LOOSEST:
-        told = f"rtol is {given['rtol']}: a twin is {NEAR:g} apart, and would measure what steps err by"
-        raise BadValueError(told, hint=f"expected {LOOSEST:g} or less; without one it is {RTOL:g}")
+        message = f"rtol is {given['rtol']}: a twin is {NEAR:g} apart, and would measure what steps err by"
+        raise BadValueError(message, hint=f"expected {LOOSEST:g} or less; without one it is {RTOL:g}")
     return given
 
 
@@ -210,7 +210,11 @@ def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
 
     It is at most LOOSEST where a second run is followed.
     """
-    return min(rtol, LOOSEST) if rtol is not None and (no_tangent(source) or slow_tangent(source)) else rtol
+    return (
+        min(rtol, LOOSEST)
+        if rtol is not None and (reason_without_tangent(source) or reason_against_tangent(source))
+        else rtol
+    )
 
 
 def _settled_start(
@@ -322,6 +326,6 @@ def _parse_section(run: Result, section: str | float | None) -> tuple[str, float
             run.events_of(section)  # UnknownNameError names the nearest
         raise error
     if not (math.isfinite(period) and 0.0 < period < run.t[-1] - run.t[0]):
-        told = f"section is {period:g} s: expected an event of the file, or a period within the run"
-        raise BadValueError(told, hint=f"its events: {', '.join(events) or 'none'}; a period as '2*pi/omega'")
+        message = f"section is {period:g} s: expected an event of the file, or a period within the run"
+        raise BadValueError(message, hint=f"its events: {', '.join(events) or 'none'}; a period as '2*pi/omega'")
     return "", period

@@ -118,7 +118,7 @@ def alike(one: State, other: State) -> bool:
 
 
 @dataclass(eq=False)
-class Twin:
+class SecondRun:
     """Follow a second run next to the `state` of the first one, and measure how their distance grows."""
 
     simulation: Simulation

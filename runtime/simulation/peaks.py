@@ -22,7 +22,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.simulation.between import INSIDE, Path
-from gudgeon.simulation.wanted_peaks import Beside, Told
+from gudgeon.simulation.step_observers import ComparedScene, Observation
 
 # Chebyshev points, as fractions of an interval, at which a series is sampled
 NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))
@@ -49,7 +49,7 @@ class Search:
         compiled: CompiledModel,
         names: Iterable[str],
         numbers: tuple[Array, Array, Array],
-        beside: Beside | None = None,
+        beside: ComparedScene | None = None,
     ) -> None:
         self.names = tuple(names)
         self.ours = Path(compiled, numbers, self.names)
@@ -72,32 +72,32 @@ class Search:
             if not error or len(paths) == 2:
                 self._update_peaks(name, error, paths if error else paths[:1])
 
-    def told(self) -> Told:
+    def message(self) -> Observation:
         """Return the peaks and notes as a Result stores them."""
-        return Told(self.found(), self.notes())
+        return Observation(self.found(), self.notes())
 
     def found(self) -> tuple[Extremes, ...]:
         """Return the extremes of each series, then those of errors against the other scene."""
         unknown = (math.nan, math.nan)
-        told = []
+        message = []
         for name, error in self.kinds:
             if error and self.beside and self.beside.lost:
                 continue
             high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
             against = self.beside.scene if error and self.beside else ""
-            told.append(Extremes(name, self.ours.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
-        return tuple(told)
+            message.append(Extremes(name, self.ours.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
+        return tuple(message)
 
     def notes(self) -> tuple[str, ...]:
         """Return the notes for the run: states left out, and series that could not be searched."""
-        told = []
+        message = []
         if self.ours.lost:
-            told.append(f"peaks: {self.ours.lost} states of steps have no accelerations and are left out")
+            message.append(f"peaks: {self.ours.lost} states of steps have no accelerations and are left out")
         for name in sorted(self.unresolved):
-            told.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
+            message.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
         if self.beside and self.beside.lost:
-            told.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
-        return tuple(told)
+            message.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
+        return tuple(message)
 
     def _update_peaks(self, name: str, error: bool, paths: list[Path]) -> None:
         """Update the peaks of one series from the present states and the intervals between them."""

@@ -18,10 +18,10 @@ import numpy as np
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import AssemblyError, BadValueError
+from gudgeon.language.argument_checks import mapping, number_of, refuse, text
 from gudgeon.language.shown import counted
-from gudgeon.language.wanted import mapping, number_of, refuse, text
-from gudgeon.model.arrays import CODE, taken
-from gudgeon.model.choices import said, told_choices
+from gudgeon.model.arrays import CODE, used
+from gudgeon.model.choices import choice_notes, specified
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import put
 from gudgeon.model.parameters import given_slots
@@ -30,7 +30,7 @@ from gudgeon.results.results import State
 OPEN = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
 # code of an open contact, and a hint for messages
 FREE, AS_IT_WAS = 0, "the `final` of a run has both as they belong together"
-MOST_TOLD = 6  # largest number of parameters or constraint equations that a message names
+MAX_REPORTED = 6  # largest number of parameters or constraint equations that a message names
 
 
 def own(source: KernelSource, start: Any) -> State:
@@ -42,22 +42,22 @@ def own(source: KernelSource, start: Any) -> State:
         raise BadValueError(f"start is a {type(start).__name__}: expected a State", hint=f"give {hint}")
     _check_origin(source, start)
     n, clearances = len(source.coordinates), len(source.clearances)
-    state = taken(start.state, "start.state", (clearances,), dtype=CODE, own=True)
+    state = used(start.state, "start.state", (clearances,), dtype=CODE, own=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    memory = taken(start.memory, "start.memory", (source.n_memory,), own=True)
+    memory = used(start.memory, "start.memory", (source.n_memory,), own=True)
     _check_memory(source, state, memory)
     return replace(
         start,
         t=number_of(start.t, "start.t"),
-        q=taken(start.q, "start.q", (n,), finite=True, own=True),
-        v=taken(start.v, "start.v", (n,), finite=True, own=True),
+        q=used(start.q, "start.q", (n,), finite=True, own=True),
+        v=used(start.v, "start.v", (n,), finite=True, own=True),
         state=state,
         memory=memory,
     )
 
 
-def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
+def checked_states(source: KernelSource, start: Any, rows: int) -> list[State]:
     """Return the states of a batch, one per run, from one for all of `rows` runs or one each; [] without a start.
 
     Raises BadValueError if their number or their times do not fit.
@@ -69,12 +69,14 @@ def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
         return [own(source, start)] * rows
     states = [own(source, one) for one in start]
     if len(states) != rows and 1 not in (rows, len(states)) or not states:
-        told = f"start has {counted(len(states), 'state')} for {counted(rows, 'run')}"
-        raise BadValueError(told, hint="one state, or one for every run")
+        message = f"start has {counted(len(states), 'state')} for {counted(rows, 'run')}"
+        raise BadValueError(message, hint="one state, or one for every run")
     times = sorted({state.t for state in states})
     if len(times) > 1:
-        told = f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch have their times together"
-        raise BadValueError(told, hint="states at the same time, or a batch for each time")
+        message = (
+            f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch have their times together"
+        )
+        raise BadValueError(message, hint="states at the same time, or a batch for each time")
     return states * rows if len(states) == 1 else states
 
 
@@ -85,22 +87,22 @@ def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
     """
     for k, (joint, code, rate) in enumerate(zip(source.clearances, state.tolist(), memory.tolist(), strict=False)):
         if code == FREE and not math.isnan(rate):
-            told, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
+            message, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
         elif code != FREE and not math.isfinite(rate):
-            told, expected = f"is {rate:g} while start.state[{k}] is {code}", "the rate (m/s) with which it closed"
+            message, expected = f"is {rate:g} while start.state[{k}] is {code}", "the rate (m/s) with which it closed"
         else:
             continue
-        raise BadValueError(f"start.memory[{k}] of joint {joint.name} {told}: expected {expected}", hint=AS_IT_WAS)
+        raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=AS_IT_WAS)
     first = len(memory) - len(source.states)
     for k, (name, z) in enumerate(zip(source.states, memory[first:].tolist(), strict=True), first):
         joint_of = (k - first) * len(state) // max(len(source.states), 1)
         if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
-            told = f"start.memory[{k}], the inner state {name}, is {z:g}: expected a length (m), or NaN while free"
-            raise BadValueError(told, hint=AS_IT_WAS)
+            message = f"start.memory[{k}], the inner state {name}, is {z:g}: expected a length (m), or NaN while free"
+            raise BadValueError(message, hint=AS_IT_WAS)
     if np.isinf(memory).any():
         k = int(np.isinf(memory).argmax())
-        told = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"
-        raise BadValueError(told, hint=AS_IT_WAS)
+        message = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"
+        raise BadValueError(message, hint=AS_IT_WAS)
 
 
 def _check_origin(source: KernelSource, start: State) -> None:
@@ -121,9 +123,9 @@ def _check_origin(source: KernelSource, start: State) -> None:
     if start.sha256 not in ("", source.whole_sha256):
         changed = _changed_files(source, start)
         if changed:
-            told = f"start: this state was computed with another {' and another '.join(changed)}"
+            message = f"start: this state was computed with another {' and another '.join(changed)}"
             hint = "go on with what it was computed with, or run this one from its start"
-            raise BadValueError(told, hint=hint)
+            raise BadValueError(message, hint=hint)
         raise BadValueError(
             f"start: this state belongs to another mechanism: the file of {source.mechanism} was another one"
             f" (SHA-256 {start.sha256[:12]}…, now {source.whole_sha256[:12]}…)",
@@ -159,46 +161,47 @@ def numbers(
     given, is_given = given_slots(compiled.source, parameters)
     put(compiled.source, contour, given, is_given)
     if start is None:
-        return given, is_given, told_choices(compiled.source, given, is_given)
+        return given, is_given, choice_notes(compiled.source, given, is_given)
     if not mapping(start.parameters, "start.parameters"):
         before, was_given = np.zeros_like(given), np.zeros_like(is_given)
     else:
         before, was_given = given_slots(compiled.source, start.parameters, "start.parameters")
     both, mask = np.where(is_given, given, before), np.logical_or(is_given, was_given)
-    chosen = told_choices(compiled.source, both, mask)
+    selected = choice_notes(compiled.source, both, mask)
     if not is_given.any():
-        return both, mask, chosen
+        return both, mask, selected
     had, has = compiled.prepare(before, was_given), compiled.prepare(both, mask)
     changed = [k for k in np.flatnonzero(is_given).tolist() if had[k] != has[k]]
     if not changed:
-        return both, mask, chosen
+        return both, mask, selected
     slots = compiled.source.slots
-    told = [
+    message = [
         f"{slots[k].address} {_format_value(has[k], slots[k])} (before {_format_value(had[k], slots[k])})"
-        for k in changed[:MOST_TOLD]
+        for k in changed[:MAX_REPORTED]
     ]
-    more = f" and {len(changed) - MOST_TOLD} more" if len(changed) > MOST_TOLD else ""
+    more = f" and {len(changed) - MAX_REPORTED} more" if len(changed) > MAX_REPORTED else ""
     return (
         both,
         mask,
         (
-            *chosen,
-            f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",
+            *selected,
+            f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(message)}{more}",
         ),
     )
 
 
-def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
+def check_resumable(compiled: CompiledModel, start: State, p: Array) -> None:
     """Raise AssemblyError if the parameter values p leave constraint equations open at the state to resume from."""
-    if told := _violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
+    if message := _violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
         raise AssemblyError(
-            f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {told} are open by so much\n"
+            f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {message} are "
+            "open by so much\n"
             "  other lengths close elsewhere, and a drive whose value hangs on t and a changed number stands elsewhere"
             " at that time: write it so that it goes on from there, or run from the scene's own start"
         )
 
 
-def off_constraints(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
+def constraint_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
     """Return a note if the state to resume from, q, v (n,) at t (s), violates the constraints; else ().
 
     Positions must satisfy Φ(t, q) = 0, velocities Φ_q q̇ = ν, up to the rounding of their terms. A run never leaves
@@ -206,18 +209,18 @@ def off_constraints(compiled: CompiledModel, p: Array, t: float, q: Array, v: Ar
     """
     source = compiled.source
     with np.errstate(all="ignore"):  # the run itself tells what is not finite
-        told = _violated_equations(compiled, p, compiled.phi(t, q, p))
-        if not told:
+        message = _violated_equations(compiled, p, compiled.phi(t, q, p))
+        if not message:
             phi_q, nu = compiled.phi_q(t, q, p), compiled.nu(t, q, p)
-            told = _violated_equations(compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s")
-    if not told:
+            message = _violated_equations(compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s")
+    if not message:
         return ()
-    taken = "the run takes the coordinates that it integrates, and closes the others anew"
+    used = "the run takes the coordinates that it integrates, and closes the others anew"
     if source.formulation == "full":
-        taken = "the run begins with it as it stands"
+        used = "the run begins with it as it stands"
     if not source.degrees_of_freedom:
-        taken = "the run begins where its drives put it"
-    return (f"the state at t = {t:.9g} s is off the constraints, rows {told}: {taken}",)
+        used = "the run begins where its drives put it"
+    return (f"the state at t = {t:.9g} s is off the constraints, rows {message}: {used}",)
 
 
 def _violated_equations(
@@ -229,15 +232,15 @@ def _violated_equations(
     """
     rows, size = compiled.source.rows, mechanism_size(compiled, p)
     allowed = OPEN * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
-    told = [
+    message = [
         f"{row.name} ({x:.3g} {row.unit}{rate})"
         for row, x, most in zip(rows, by, allowed, strict=True)
         if not abs(x) <= most
     ]
-    more = f" and {len(told) - MOST_TOLD} more" if len(told) > MOST_TOLD else ""
-    return f"{', '.join(told[:MOST_TOLD])}{more}" if told else ""
+    more = f" and {len(message) - MAX_REPORTED} more" if len(message) > MAX_REPORTED else ""
+    return f"{', '.join(message[:MAX_REPORTED])}{more}" if message else ""
 
 
 def _format_value(value: float, slot: Slot) -> str:
     """Return the text of a parameter value with its unit, or its word."""
-    return str(said(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()
+    return str(specified(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()

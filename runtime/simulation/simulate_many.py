@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.followed import tell_of_runs
+from gudgeon.assembly.guess_warnings import warn_unfollowed_in_runs
 from gudgeon.assembly.journals import check_places, parting
 from gudgeon.assembly.rank import contradiction, left_out
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
@@ -20,31 +20,45 @@ from gudgeon.integrators.failure import INTERRUPTED
 from gudgeon.integrators.threads import available_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, counts_of_runs
+from gudgeon.language.argument_checks import flag, function, is_whole, message, text
 from gudgeon.language.shown import counted
-from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import of_run, taken_contours
+from gudgeon.model.contours import of_run, read_contours
 from gudgeon.model.evaluation import check_room, evaluate_runs
 from gudgeon.model.left_limit import evaluation_times
-from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
+from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, read_uniform_rows, rows_of
 from gudgeon.model.sizes import mechanism_sizes
-from gudgeon.results.batch import STATES, Batch, States, as_failures, given_values, parts_of, wanted_names
+from gudgeon.results.batch import (
+    STATES,
+    Batch,
+    States,
+    as_failures,
+    check_series_names,
+    evaluation_parts_of,
+    given_values,
+)
 from gudgeon.results.peaks import peaks_of
-from gudgeon.results.results import Bare, Result, State, bare
+from gudgeon.results.results import EvaluatedSamples, Result, State, bare
 from gudgeon.results.samples import without_start
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DRIVES, method_of
 from gudgeon.simulation.audit import audit_level
-from gudgeon.simulation.conclusion import conclude, contradicted, indeterminate, may_not_hold, not_held
+from gudgeon.simulation.conclusion import build_result, check_result, indeterminate, may_leave_range, range_notes
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
-from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
-from gudgeon.simulation.wanted_peaks import Looker, Told, check_beside, search_of, wanted_peaks
+from gudgeon.simulation.restart import check_resumable, checked_states, constraint_violation_notes, numbers
+from gudgeon.simulation.step_observers import (
+    Observation,
+    StepObserver,
+    check_compared_scene,
+    make_observer,
+    requested_peaks,
+)
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
-    from gudgeon.results.wear import Rubbing
+    from gudgeon.results.wear import SlidingRequest
     from gudgeon.simulation.simulation import Simulation
 
 
@@ -62,7 +76,7 @@ def simulate_many(
     side_by_side: bool = True,
     start: State | Sequence[State] | None = None,
     keep: str | Iterable[str] = STATES,
-    peaks: Iterable[str | Rubbing] | None = None,
+    peaks: Iterable[str | SlidingRequest] | None = None,
     against: Simulation | None = None,
     contour: Any = None,
     audit: bool | str = True,
@@ -71,33 +85,33 @@ def simulate_many(
     method, progress = text(method, "method"), function(progress, "progress")
     simulation = simulation.of_method(method, progress)
     compiled, source = simulation.compiled, simulation.source
-    names, against = wanted_peaks(source, peaks), check_beside(source, against)
+    names, against = requested_peaks(source, peaks), check_compared_scene(source, against)
     each = EachRun(compiled, t_end, output, step)
-    worn = taken_contours(source, contour, runs=True)
+    worn = read_contours(source, contour, runs=True)
     starts = _Starts(simulation, parameters, start, each, worn)
     stop, side_by_side, level = flag(stop, "stop"), flag(side_by_side, "side_by_side"), audit_level(audit)
     workers = available_threads() if threads is None else threads
     if not is_whole(workers) or workers < 1:
-        raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
+        raise BadValueError(f"threads is {message(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
     series = _series_to_store(source, keep)
-    chosen = method_of(source, method, step is not None)
-    tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
-    p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
+    selected = method_of(source, method, step is not None)
+    tolerance = adaptive.tolerance(rtol, selected, step is not None)
+    requested = Asked(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
+    p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, selected != "rk4")
     bad |= starts.bad | starts.unfit(p, bad)
     times = each.times(p, starts.t, bad)
-    check_room(compiled, times.most, len(p), series, parts_of(source, series or ()), workers)
-    steps = each.lengths_of_steps(chosen, p, times, bad)
+    check_room(compiled, times.most, len(p), series, evaluation_parts_of(source, series or ()), workers)
+    steps = each.lengths_of_steps(selected, p, times, bad)
     bad |= each.bad
-    return _run_batch(simulation, starts, (p, motion, steps), times, bad, asked)
+    return _run_batch(simulation, starts, (p, motion, steps), times, bad, requested)
 
 
 def _series_to_store(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
     """Return the names of the series to be stored, or None if states are stored."""
     if isinstance(keep, str) and keep == STATES:
         return None
-    return tuple(name for name in wanted_names(source, keep, "keep") if name != "t")
+    return tuple(name for name in check_series_names(source, keep, "keep") if name != "t")
 
 
 def _run_batch(
@@ -106,40 +120,40 @@ def _run_batch(
     numbers: tuple[Array, Array, Array],
     times: Times,
     bad: dict[int, Any],
-    asked: Asked,
+    requested: Asked,
 ) -> Batch:
     """Run all prepared runs to their ends and return the Batch. A drive that jumps ends its run before the jump."""
     p, motion, steps = numbers
     jumps = first_jumps(simulation.source, p, starts.t, times.ends().tolist(), bad)
     own_times = times.before({i: end_before(jump, starts.t) for i, jump in jumps.items()})
-    kept = None if asked.keep is None else KeptSeries(simulation.source, asked.keep, len(p), times)
+    kept = None if requested.keep is None else KeptSeries(simulation.source, requested.keep, len(p), times)
     runs = many.Runs(
         simulation.compiled,
         p,
         motion,
         own_times,
-        asked.method,
+        requested.method,
         steps,
-        asked.rtol,
-        asked.stop,
-        asked.audit,
-        asked.side_by_side,
-        asked.threads,
+        requested.rtol,
+        requested.stop,
+        requested.audit,
+        requested.side_by_side,
+        requested.threads,
         kept is not None,
-        DRIVES.get(asked.method),
+        DRIVES.get(requested.method),
     )
     runs.begin(starts.states)
     runs.leave_out(bad)
-    runs.looks = searches = starts.searches(p, bad, asked)
-    results = _Results(simulation, runs, starts, asked, kept)
+    runs.looks = searches = starts.searches(p, bad, requested)
+    results = _Results(simulation, runs, starts, requested, kept)
     before = time.perf_counter()
-    results.run(asked.progress)
+    results.run(requested.progress)
     for i in (i for i in jumps if i not in runs.failures and runs.is_complete(i)):
         runs.failures[i] = jump_failure(simulation.source, jumps[i])
-    tell_of_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
-    results.told = [search.told() if search else Told() for search in searches]
+    warn_unfollowed_in_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
+    results.message = [search.message() if search else Observation() for search in searches]
     batch = _build_batch(results, times)
-    return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
+    return replace(batch, seconds=time.perf_counter() - before, threads=requested.threads)
 
 
 @dataclass(frozen=True)
@@ -153,7 +167,7 @@ class Asked:
     stop: bool
     side_by_side: bool
     keep: tuple[str, ...] | None  # series to store; None: states
-    peaks: tuple[str | Rubbing, ...]  # series whose peaks over all steps are requested, and requests for wear
+    peaks: tuple[str | SlidingRequest, ...]  # series whose peaks over all steps are requested, and requests for wear
     against: Simulation | None  # scene whose series are subtracted
     audit: int  # level of the audit
 
@@ -175,13 +189,15 @@ class _Starts:
             raise BadValueError(f"contour has {counted(own, 'row')} for {counted(len(rows), 'run')}", hint=hint)
         rows = rows if own == len(rows) else list(rows) * own
         runs = each.length(len(rows))
-        self.states = own_each(simulation.source, start, runs)
+        self.states = checked_states(simulation.source, start, runs)
         if len(rows) == 1:
             rows = list(rows) * max(runs, len(self.states))
         if len(rows) != runs:
             each.length(len(rows))
         self.t = self.states[0].t if self.states else 0.0
-        plain = None if self.states or worn else plain_each(simulation.source, rows)  # then none chooses anything
+        plain = (
+            None if self.states or worn else read_uniform_rows(simulation.source, rows)
+        )  # then none chooses anything
         self.remarks: list[tuple[str, ...]] = [()] * len(rows) if plain else []
         self.given: Array
         self.is_given: Any
@@ -207,17 +223,17 @@ class _Starts:
                 if placed:
                     check_places(self.compiled, p[i])
                 elif self.remarks[i]:
-                    check_fits(self.compiled, self.states[i], p[i])
+                    check_resumable(self.compiled, self.states[i], p[i])
             except AssemblyError as error:
                 found[i] = error
         return found
 
-    def searches(self, p: Array, bad: Mapping[int, Any], asked: Asked) -> list[Looker | None]:
+    def searches(self, p: Array, bad: Mapping[int, Any], requested: Asked) -> list[StepObserver | None]:
         """Return the step observer of each run, or None for it; an empty list if no peaks are requested."""
-        every = range(len(p) if asked.peaks else 0)
+        every = range(len(p) if requested.peaks else 0)
         numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
-        wanted = (asked.rtol, asked.peaks, asked.against)
-        return [None if i in bad else search_of(self.compiled, numbers[i], *wanted) for i in every]
+        expected = (requested.rtol, requested.peaks, requested.against)
+        return [None if i in bad else make_observer(self.compiled, numbers[i], *expected) for i in every]
 
 
 @dataclass
@@ -227,10 +243,10 @@ class _Results:
     simulation: Simulation
     runs: many.Runs
     starts: _Starts
-    asked: Asked
+    requested: Asked
     kept: KeptSeries | None
-    told: Sequence[Told] = ()  # findings of the step observers by run; empty without observers
-    said: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
+    message: Sequence[Observation] = ()  # findings of the step observers by run; empty without observers
+    specified: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
 
     def run(self, progress: Progress | None) -> None:
         """Integrate all runs."""
@@ -255,13 +271,13 @@ class _Results:
     def _check(self, i: int) -> Result:
         """Return the Result of run i, which a Python time loop made, and record a failed check."""
         problem, trajectory = replace(self._problem(i), take=self.runs.take), self.runs.trajectory(i)
-        made = conclude(problem, trajectory, self.starts.given[i], self.starts.is_given[i])
-        made, error = contradicted(problem, trajectory, made)
+        made = build_result(problem, trajectory, self.starts.given[i], self.starts.is_given[i])
+        made, error = check_result(problem, trajectory, made)
         if error is None and made.diagnostics.interrupted:
             error = SolverError(INTERRUPTED, float(trajectory.t[-1]))
         if error is not None:
             self.runs.failures.setdefault(i, error)
-        self.said[i] = made.diagnostics.notes
+        self.specified[i] = made.diagnostics.notes
         return made
 
     def _problem(self, i: int) -> Problem:
@@ -269,7 +285,7 @@ class _Results:
         problem, t0, remarks = self.runs.problem(i), self.starts.t, self.starts.remarks[i]
         begin = problem.q, problem.v
         if self.starts.states:
-            remarks += off_constraints(problem.compiled, problem.p, t0, *begin)
+            remarks += constraint_violation_notes(problem.compiled, problem.p, t0, *begin)
         remarks += parting(problem.compiled, problem.p, t0, *begin, problem.memory)
         return replace(problem, remarks=remarks, begun=self.starts.states[i] if self.starts.states else None)
 
@@ -279,9 +295,9 @@ class _Results:
         if error is not None and not runs.arrays["done"][i]:
             raise error
         given = self.starts.given[i], self.starts.is_given[i]
-        made = conclude(self._problem(i), runs.trajectory(i), *given, soon=False)
-        if self.told:
-            self.told[i].to(made)
+        made = build_result(self._problem(i), runs.trajectory(i), *given, soon=False)
+        if self.message:
+            self.message[i].to(made)
         if isinstance(error, SolverError):
             error.partial = made
         if error is not None:
@@ -293,20 +309,20 @@ class _Results:
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
         size = mechanism_sizes(source, x["p"])
-        some = may_not_hold(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
+        some = may_leave_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
         found = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
         for i in np.flatnonzero(some).tolist():
             begin, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])
-            told = not_held(self.simulation.compiled, x["p"][i], t0, begin, counts, peaks[i])
-            found[i] = (*found.get(i, ()), *told)
+            message = range_notes(self.simulation.compiled, x["p"][i], t0, begin, counts, peaks[i])
+            found[i] = (*found.get(i, ()), *message)
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
             found[i] = (*found.get(i, ()), *indeterminate(source))
-        found |= self.said
-        for i, each in enumerate(self.told):
+        found |= self.specified
+        for i, each in enumerate(self.message):
             found[i] = (*found.get(i, ()), *each.notes)
         return found
 
-    def bare(self, i: int, parts: frozenset[str]) -> Bare | None:
+    def bare(self, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
         """Return the samples of run i without diagnostics, as ResultOf needs them; None without samples."""
         run = bare_of(self.runs, i, parts)
         return without_start(run) if run and self.runs.times.skipped[i] else run
@@ -344,8 +360,8 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         interrupted=runs.interrupted,
         result=results,
         kept={name: times.without_starts(rows) for name, rows in kept.arrays.items()} if kept else {},
-        extremes=tuple(told.extremes for told in results.told),
-        rubbed=tuple(told.rubbed for told in results.told),
+        extremes=tuple(message.extremes for message in results.message),
+        rubbed=tuple(message.rubbed for message in results.message),
     )
 
 
@@ -353,7 +369,7 @@ class KeptSeries:
     """Store requested series as arrays (n, N) by name, and "t"; NaN where a run has no sample."""
 
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
-        self.names, self.parts = ("t", *names), parts_of(source, names)
+        self.names, self.parts = ("t", *names), evaluation_parts_of(source, names)
         self.arrays = {name: np.full((n, times.most), np.nan) for name in self.names}
         known = [catalogue(source)[name] for name in names if name != "t"]
         self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
@@ -387,7 +403,7 @@ class KeptSeries:
             first += count
 
 
-def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> Bare | None:
+def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples | None:
     """Return the samples of run i as a Bare result without diagnostics; None if there is none."""
     if not runs.arrays["done"][i]:
         return None
@@ -398,7 +414,7 @@ def bare_of(runs: Runs, i: int, parts: frozenset[str]) -> Bare | None:
     return made
 
 
-def _join_samples(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[list[int], Bare]:
+def _join_samples(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[list[int], EvaluatedSamples]:
     """Return the sample counts of these runs, and their samples joined to one Bare result."""
     compiled, n, each = runs.compiled, runs.compiled.n, [runs.samples(i) for i in begun]
     counts = [len(own[0]) for own in each]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.followed import tell_unfollowed
+from gudgeon.assembly.guess_warnings import warn_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.rank import check_start
 from gudgeon.assembly.start import Start, assemble
@@ -20,19 +20,19 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
-from gudgeon.language.wanted import flag, function, text
+from gudgeon.language.argument_checks import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import taken_contours
+from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_room
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.results.shown import Shown
 from gudgeon.simulation.arguments import MAX_STEPS, derived_for, end_of, integrate, method_of, output_times, step_of
 from gudgeon.simulation.audit import audit_level
-from gudgeon.simulation.conclusion import conclude, contradicted, late
+from gudgeon.simulation.conclusion import build_result, check_result, late
 from gudgeon.simulation.hidden_jumps import end_before, first_jumps, jump_failure
-from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
-from gudgeon.simulation.wanted_peaks import Looker, check_beside, search_of, wanted_peaks
+from gudgeon.simulation.restart import check_resumable, constraint_violation_notes, numbers, own
+from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, make_observer, requested_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
 
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from gudgeon.results.batch import Batch
     from gudgeon.results.lyapunov import Lyapunov
     from gudgeon.results.results import Result, State
-    from gudgeon.results.wear import Rubbing
+    from gudgeon.results.wear import SlidingRequest
 
 
 class Simulation(Shown):
@@ -212,7 +212,7 @@ class Simulation(Shown):
         progress: Progress | None = None,
         horizon: bool = False,
         stop: bool = True,
-        peaks: Iterable[str | Rubbing] | None = None,
+        peaks: Iterable[str | SlidingRequest] | None = None,
         against: Simulation | None = None,
         contour: Mapping[str, ArrayLike] | None = None,
         audit: bool | str = True,
@@ -265,25 +265,25 @@ class Simulation(Shown):
                 contour=contour,
                 audit=audit,
             )
-        names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
+        names, beside = requested_peaks(self.source, peaks), check_compared_scene(self.source, against)
         begin = None if start is None else own(self.source, start)
-        given, is_given, remarks = numbers(self.compiled, begin, parameters, taken_contours(self.source, contour))
+        given, is_given, remarks = numbers(self.compiled, begin, parameters, read_contours(self.source, contour))
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
         times, from_start = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
         check_room(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
-        chosen = method_of(self.source, method, step is not None)
-        tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-        h = step_of(self.compiled, step, chosen, p, float(times[-1] - t0))
+        selected = method_of(self.source, method, step is not None)
+        tolerance = adaptive.tolerance(rtol, selected, step is not None)
+        h = step_of(self.compiled, step, selected, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         if begin is not None and remarks:
-            check_fits(self.compiled, begin, p)
+            check_resumable(self.compiled, begin, p)
         q, v, memory = self._assembled_start(p) if begin is None else (begin.q, begin.v, begin.memory)
         check_start(self.compiled, p, t0, q)
         if begin is not None:
-            remarks += off_constraints(self.compiled, p, t0, q, v)
+            remarks += constraint_violation_notes(self.compiled, p, t0, q, v)
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled,
@@ -295,7 +295,7 @@ class Simulation(Shown):
             h,
             progress,
             None if begin is None else begin.state,
-            chosen,
+            selected,
             tolerance,
             without_baumgarte(self.compiled, given, is_given),
             stop,
@@ -304,7 +304,7 @@ class Simulation(Shown):
             level,
             begin,
         )
-        search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
+        search = make_observer(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(problem, given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
@@ -327,7 +327,7 @@ class Simulation(Shown):
         side_by_side: bool = True,
         start: State | Sequence[State] | None = None,
         keep: str | Iterable[str] = "states",
-        peaks: Iterable[str | Rubbing] | None = None,
+        peaks: Iterable[str | SlidingRequest] | None = None,
         against: Simulation | None = None,
         contour: Mapping[str, ArrayLike] | None = None,
         audit: bool | str = True,
@@ -404,7 +404,7 @@ class Simulation(Shown):
         settings = {"method": method, "rtol": rtol, "step": step}
         return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
 
-    def _ran(self, problem: Problem, given: Array, is_given: Array, search: Looker | None) -> Result:
+    def _ran(self, problem: Problem, given: Array, is_given: Array, search: StepObserver | None) -> Result:
         """Integrate a prepared run and return its Result with what `search` found. Raise SolverError with `partial`."""
         t0 = float(problem.t[0])
         jump = first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
@@ -413,10 +413,10 @@ class Simulation(Shown):
         with CtrlC() as ctrl_c:
             problem = replace(problem, take=ctrl_c.take, look=search)
             trajectory = integrate(problem)
-            result = conclude(problem, trajectory, given, is_given)
+            result = build_result(problem, trajectory, given, is_given)
             if search:
-                search.told().to(result)
-            result, stopped = contradicted(problem, trajectory, result)
+                search.message().to(result)
+            result, stopped = check_result(problem, trajectory, result)
             if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it came to the jump
                 stopped = stopped or jump_failure(self.source, jump)
         result = late(ctrl_c, result)
@@ -428,5 +428,5 @@ class Simulation(Shown):
     def _assembled_start(self, p: Array) -> tuple[Array, Array, Array]:
         """Return the start that the file describes: q, q̇, and discrete states without contacts."""
         assembled = assemble(self.compiled, p)
-        tell_unfollowed(self.compiled, p, assembled.q)
+        warn_unfollowed(self.compiled, p, assembled.q)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

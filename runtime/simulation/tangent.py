@@ -243,7 +243,7 @@ class Tangent:
         own, _ = self.flow.reduced(t, y)
         other, _ = self.flow.reduced(t, self.measure.drawn(t, y))
         self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints + 1))
-        self.distance = self._apart(self.state, self.z)
+        self.distance = self._tangent_norm(self.state, self.z)
 
     def advance(self, t: float, shortest: bool) -> tuple[Result, float] | None:
         """Advance the run to t (s); return it and ln of the growth of the tangent vector.
@@ -262,7 +262,7 @@ class Tangent:
                 if when == panel.b and panel.s + panel.width == 1.0:
                     z = self._pass_contact(z, when, joint, onset, deltadot, at[when])
         z = self._project_tangent(run, z)
-        distance = self._apart(run.final, z)
+        distance = self._tangent_norm(run.final, z)
         grown = math.log(distance / self.distance)
         if abs(grown) > LARGEST and not shortest:
             return None
@@ -427,7 +427,7 @@ class Tangent:
             return np.zeros(2 * self.measure.n)
         return self.flow.lifted(t, y, chain, d, 1e-6 / largest)
 
-    def _apart(self, state: State, z: Array) -> float:
+    def _tangent_norm(self, state: State, z: Array) -> float:
         """Return the scaled norm of the tangent vector z at a state."""
         y, chain = self.flow.reduced(state.t, flat(state))
         return self.measure.apart(self._lift_difference(state.t, y, chain, z[: 2 * self.flow.m]))

@@ -14,15 +14,26 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.integrators.steps import Steps
+from gudgeon.language.argument_checks import message, number_of, positive, refuse, text, whole
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
-from gudgeon.results.wear import HOUR, LAWS, POINTS, Rubbed, Rubbing, Surface, Wear, bearing_of, middles, spread
+from gudgeon.results.wear import (
+    HOUR,
+    LAWS,
+    POINTS,
+    SlidingLoads,
+    SlidingRequest,
+    Surface,
+    Wear,
+    bearing_of,
+    cell_angles,
+    spread,
+)
 from gudgeon.simulation.between import Path
-from gudgeon.simulation.examine import as_it_was, known_to_rub, without_oil
-from gudgeon.simulation.horizon import begin_of, check_own
-from gudgeon.simulation.wanted_peaks import Told
+from gudgeon.simulation.examine import has_known_contact_force, repeat_exactly, without_oil
+from gudgeon.simulation.horizon import check_simulation_of_run, start_of_run
+from gudgeon.simulation.step_observers import Observation
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -72,8 +83,8 @@ def wear(
     Raises UnknownNameError for a joint without play, BadValueError for numbers, for one without dry contact and for
     the run of another scene, GudgeonError where the run cannot be repeated. Ctrl-C is passed on.
     """
-    check_own(simulation, run, "wear")
-    asked = _check_request(run, joint, points, since, until, contact)
+    check_simulation_of_run(simulation, run, "wear")
+    requested = _check_request(run, joint, points, since, until, contact)
     rates = (
         rate_of(k, hardness, "k", "hardness"),
         rate_of(
@@ -85,24 +96,24 @@ def wear(
     )
     if text(law, "law") not in LAWS:
         refuse("law", law, " or ".join(LAWS))
-    again = as_it_was(simulation, run, run.t, progress, (asked,))
+    again = repeat_exactly(simulation, run, run.t, progress, (requested,))
     if again is None:
         raise GudgeonError(NOT_AGAIN)
     return _build_wear(run, again.diagnostics.rubbed[0], rates, law)
 
 
-def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> Rubbing:
+def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> SlidingRequest:
     """Return the checked request for the wear of a joint between `since` and `until` (s)."""
     check_rubs(run.source, joint)
     if text(contact, "contact") not in CONTACT:
         refuse("contact", contact, " or ".join(CONTACT))
-    first, last = (begin_of(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
+    first, last = (start_of_run(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
     begin = first if since is None else number_of(since, "since")
     end = last if until is None else number_of(until, "until")
     if not first <= begin < end <= last:
-        told_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
-        raise BadValueError(told_of, hint="expected since before until, both within the run")
-    return Rubbing(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact == "overlap")
+        message_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
+        raise BadValueError(message_of, hint="expected since before until, both within the run")
+    return SlidingRequest(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact == "overlap")
 
 
 def check_rubs(source: KernelSource, joint: Any) -> None:
@@ -110,15 +121,17 @@ def check_rubs(source: KernelSource, joint: Any) -> None:
     own = [one for one in source.clearances if isinstance(joint, str) and one.name == joint]
     if not own:
         hint = f"its joints with play: {', '.join(one.name for one in source.clearances) or 'none'}"
-        raise UnknownNameError(f"no wear of {told(joint)}: expected a joint with play", hint=hint)
+        raise UnknownNameError(f"no wear of {message(joint)}: expected a joint with play", hint=hint)
     if own[0].at_wall:
-        told_of = f"no wear of {joint}: a corner of a slider, and wear is told of bearings, over their circumference"
-        raise BadValueError(told_of, hint="expected a revolute joint with play")
+        message_of = f"no wear of {joint}: a corner of a slider, and wear is told of bearings, over their circumference"
+        raise BadValueError(message_of, hint="expected a revolute joint with play")
     if not own[0].dry:
         raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
-    if not known_to_rub(source, own[0]):
-        told_of = f"no wear of {joint}: what its film bears is known where all laws are gudgeon's own"
-        raise BadValueError(told_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film")
+    if not has_known_contact_force(source, own[0]):
+        message_of = f"no wear of {joint}: what its film bears is known where all laws are gudgeon's own"
+        raise BadValueError(
+            message_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film"
+        )
 
 
 def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
@@ -133,7 +146,7 @@ def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
     return number(k, k_name, NOTHING) / number(hardness, name, PRESSURE)
 
 
-def _build_wear(run: Result, rubbed: Rubbed, rates: tuple[float, float], law: str) -> Wear:
+def _build_wear(run: Result, rubbed: SlidingLoads, rates: tuple[float, float], law: str) -> Wear:
     """Return the Wear of a run from its friction histories."""
     hours = (rubbed.end - rubbed.begin) / HOUR
     bearing, journal = (
@@ -141,22 +154,22 @@ def _build_wear(run: Result, rubbed: Rubbed, rates: tuple[float, float], law: st
         for side, rate in enumerate(rates)
     )
     span, title = (rubbed.begin, rubbed.end), f"{one_line(run.source.title)}: {run.source.scene}"
-    angle = middles(rubbed.asked.points)
-    return Wear(rubbed.asked.joint, law, angle, bearing, journal, rubbed.slip, span, title)
+    angle = cell_angles(rubbed.requested.points)
+    return Wear(rubbed.requested.joint, law, angle, bearing, journal, rubbed.slip, span, title)
 
 
-class Rubs:
+class WearObserver:
     """Observe the contacts of a joint over all steps of one run, and add up load and friction over its
     circumference.
     """
 
-    def __init__(self, compiled: CompiledModel, asked: Rubbing, numbers: tuple[Array, Array, Array]) -> None:
-        self.path, self.compiled, self.asked = Path(compiled, numbers, ()), compiled, asked
-        self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
+    def __init__(self, compiled: CompiledModel, requested: SlidingRequest, numbers: tuple[Array, Array, Array]) -> None:
+        self.path, self.compiled, self.requested = Path(compiled, numbers, ()), compiled, requested
+        self.number = [one.name for one in compiled.source.clearances].index(requested.joint)
         self.joint = compiled.source.clearances[self.number]
         self.rigid = self.joint.name in compiled.source.rigid
         self.p = without_oil(compiled, self.path.p) if self.joint.film else self.path.p
-        self.load, self.friction = np.zeros((2, asked.points)), np.zeros((2, asked.points))
+        self.load, self.friction = np.zeros((2, requested.points)), np.zeros((2, requested.points))
         self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
 
     def __call__(self, steps: Steps) -> None:
@@ -168,18 +181,18 @@ class Rubs:
         self.first = float(x.t[0]) if np.isnan(self.first) else self.first
         self.last = float(x.t[-1])
         known = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
-        begin, end = (np.clip(x.t[rows], self.asked.begin, self.asked.end) for rows in (k, k + 1))
+        begin, end = (np.clip(x.t[rows], self.requested.begin, self.requested.end) for rows in (k, k + 1))
         kept = path.inner[k] & (x.state[k, self.number] > 0) & known[k] & known[k + 1] & (end > begin)
         if kept.any():
             self._add_loads(k[kept], begin[kept], end[kept])
 
-    def told(self) -> Told:
+    def message(self) -> Observation:
         """Return the loads of the circumference and notes as a Result stores them."""
-        begin, end = max(self.first, self.asked.begin), min(self.last, self.asked.end)
+        begin, end = max(self.first, self.requested.begin), min(self.last, self.requested.end)
         lost = (f"wear: {self.path.lost} states of steps have no accelerations and are left out",)
-        R_i, R_j, L = (float(self.path.p[k]) for k in bearing_of(self.compiled.source, self.asked.joint))
-        found = Rubbed(self.asked, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
-        return Told(notes=lost if self.path.lost else (), rubbed=(found,))
+        R_i, R_j, L = (float(self.path.p[k]) for k in bearing_of(self.compiled.source, self.requested.joint))
+        found = SlidingLoads(self.requested, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
+        return Observation(notes=lost if self.path.lost else (), rubbed=(found,))
 
     def _add_loads(self, k: Array, begin: Array, end: Array) -> None:
         """Add the loads between states k and k + 1 (K,), from times `begin` to `end` (K,) in s."""
@@ -203,7 +216,7 @@ class Rubs:
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
         self.slip += float(slip.sum())
-        half = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.asked.overlap else None
+        half = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.requested.overlap else None
         for side, body in enumerate((self.joint.first, self.joint.second)):
             index = self.compiled.source.bodies[body].index if body >= 0 else -1
             angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)
@@ -213,7 +226,7 @@ class Rubs:
         """Distribute each point's loads over its part of the arc that the contact sweeps."""
         ends = angle @ TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
-        worn = spread(self.asked.points, low.ravel(), high.ravel(), loads, half)
+        worn = spread(self.requested.points, low.ravel(), high.ravel(), loads, half)
         self.load[side] += worn[0]
         self.friction[side] += worn[1]
 

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.argument_checks import function, instance, message, number_of, positive, refuse, text, whole
+from gudgeon.language.argument_checks import names as joint_names
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import function, instance, number_of, positive, refuse, text, told, whole
-from gudgeon.language.wanted import names as joint_names
-from gudgeon.model.contours import contour_of, taken_contours
+from gudgeon.model.contours import contour_of, read_contours
 from gudgeon.model.parameter_sets import ParameterSets, given_each, rows_of
-from gudgeon.results.wear import LAWS, POINTS, Rubbed, Rubbing, Worn, WornJoint
+from gudgeon.results.wear import LAWS, POINTS, SlidingLoads, SlidingRequest, Worn, WornJoint
 from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_rubs, rate_of
 
 if TYPE_CHECKING:
@@ -49,14 +49,14 @@ class Wearing:
     begin: float = -np.inf
 
     @property
-    def rubbing(self) -> tuple[Rubbing, ...]:
+    def rubbing(self) -> tuple[SlidingRequest, ...]:
         """Return the requests to observe the wear of all joints in a run."""
-        return tuple(Rubbing(joint, self.points, self.begin, np.inf, self.overlap) for joint in self.joints)
+        return tuple(SlidingRequest(joint, self.points, self.begin, np.inf, self.overlap) for joint in self.joints)
 
-    def deeper(self, rubbed: Rubbed, slots: int) -> tuple[Array, Array]:
+    def deeper(self, rubbed: SlidingLoads, slots: int) -> tuple[Array, Array]:
         """Return the wear depths (m) of a run: (points,) over the cells, (slots,) over the contour."""
         depth = self.scale * rubbed.depth(0, self.law, self.rate)
-        return depth, smoothed(on_slots(depth, slots), self.passes)
+        return depth, smoothed(means_on_slots(depth, slots), self.passes)
 
 
 def wear_loop(
@@ -107,7 +107,7 @@ def wear_loop(
         whole(passes, "passes", 0, MOST_PASSES),
         -np.inf if since is None else number_of(since, "since"),
     )
-    loop = Loop(simulation, wearing, taken_contours(simulation.source, contour, runs=True))
+    loop = Loop(simulation, wearing, read_contours(simulation.source, contour, runs=True))
     function(progress, "progress")
     count = whole(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
@@ -195,7 +195,7 @@ class Loop:
         return Worn(joints, wearing.law, wearing.rate, wearing.scale, self.failures, title)
 
 
-def on_slots(depth: Array, slots: int) -> Array:
+def means_on_slots(depth: Array, slots: int) -> Array:
     """Return the means (slots,) of depths (points,) over the arcs around the slots' angles; the total mean is kept."""
     points = len(depth)
     below = np.concatenate([[0.0], np.cumsum(depth)])
@@ -217,7 +217,7 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
     able = [one.joint for one in simulation.source.contours]
     names = tuple(joint_names(joints, "joints", "a name or names"))
     if not names:
-        raise BadValueError(f"joints is {told(joints)}: expected a name or names", hint=", ".join(able))
+        raise BadValueError(f"joints is {message(joints)}: expected a name or names", hint=", ".join(able))
     for joint in names:
         check_rubs(simulation.source, joint)
         if joint not in able:

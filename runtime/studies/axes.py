@@ -11,8 +11,8 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import listed, numbers, text
-from gudgeon.model.choices import place_of_word, said
+from gudgeon.language.argument_checks import listed, numbers, text
+from gudgeon.model.choices import index_of_word, specified
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import GAINS, given_slots, number, prepare
 from gudgeon.simulation.simulation import Simulation
@@ -65,7 +65,7 @@ def axis(
     """
     if (slot := _find_choice(simulation.source, text(name, "axis"))) is not None:
         names = listed(values, f"axis {name}", str, f"a list of names, of {', '.join(slot.words)}")
-        places = sorted({place_of_word(one, slot) for one in names})
+        places = sorted({index_of_word(one, slot) for one in names})
         return Axis(name, tuple(places), "", ((name, 1.0),), slot.words)
     values = numbers(values, f"axis {name}")
     if name in SETTINGS:
@@ -81,24 +81,24 @@ def axis(
 
 def typed(simulation: Simulation, written: str, parameters: Parameters | None = None) -> Axis:
     """Return the axis of a command-line text: "c=.05mm..1mm:5" (logarithmic), "omega=3,6,9", "rtol=1e-4..1e-10:4"."""
-    name, _, told = text(written, "axis").partition("=")
-    if not told:
+    name, _, message = text(written, "axis").partition("=")
+    if not message:
         raise BadValueError(f"axis {written!r}: expected name=low..high:count or name=a,b,c")
     if (choice := _find_choice(simulation.source, name.strip())) is not None:
-        if ".." in told or ":" in told:
+        if ".." in message or ":" in message:
             names = ",".join(choice.words)
             raise BadValueError(f"axis {written!r}: its values are names, there is none between: {name}={names}")
-        return axis(simulation, name.strip(), told.split(","), parameters)
-    ends, colon, count = told.partition(":")
+        return axis(simulation, name.strip(), message.split(","), parameters)
+    ends, colon, count = message.partition(":")
     slot = _first_parameter(simulation.source, name.strip())
     values = [number(_parse_value(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
     if ".." in ends:
         if len(values) != 2 or not 0 < values[0] < values[1]:
             raise BadValueError(f"axis {written!r}: expected 0 < low < high")
-        wanted = COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
-        if not 2 <= wanted <= MOST:
+        expected = COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
+        if not 2 <= expected <= MOST:
             raise BadValueError(f"axis {written!r}: expected a whole number of values after ':', from 2 to {MOST}")
-        values = np.geomspace(values[0], values[1], wanted).tolist()
+        values = np.geomspace(values[0], values[1], expected).tolist()
     elif colon:
         raise BadValueError(f"axis {written!r}: only a range low..high takes a number of values after ':'")
     return axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)
@@ -131,11 +131,11 @@ def _axis_parameters(source: KernelSource, name: str) -> list[int]:
 
 def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
     """Return the indices without stiffnesses of materials that runs may choose but do not with p."""
-    of = [(slot, said(slot, float(x))) for slot, x in zip(source.slots, p, strict=False) if slot.words]
+    of = [(slot, specified(slot, float(x))) for slot, x in zip(source.slots, p, strict=False) if slot.words]
     of = [(slot, name) for slot, name in of if slot.address.startswith(("bearings.", "guides."))]
     offered = {f"materials.{word}.E" for slot, _ in of for word in slot.words}
-    chosen = {f"materials.{name}.E" for _, name in of}
-    return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in offered - chosen]
+    selected = {f"materials.{name}.E" for _, name in of}
+    return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in offered - selected]
 
 
 def _first_parameter(source: KernelSource, name: str) -> Slot:

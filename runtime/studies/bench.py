@@ -15,7 +15,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
-from gudgeon.language.wanted import flag, function, mapping, numbers, positive
+from gudgeon.language.argument_checks import flag, function, mapping, numbers, positive
 from gudgeon.model.default_step import plain_end
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import runs as measured
@@ -141,7 +141,7 @@ def bench(
     t_end, quick = None if t_end is None else positive(t_end, "t_end"), flag(quick, "quick")
     if simulation.source.degrees_of_freedom == 0:
         return _measure_kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
-    chosen, left_out = choice(simulation, methods, quick)
+    selected, left_out = choice(simulation, methods, quick)
     usual = usual_steps(simulation, parameters, quick)
     steps = sorted(numbers(steps, "steps") or usual, reverse=True)
     tolerances = sorted(numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
@@ -151,14 +151,14 @@ def bench(
     pilot = Setting("rk4", natural_step(simulation, parameters))
     work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, pilot, parameters)
     work = replace(work, enough=QUICK if quick else work.enough)
-    settings = [Setting("rk4", step) for step in steps if "rk4" in chosen]
-    settings += [Setting(method, x) for method in chosen if method in ADAPTIVE for x in tolerances]
-    checks = [method for method in chosen if method in python_driver.NAMES]
+    settings = [Setting("rk4", step) for step in steps if "rk4" in selected]
+    settings += [Setting(method, x) for method in selected if method in ADAPTIVE for x in tolerances]
+    checks = [method for method in selected if method in python_driver.NAMES]
     if checks:
         _ = simulation.full  # derived and compiled before any of them is timed
     settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
-    wanted = references(simulation, settings)
-    found = _measure(work, settings, wanted, progress or (lambda fraction, text: None))
+    expected = references(simulation, settings)
+    found = _measure(work, settings, expected, progress or (lambda fraction, text: None))
     return replace(found, left_out=(*left_out, *found.left_out))
 
 
@@ -268,7 +268,9 @@ def _make_row(work: Work, measured_run: Attempt, good: Sequence[Attempt]) -> Row
         )
     diagnostics = measured_run.run.diagnostics
     names = diagnostics.method.split("+")
-    other = other_than([*names, names[0].rpartition(":")[2].lower()], good)  # nor by the same from elsewhere
+    other = reference_by_other_method(
+        [*names, names[0].rpartition(":")[2].lower()], good
+    )  # nor by the same from elsewhere
     error = difference(measured_run.run, other.run) if other is not None and other.run is not None else Error()
     known = diagnostics.seconds if measured_run.setting.method in python_driver.NAMES else 0.0
     seconds = known if known > work.enough else work.seconds(measured_run.setting)
@@ -283,7 +285,7 @@ def _make_row(work: Work, measured_run: Attempt, good: Sequence[Attempt]) -> Row
     )
 
 
-def other_than(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
+def reference_by_other_method(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
     """Return the first reference by none of these methods, else the last (the finest step); None without references."""
     return next((a for a in good if a.setting.method not in methods), good[-1] if good else None)
 

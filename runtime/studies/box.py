@@ -16,7 +16,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Progress
-from gudgeon.language.wanted import number_of
+from gudgeon.language.argument_checks import number_of
 from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -91,16 +91,16 @@ def judge_point(
     if long.failure or long.run is None:
         return judge(parameters, long, [], limits)
     patient = replace(work, limit=PATIENCE * limit)
-    times = predictable(long.run)
+    times = predictable_times(long.run)
     pair = _run_pair(patient, setting, times)
     cell = judge(parameters, long, [pair], limits)
     if cell.failed and cell.error.beyond(limits.motion, limits.path, limits.force):
-        kept = times[: _horizon(patient, pair[1], limits)]
+        kept = times[: _count_predictable_samples(patient, pair[1], limits)]
         cell = judge(parameters, long, [_run_pair(patient, setting, kept)] if len(kept) > 1 else [], limits)
     return cell
 
 
-def predictable(run: Result) -> Array:
+def predictable_times(run: Result) -> Array:
     """Return the times (s) of a comparison: up to half-way between the fourth onset and the next, or over the whole
     run.
     """
@@ -114,7 +114,7 @@ def _run_pair(work: Work, setting: Setting, times: Array) -> Pair:
     return work.sampled(setting, times), work.sampled(setting.finer(FINER), times)
 
 
-def _horizon(work: Work, fine: Attempt, limits: Limits) -> int:
+def _count_predictable_samples(work: Work, fine: Attempt, limits: Limits) -> int:
     """Return the number of samples up to which a run can agree with the finer run `fine`.
 
     Joints in lasting contact may amplify differences like impacts. The amplification is a property of the motion, not

@@ -12,7 +12,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import flag, function, instance, listed, mapping, optional, optional_positive, text, whole
+from gudgeon.language.argument_checks import (
+    flag,
+    function,
+    instance,
+    listed,
+    mapping,
+    optional,
+    optional_positive,
+    text,
+    whole,
+)
 from gudgeon.model.default_step import plain_end
 from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
@@ -137,18 +147,18 @@ def arrange(
 ) -> tuple[Axis, Axis]:
     """Return rows and columns of the map: the method's own axis is the rows; missing axes have defaults."""
     own, others = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
-    wanted = "step" if method in FIXED else "rtol"
+    expected = "step" if method in FIXED else "rtol"
     if len(axes) > 2 or len(own) > 1 or len({a.name for a in axes}) < len(axes):
         raise BadValueError(f"axes {', '.join(a.name for a in axes)}: expected two different ones, step or rtol once")
-    if own and own[0].name != wanted:
-        raise BadValueError(f"axis {own[0].name} does not fit: method {method} takes a {wanted}")
+    if own and own[0].name != expected:
+        raise BadValueError(f"axis {own[0].name} does not fit: method {method} takes a {expected}")
     if any(not value > 0 for a in own for value in a.values):
-        raise BadValueError(f"axis {wanted}: expected positive values")
+        raise BadValueError(f"axis {expected}: expected positive values")
     if len(others) == 2:
         return others[1], others[0]
     if not own:
         tolerances = TOLERANCES[1:3] if quick else TOLERANCES
-        own = [axis(simulation, wanted, default_steps([simulation], quick) if method in FIXED else tolerances)]
+        own = [axis(simulation, expected, default_steps([simulation], quick) if method in FIXED else tolerances)]
     return own[0], others[0] if others else _usual_clearances(simulation, parameters, quick)
 
 
@@ -304,7 +314,7 @@ def _judge_steps(
     short = window(simulation, longest, Setting("rk4", usual), job.parameters)
     long = Work(simulation, t_long, job.parameters)
     every = sorted({x for step in steps for x in (step, step.finer(FINER))}, key=lambda x: -x.value)
-    pieces = [(work, step) for work, wanted in ((short, every), (long, steps)) for step in wanted]
+    pieces = [(work, step) for work, expected in ((short, every), (long, steps)) for step in expected]
     cost, done = sum(work.t_end / step.value for work, step in pieces), 0.0
     found: dict[tuple[Work, Setting], Attempt] = {}
     for work, step in pieces:

@@ -18,7 +18,7 @@ from gudgeon.contract.methods import CHOOSING, INTEGRATORS, STAGED
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
-from gudgeon.language.wanted import listed
+from gudgeon.language.argument_checks import listed
 from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -33,8 +33,8 @@ def has_adaptive_method(simulation: Simulation) -> bool:
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
-def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
-    """Return the methods that fit a scene, of `wanted` (names, or patterns such as "scipy:*"), and reasons for those
+def choice(simulation: Simulation, expected: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
+    """Return the methods that fit a scene, of `expected` (names, or patterns such as "scipy:*"), and reasons for those
     left out.
 
     The default is all; with `quick` all but the cross-checks, which are slow. Raises BadValueError for an unknown name.
@@ -42,17 +42,17 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
     own = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
     every = (*own, *python_driver.NAMES)
     usual = own if quick else every
-    wanted = usual if wanted is None else listed(wanted, "methods", str, "a list of names of methods")
-    named = [m for m in every if any(fnmatchcase(m, text) for text in wanted)]
-    for text in wanted:
+    expected = usual if expected is None else listed(expected, "methods", str, "a list of names of methods")
+    named = [m for m in every if any(fnmatchcase(m, text) for text in expected)]
+    for text in expected:
         if not any(fnmatchcase(method, text) for method in every):
             raise BadValueError(f"method {text!r}: expected some of {', '.join(every)}, or a pattern such as 'scipy:*'")
     reason = python_driver.unfit(simulation.source)
     found, left_out = [], []
     for method in named:
         package = method.partition(":")[0]
-        source, asked = simulation.source, method in STAGED and wanted is not usual
-        there = (*source.methods, *(STAGED if asked and not source.no_slopes else ()))
+        source, requested = simulation.source, method in STAGED and expected is not usual
+        there = (*source.methods, *(STAGED if requested and not source.no_slopes else ()))
         fits = method in there if method in CHOOSING else has_adaptive_method(simulation)
         if method in ADAPTIVE and not fits:
             continue
@@ -63,8 +63,8 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
         else:
             found.append(method)
     if not found:
-        told = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
-        raise BadValueError("none of the methods fits", hint="; ".join(told))
+        message = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
+        raise BadValueError("none of the methods fits", hint="; ".join(message))
     return found, list(dict.fromkeys(left_out))
 
 

@@ -155,9 +155,9 @@ def attempt(
         if progress:
             progress(fraction, text)
 
-    chosen: dict[str, Any] = {"rtol": setting.value}
+    selected: dict[str, Any] = {"rtol": setting.value}
     if setting.fixed:
-        chosen = {} if setting.method == "kinematic" else {"step": setting.value}
+        selected = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
         run = simulation.simulate(
             output=times,
@@ -166,11 +166,11 @@ def attempt(
             progress=watch,
             stop=False,
             peaks=(),
-            **chosen,
+            **selected,
         )
     except _TooSlowError:
-        told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
-        return Attempt(setting, None, told, at, slow=True, cpu=limit)
+        message, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
+        return Attempt(setting, None, message, at, slow=True, cpu=limit)
     except SolverError as error:
         outside = bool(getattr(error, "outside_model", False))
         first = str(error).partition("\n")[0]

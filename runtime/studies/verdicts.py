@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gudgeon.files.room import check_memory
+from gudgeon.files.free_space import check_memory
 from gudgeon.language.plot_units import quantity
 from gudgeon.model.contours import widest
 from gudgeon.results.results import Result
@@ -138,8 +138,8 @@ def _find_faults(
         yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} m or rad", "|Φ|"
     for _, fine in pairs:
         if fine.failure:
-            told = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
-            yield Status.INACCURATE, told, "?"
+            message = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
+            yield Status.INACCURATE, message, "?"
     beyond = [
         (value / limit, f"{name} {share(value)} of {of}", f"{short} {share(value)}")
         for short, name, value, limit, of in (

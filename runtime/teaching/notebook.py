@@ -17,8 +17,8 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.symbols.numbers import SlotEntry
-from gudgeon.generator.targets.latex.document import Block, Carried, Document, Equation, Paragraph, Table, Text
+from gudgeon.generator.symbols.parameter_table import ParameterEntry
+from gudgeon.generator.targets.latex.document import Block, Document, EmbeddedHtml, Equation, Paragraph, Table, Text
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.printers import share_of_pi
@@ -79,8 +79,8 @@ def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
     yield "code", _coordinates_code(model, notation, names)
     used = _used_parameters(model)
     shown = (notation.math(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
-    told = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
-    yield "markdown", "\n\n".join((*told, *map(block, primes(notation, shown))))
+    message = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
+    yield "markdown", "\n\n".join((*message, *map(block, primes(notation, shown))))
     yield "code", _parameters_code(used, notation, names)
     yield from _constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:
@@ -124,14 +124,14 @@ def _column(items: list[str]) -> str:
     return "\n    ".join(("sp.Matrix([", *(x.rstrip() for x in (*lines, line)))) + "\n])"
 
 
-def _used_parameters(model: Model) -> list[SlotEntry]:
+def _used_parameters(model: Model) -> list[ParameterEntry]:
     """Return the parameters that occur in Φ, M or g."""
     expressions = [*(row.phi for row in model.rows), *model.masses, *model.g]
     used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
     return [entry for entry in model.slots.entries.values() if entry.symbol in used]
 
 
-def _parameters_code(entries: list[SlotEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
+def _parameters_code(entries: list[ParameterEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
     """Return the cell that defines the symbols of parameters and their default values."""
     lines = [_define_symbol(entry.symbol, notation, names) for entry in entries]
     values = [f"    {names[e.symbol]}: {_default(e.default)},  # {e.address}" for e in entries]
@@ -223,7 +223,7 @@ def block(shown: Block) -> str:
         return f"$$ {shown.left.latex} = {' '.join(term.latex for term in shown.terms)} $$"
     if isinstance(shown, Table):
         return _markdown_table(shown)
-    if isinstance(shown, Carried):
+    if isinstance(shown, EmbeddedHtml):
         return ""
     return "\n".join(("```text", *shown.lines, "```"))
 

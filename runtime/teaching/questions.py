@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.symbols.corners import Pick
+from gudgeon.generator.symbols.switches import Pick
 from gudgeon.generator.targets.latex.document import Block, Equation, cells, paragraph, table
 from gudgeon.generator.targets.latex.kinematics import gamma_of
 from gudgeon.generator.targets.latex.letters import Name, letter
@@ -68,7 +68,7 @@ def _ask_freedoms(subject: Subject) -> Question:
     elif model.rows:
         text = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
         solved.append(paragraph("The rank of ", PHI_Q, text))
-    asked = paragraph(
+    requested = paragraph(
         "How many coordinates do the bodies have, how many rows does each joint and drive add to ",
         PHI,
         ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ",
@@ -76,7 +76,7 @@ def _ask_freedoms(subject: Subject) -> Question:
         " agree?",
     )
     numbers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
-    return Question("Count the freedoms", (asked,), tuple(solved), numbers)
+    return Question("Count the freedoms", (requested,), tuple(solved), numbers)
 
 
 def _owner_names(subject: Subject) -> str:
@@ -86,7 +86,7 @@ def _owner_names(subject: Subject) -> str:
 
 def _ask_constraints(subject: Subject) -> Question:
     """Return the question for the constraint equations of the chosen joints and drives."""
-    asked = paragraph(
+    requested = paragraph(
         "Write the rows of ",
         PHI,
         f" of {_owner_names(subject)}, in the coordinates of the centres of mass, with the "
@@ -97,7 +97,7 @@ def _ask_constraints(subject: Subject) -> Question:
         for k, row in subject.rows
         for block in (paragraph(f"{row.name}, {row.unit}:"), subject.equation(indexed("Phi", k), row.phi))
     ]
-    return Question("Write Φ", (asked,), tuple(_new_letters(subject, "phi") + solved))
+    return Question("Write Φ", (requested,), tuple(_new_letters(subject, "phi") + solved))
 
 
 def _new_letters(subject: Subject, of: str) -> list[Block]:
@@ -134,7 +134,7 @@ def _ask_jacobian(subject: Subject) -> Question:
                 formula = "below"
             shown = subject.number(x, off=off[k - 1, place[q]])
             rows.append(cells(left, formula, shown, _entry_unit(row.unit, place[q] % 3)))
-    asked = [
+    requested = [
         paragraph(f"At {drawn.t:g} s the bodies are at"),
         *position(subject, rates=False),
         paragraph(
@@ -144,7 +144,7 @@ def _ask_jacobian(subject: Subject) -> Question:
         ),
     ]
     solved = [*_new_letters(subject, "phi_q"), *table(cells("entry", "", "value", "unit"), rows), *below]
-    return Question("The Jacobian at a position", tuple(asked), tuple(solved), numbers)
+    return Question("The Jacobian at a position", tuple(requested), tuple(solved), numbers)
 
 
 def _entry_unit(row: str, axis: int) -> str:
@@ -170,12 +170,12 @@ def _ask_gamma(subject: Subject) -> Question:
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
         solved.append(subject.value(indexed("gamma", k), numbers[row.name], unit, scale, off[k - 1]))
-    asked = [
+    requested = [
         paragraph(f"At the same {drawn.t:g} s the rates are"),
         *position(subject, rates=True),
         paragraph("Find ", GAMMA, f" in the rows of {_owner_names(subject)}: its formula, and its value."),
     ]
-    return Question("γ", tuple(asked), tuple(solved), numbers)
+    return Question("γ", tuple(requested), tuple(solved), numbers)
 
 
 def _ask_play(subject: Subject) -> Iterator[Question]:
@@ -188,7 +188,7 @@ def _ask_play(subject: Subject) -> Iterator[Question]:
     ex, ey = (float(f"{drawn.run[f'{joint}.e{axis}'][-1]:.4g}") for axis in "xy")
     clearance = float(drawn.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))
-    asked = paragraph(
+    requested = paragraph(
         f"The journal of {joint} is off the middle of its bearing by (",
         subject.number(ex),
         ", ",
@@ -205,7 +205,7 @@ def _ask_play(subject: Subject) -> Iterator[Question]:
         paragraph(f"As δ is {'positive' if e > clearance else 'negative'}, {touch}."),
     )
     numbers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
-    yield Question("A joint with play", (asked,), solved, numbers)
+    yield Question("A joint with play", (requested,), solved, numbers)
 
 
 def letters_of(subject: Subject, expressions: Iterable[sp.Expr]) -> list[sp.Symbol]:
@@ -236,8 +236,8 @@ def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
     value = subject.notation.expand(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
-            told = _define_by_steps(subject, symbol, driven)
-            return told or [subject.equation(symbol, value)]
+            message = _define_by_steps(subject, symbol, driven)
+            return message or [subject.equation(symbol, value)]
     return [subject.equation(symbol, value)]
 
 
@@ -249,8 +249,8 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     notation, t = subject.notation, subject.model.t
     value = notation.expand(subject.model.symbols.definitions[driven[0]])
     shares = {found: share for found in value.atoms(sp.Max) if (share := _clamped_progress(found)) is not None}
-    taken = {name.text for name in notation.names.values()}
-    base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & taken)
+    used = {name.text for name in notation.names.values()}
+    base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
     steps = {found: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, found in enumerate(shares, 1)}
     inside = value.xreplace(steps)
     if not steps or inside.has(sp.Max, sp.Min, Pick):
@@ -326,7 +326,7 @@ def acceleration(subject: Subject) -> Question:
     name = model.bodies[k // 3].name
     what = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
     others = position(subject, rates=False, others=True)
-    asked = [
+    requested = [
         *([paragraph("The other bodies are at"), *others, paragraph("with the rates")] if others else []),
         *position(subject, rates=True, others=True),
         paragraph(
@@ -347,7 +347,7 @@ def acceleration(subject: Subject) -> Question:
         subject.value(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),
     ]
     coordinate = subject.simulation.source.coordinates[k]
-    return Question("Accelerations", tuple(asked), tuple(solved), {coordinate: float(a[k])})
+    return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
 
 
 def _omission_text(rows: int) -> str:
@@ -379,16 +379,16 @@ def force(subject: Subject) -> Iterator[Question]:
     name = str(subject.rng.permutation(np.array(known, object))[0])
     second = mechanism.joints[name].second
     F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
-    told: list[Block] = []
+    message: list[Block] = []
     if subject.model.degrees_of_freedom:
-        told.append(paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
-        told += _table_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        message.append(paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
+        message += _table_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        told.append(paragraph("Take the accelerations of all bodies from the question before."))
+        message.append(paragraph("Take the accelerations of all bodies from the question before."))
     if source.clearances or source.frictions:
-        told.append(paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
-        told += _table_by_body(subject, _applied_forces(subject), "x, N", "y, N", "angle, N m")
-    told.append(paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
+        message.append(paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
+        message += _table_by_body(subject, _applied_forces(subject), "x, N", "y, N", "angle, N m")
+    message.append(paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_balance(subject, [k - 1 for k, _ in lambdas]),
@@ -400,10 +400,10 @@ def force(subject: Subject) -> Iterator[Question]:
     ]
     solved += [subject.value(letter("F", axis, name), x, "N", F[2]) for axis, x in zip("xy", F, strict=False)]
     solved.append(subject.value(letter("F", name), F[2], "N", F[2]))
-    yield Question("The force in a joint", tuple(told), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
+    yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
-def _balance(subject: Subject, asked: list[int]) -> list[Block]:
+def _balance(subject: Subject, requested: list[int]) -> list[Block]:
     """Return the equations of motion of each coordinate, from which the multipliers follow.
 
     asked: indices of the constraint equations of the joint in question.
@@ -413,7 +413,7 @@ def _balance(subject: Subject, asked: list[int]) -> list[Block]:
     left = _applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
     signs = [indexed("lambda", k) for k in range(1, len(model.rows) + 1)]
     n, scale = len(model.q), float(np.abs(left).max())
-    shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[asked, k].any())]
+    shown = [k for k in range(n) if phi_q[:, k].any() and (n <= MAX_SHOWN_ROWS or phi_q[requested, k].any())]
     blocks: list[Block] = [paragraph("Coordinate by coordinate ", BALANCE, _omission_text(n), " is, in N and N m,")]
     for k in shown:
         q, number = subject.notation.math(model.q[k]), subject.number(float(left[k]), scale=scale)

@@ -48,7 +48,7 @@ class Question:
     """A question and its solution; `numbers` are the answers in SI by name."""
 
     title: str
-    asked: tuple[Block, ...]
+    requested: tuple[Block, ...]
     solved: tuple[Block, ...]
     numbers: Mapping[str, float] = field(default_factory=dict)
 
@@ -97,12 +97,12 @@ def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) 
     """Return the subject with at most two joints and one drive, drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     of = {kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")}
-    chosen = [
+    selected = [
         name
         for kind, most in (("joint", 2), ("drive", 1))
         for name in np.array(of[kind], object)[sorted(rng.permutation(len(of[kind]))[:most])]
     ]
-    return Subject(model, make_notation(model), simulation, drawn, rng, tuple(chosen))
+    return Subject(model, make_notation(model), simulation, drawn, rng, tuple(selected))
 
 
 def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
@@ -121,18 +121,18 @@ def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> t
     facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
     title = one_line(mechanism.title or mechanism.name)
     given = tuple(_given_sections(subject))
-    asked = tuple(Section(f"{k}. {x.title}", x.asked) for k, x in enumerate(questions, 1))
+    requested = tuple(Section(f"{k}. {x.title}", x.requested) for k, x in enumerate(questions, 1))
     solved = tuple(_solution_sections(k, question) for k, question in enumerate(questions, 1))
     last = Section("These numbers again", tuple(_repetition_blocks(subject)))
     notation = subject.notation
-    sheet = Document(f"Exercise: {title}", facts, with_paper(with_letters((*given, *asked), notation)))
+    sheet = Document(f"Exercise: {title}", facts, with_paper(with_letters((*given, *requested), notation)))
     sections = with_paper(with_letters((*given, *sum(solved, ()), last), notation))
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 
 def _solution_sections(k: int, question: Question) -> tuple[Section, ...]:
     """Return the sections of question k and of its solution."""
-    return Section(f"{k}. {question.title}", question.asked), Section("Solution", question.solved, 2)
+    return Section(f"{k}. {question.title}", question.requested), Section("Solution", question.solved, 2)
 
 
 def _given_sections(subject: Subject) -> list[Section]:
@@ -198,5 +198,5 @@ def _repetition_blocks(subject: Subject) -> list[Block]:
     drawn = subject.drawn
     if not drawn.numbers:
         return [paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]
-    told = [f"{address} = {x}" for address, x in drawn.numbers.items()]
-    return [paragraph(f"Drawn: {', '.join(told)}; the moment is {drawn.t:g} s. All else is the file's.")]
+    message = [f"{address} = {x}" for address, x in drawn.numbers.items()]
+    return [paragraph(f"Drawn: {', '.join(message)}; the moment is {drawn.t:g} s. All else is the file's.")]

@@ -4,7 +4,7 @@ threads.
 C calls Python every EVERY seconds, and stops its work if requested.
 - `Asker`: the callback of C.
 - `apart` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
-- `working` reports that deriving or compiling is under way.
+- `report_work` reports that deriving or compiling is under way.
 """
 
 from __future__ import annotations
@@ -72,8 +72,10 @@ def _callback(compiled: CompiledModel) -> Any:
             if whom is not None and error is not None:
                 ffi.from_handle(whom).raised = error
 
-        asked = ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=store_error)
-        _functions[id(ffi)] = ffi, asked
+        requested = ffi.callback(
+            "int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=store_error
+        )
+        _functions[id(ffi)] = ffi, requested
     return _functions[id(ffi)][1]
 
 
@@ -104,14 +106,14 @@ def apart(work: Callable[[], Result]) -> Result:
     return results[0]
 
 
-def working(text: str) -> AbstractContextManager[None]:
+def report_work(text: str) -> AbstractContextManager[None]:
     """Return a context for something that takes a while, which reports `text` if someone listens."""
     teller = _teller.get()
     return teller(text) if teller else nullcontext()
 
 
 @contextmanager
-def told_to(teller: Teller) -> Iterator[None]:
+def report_through(teller: Teller) -> Iterator[None]:
     """Report through `teller` what takes a while within the with block, in this thread."""
     token = _teller.set(teller)
     try:

@@ -1,6 +1,6 @@
 """Delay Ctrl-C to safe points, so that it never falls between a result and its storage; end interrupted programs.
 
-`last_word` prints the last message of an interrupted program, INTERRUPTED is its exit code.
+`print_interrupted` prints the last message of an interrupted program, INTERRUPTED is its exit code.
 """
 
 from __future__ import annotations
@@ -93,18 +93,18 @@ class EndingSignals:
         signal.raise_signal(signal.SIGINT)
 
 
-def is_the_program() -> None:
+def declare_program() -> None:
     """Declare that the process is the command `gudgeon` only, so that it may ignore Ctrl-C at its end."""
     _whole.append(True)
 
 
-def nothing_more() -> None:
+def ignore_ctrl_c() -> None:
     """Ignore Ctrl-C from now on, if the process is the command only: it ends anyway."""
     if _whole:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def last_word() -> None:
+def print_interrupted() -> None:
     """Print that the program was interrupted."""
-    nothing_more()
+    ignore_ctrl_c()
     print("interrupted", file=sys.stderr)

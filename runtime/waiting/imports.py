@@ -1,7 +1,7 @@
 """Import large packages late and completely: a module that Ctrl-C left half imported could not be imported again.
 
 They take a second or more, and are imported in a thread of their own. Ctrl-C is raised at once in the main thread,
-while the import is completed. `at_rest` stops the garbage collector meanwhile.
+while the import is completed. `pause_garbage_collector` stops the garbage collector meanwhile.
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ def whole(*names: str) -> None:
 def _import(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
     """Import modules in this thread; store an error and signal the end."""
     try:
-        with at_rest():  # what modules make stays: to look through it again and again takes a tenth of their time
+        with (
+            pause_garbage_collector()
+        ):  # what modules make stays: to look through it again and again takes a tenth of their time
             for name in names:
                 import_module(name)
     except BaseException as error:
@@ -54,7 +56,7 @@ def _is_imported(name: str) -> bool:
 
 
 @contextmanager
-def at_rest() -> Iterator[None]:
+def pause_garbage_collector() -> Iterator[None]:
     """Stop the garbage collector within a with block, and count new objects as old ones afterwards.
 
     As new objects they would be searched at once.

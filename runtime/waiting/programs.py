@@ -67,18 +67,18 @@ class Programs:
         """Return output and errors of a program after its end. Raise KeyboardInterrupt soon after Ctrl-C or `until`."""
         import subprocess
 
-        told: tuple[str, str] | None = None
+        message: tuple[str, str] | None = None
         given_up = _given_up.get()
         with CtrlC() as ctrl_c:
-            while told is None:
+            while message is None:
                 try:
-                    told = process.communicate(timeout=EVERY)
+                    message = process.communicate(timeout=EVERY)
                 except subprocess.TimeoutExpired:
                     ctrl_c.take()
                     if given_up and given_up():
                         raise KeyboardInterrupt from None
         ctrl_c.take()  # one that came as the program ended
-        return told
+        return message
 
     def stop(self, *given_up: subprocess.Popen[str]) -> None:
         """Kill those of these programs that are still running."""

@@ -15,11 +15,11 @@ from gudgeon.assembly.rank import OPEN, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles, stiff_of
+from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, first_method, integrated_angles, stiff_method
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.language.defined import DIVIDING
 from gudgeon.language.tree import to_json
-from gudgeon.model.choices import said
+from gudgeon.model.choices import specified
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import SMOOTH, T_END, default_step
 from gudgeon.model.parameters import GAINS, conditions, prepare
@@ -56,8 +56,8 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "divides": sorted(DIVIDING),
         "gains": [place[name] for name in GAINS if name in place],
         "methods": _page_methods(source),
-        "begins": begins_with(source),
-        "stiff": stiff_of(source, RTOL),
+        "begins": first_method(source),
+        "stiff": stiff_method(source, RTOL),
         "automatic": not source.explicit,
         "pivots": source.motion_pivots,
         "start_pivots": source.start_pivots,
@@ -101,8 +101,8 @@ def _page_methods(source: KernelSource) -> list[str]:
 
 def _parameter_json(slot: Slot) -> dict[str, Any]:
     """Return a parameter as JSON: address, unit, default, words of a choice."""
-    told: dict[str, Any] = {"address": slot.address, "unit": slot.unit, "default": said(slot, slot.default)}
-    return told | ({"words": slot.words} if slot.words else {}) | ({"follows": True} if slot.follows else {})
+    message: dict[str, Any] = {"address": slot.address, "unit": slot.unit, "default": specified(slot, slot.default)}
+    return message | ({"words": slot.words} if slot.words else {}) | ({"follows": True} if slot.follows else {})
 
 
 def _array_widths(source: KernelSource) -> dict[str, int]:

@@ -68,7 +68,7 @@ def seen_step(run: Result) -> float:
     return min(turn, float(run.t[-1] - run.t[0])) / STEPS
 
 
-def told(simulation: Simulation, run: Result, size: int, most: int) -> dict[str, str] | None:
+def message(simulation: Simulation, run: Result, size: int, most: int) -> dict[str, str] | None:
     """Return {note, code} of a scene; None if the page has a formulation that drifts.
 
     run: at the file's values. size: bytes of the scene's module. most: bytes of a module next to which a second one

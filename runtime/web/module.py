@@ -18,7 +18,7 @@ from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.compiler import finish, plain, zig
 from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
-from gudgeon.waiting.asking import working
+from gudgeon.waiting.asking import report_work
 from gudgeon.waiting.programs import Programs
 
 MODULE = "simulator.wasm"
@@ -93,7 +93,7 @@ def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
 
     def build(folder: Path) -> None:
         """Compile the module into a folder of the cache."""
-        with working(f"compiling {source.mechanism}, scene {source.scene}, for pages"):
+        with report_work(f"compiling {source.mechanism}, scene {source.scene}, for pages"):
             _compile_module(source, line, folder)
 
     return (cache.fetch("web", key, build) / MODULE).read_bytes()

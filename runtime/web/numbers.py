@@ -16,7 +16,7 @@ from gudgeon.language.plot_units import drawn, pretty
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.units import TIME, UNITS, dimension
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import in_contours
+from gudgeon.model.contours import contour_parameters
 from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
 
@@ -50,17 +50,17 @@ def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
     """
     source, units = simulation.source, _Units(simulation)
     size, found = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
-    worn = in_contours(source)
+    worn = contour_parameters(source)
     for k, slot in ((k, slot) for k, slot in enumerate(source.slots) if k not in worn):
         section, _, name = slot.address.partition(".")
-        told: dict[str, Any] = {"k": k, "name": name or section}
+        message: dict[str, Any] = {"k": k, "name": name or section}
         if not slot.words:
             unit, factor = units.of(slot)
             angle = unit in ANGLES or slot.address.endswith((".theta", ".angle"))
             low, high = _slider_range(source, slot, p, size, angle)
             low, high = (_limit_range(simulation.compiled, slot, float(p[k]), end) for end in (low, high))
-            told |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
-        found.setdefault(section, []).append(told)
+            message |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
+        found.setdefault(section, []).append(message)
     order = [*(name for name in SECTIONS if name in found), *(name for name in found if name not in SECTIONS)]
     return [{"title": SECTIONS.get(name, name.capitalize()), "numbers": _sort_by_owner(found[name])} for name in order]
 
@@ -83,7 +83,7 @@ def units(source: KernelSource) -> dict[str, dict[str, float]]:
 def _limit_range(compiled: CompiledModel, slot: Slot, value: float, end: float) -> float:
     """Return the end of a slider; if a derived condition refuses it, the last value before by bisection."""
 
-    def is_refused(at: float) -> bool:
+    def is_step_refused(at: float) -> bool:
         """Return whether the value breaks a condition."""
         try:
             prepare(compiled, {slot.address: at})
@@ -91,13 +91,13 @@ def _limit_range(compiled: CompiledModel, slot: Slot, value: float, end: float) 
             return True
         return False
 
-    if not is_refused(end) or is_refused(value):
+    if not is_step_refused(end) or is_step_refused(value):
         return end
     good, bad = value, end
     for _ in range(HALVINGS):
         middle = 0.5 * (good + bad)
-        good, bad = (good, middle) if is_refused(middle) else (middle, bad)
-    return 0.0 if abs(good) < EDGE * abs(value) and not is_refused(0.0) else good + EDGE * (value - good)
+        good, bad = (good, middle) if is_step_refused(middle) else (middle, bad)
+    return 0.0 if abs(good) < EDGE * abs(value) and not is_step_refused(0.0) else good + EDGE * (value - good)
 
 
 class _Units:

@@ -91,18 +91,18 @@ def packed_element(name: str, data: bytes) -> str:
     return f'<script type="text/plain" id="{name}">{packed}</script>\n'
 
 
-def element(name: str, told: str) -> str:
+def element(name: str, message: str) -> str:
     """Return JSON as a hidden element; a text in it cannot end the element."""
-    safe = told.replace("<", "\\u003c")
+    safe = message.replace("<", "\\u003c")
     return f'<script type="application/json" id="{name}">{safe}</script>\n'
 
 
 @cache
 def code(name: str) -> str:
     """Return a JavaScript file of this folder in the form for pages."""
-    from gudgeon.generator.targets.javascript.module import carried_script
+    from gudgeon.generator.targets.javascript.module import embedded_script
 
-    return carried_script(file_text(name))
+    return embedded_script(file_text(name))
 
 
 def file_text(name: str) -> str:

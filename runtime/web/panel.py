@@ -113,8 +113,8 @@ def _names(rig: Rig) -> Iterator[list[Any]]:
     for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
         shifts = [[round(x, 1), round(-y, 1)] for x, y in (at.get(label.part, (0.0, 0.0)) for at in (wide, narrow))]
         hidden = [part not in at for part, at in ((label.part, wide), (label.part, narrow))]
-        told: list[Any] = [None if gone else shift for shift, gone in zip(shifts, hidden, strict=True)]
-        yield [label.text, label.part, f"{look(role, tint)}-name", *told, float(f"{label.clear:.3g}")]
+        message: list[Any] = [None if gone else shift for shift, gone in zip(shifts, hidden, strict=True)]
+        yield [label.text, label.part, f"{look(role, tint)}-name", *message, float(f"{label.clear:.3g}")]
 
 
 def _name_shifts(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:

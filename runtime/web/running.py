@@ -10,7 +10,7 @@ from html import escape
 from typing import Any
 from warnings import warn
 
-from gudgeon.assembly.followed import outside
+from gudgeon.assembly.guess_warnings import outside
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.drawing.page import PIXELS
 from gudgeon.drawing.picture import size_of
@@ -39,19 +39,19 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     """Return the parts of a page for `page.parts`."""
     run = _run_scene(simulation)
     rig = rig_of(run)
-    told, note = panel(simulation, run, rig) | _drawing_scales(rig) | {"scenes": dict(scenes)}, ""
+    message, note = panel(simulation, run, rig) | _drawing_scales(rig) | {"scenes": dict(scenes)}, ""
     carried = packed_element(DESCRIPTION, description(simulation.compiled, drift.seen_step(run)).encode())
     try:
         module = packed_module(simulation.compiled)
         carried += _pack_modules(simulation, module)
-        told["drift"] = drift.told(simulation, run, len(module), MAX_MODULE_BYTES)
-        told |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
+        message["drift"] = drift.message(simulation, run, len(module), MAX_MODULE_BYTES)
+        message |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
-        told["recorded"], note = recorded(run, [*told["traces"], *told["values"]]), NO_SIMULATOR
+        message["recorded"], note = recorded(run, [*message["traces"], *message["values"]]), NO_SIMULATOR
         warn(f"{note[0].lower()}{note[1:]}", stacklevel=outside())
-    text = json.dumps(told, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    text = json.dumps(message, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     carried += packed_element(PANEL, text.encode())
     title = one_line(simulation.source.title or simulation.source.mechanism)
     frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))

@@ -5,7 +5,7 @@
  * from the file's parameter values to those of the run.
  */
 const FIRST_STEP = 1 / 8, LEAST_STEP = 1e-7; // fractions of the path of parameters
-const NEAR = 0.2; // rad, or fraction of the size: largest step; distinguishes two assemblies (assembly/followed.py)
+const NEAR = 0.2; // rad, or fraction of the size: largest step; distinguishes two assemblies (assembly/guess_warnings.py)
 const MOST_TRIES = 3000; // steps of the continuation, some milliseconds each for the largest linkages
 
 /* Return an error for a start that a page does not search any further, unlike Python (assembly/start.py). */

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.commands.assembly_story import assemble_scenes, remarks
+from gudgeon.commands.assembly_report import assemble_scenes, remarks
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.generator.reader.read import read_mechanism
 from tests.slow import slow_rows_but
@@ -67,10 +67,10 @@ def elbow(side: float) -> tuple[float, float]:
 
 
 def test_both_assemblies_of_a_four_bar_are_found_and_their_guess_picks_them(tmp_path: Path) -> None:
-    wanted = sorted(elbow(side)[0] for side in (1.0, -1.0))
+    expected = sorted(elbow(side)[0] for side in (1.0, -1.0))
     assemblies = found(four_bar()).assemblies
     angles = sorted(float(one.q[5] + np.pi) % (2 * np.pi) - np.pi for one in assemblies)
-    assert angles == pytest.approx(wanted, abs=1e-9)
+    assert angles == pytest.approx(expected, abs=1e-9)
     for number, one in enumerate(assemblies):
         guess = ", ".join(f"{name}: {math.degrees(x):.4g} deg" for name, x in one.guess.items())
         file = tmp_path / f"four{number}.yaml"
@@ -109,12 +109,12 @@ def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tupl
 
 
 def test_a_driven_crank_without_its_shaft_is_named() -> None:
-    def told(joints: str) -> list[str]:
+    def message(joints: str) -> list[str]:
         mechanism = read_mechanism(four_bar(joints), "four.yaml")
         return [text for whose, text in remarks(mechanism, assemble_scenes(mechanism, False)) if whose == "shaft"]
 
-    assert told(B + C + D) == ["no joint ties crank to the ground, against which drive motor turns it"]
-    assert told(A + B + C) == [] == told(A + B + C + D)
+    assert message(B + C + D) == ["no joint ties crank to the ground, against which drive motor turns it"]
+    assert message(A + B + C) == [] == message(A + B + C + D)
 
 
 def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:
@@ -146,11 +146,11 @@ start: {{guess: {{a.theta: {guess} deg, b.theta: {-guess / 2} deg}}}}
 def test_freedoms_that_are_given_are_checked(given: int, fits: bool, tmp_path: Path) -> None:
     file = tmp_path / "four.yaml"
     file.write_bytes(four_bar(drives="", freedoms=f"freedoms: {given}"))
-    told = CliRunner().invoke(app, ["check", str(file)])
-    assert (told.exit_code == 0) is fits
+    message = CliRunner().invoke(app, ["check", str(file)])
+    assert (message.exit_code == 0) is fits
     if fits:
         gudgeon.load(file)
-        assert "freedoms" not in told.output.replace("degrees of freedom", "")
+        assert "freedoms" not in message.output.replace("degrees of freedom", "")
     else:
         with pytest.raises(BadValueError, match=rf"four.yaml:4:11: freedoms is {given}, .* there are 1: crank.theta"):
             gudgeon.load(file)
@@ -169,13 +169,13 @@ def test_a_link_that_is_too_short_is_told_by_how_much(tmp_path: Path) -> None:
     missing = math.hypot(far - x, y) - COUPLER - ROCKER
     file = tmp_path / "four.yaml"
     file.write_bytes(four_bar(ground="300 mm").replace(b"tip: [50 mm, 20 mm]", b"tip: [500 mm, 20 mm]"))
-    with pytest.raises(AssemblyError, match="line 1[0-9]") as told:
+    with pytest.raises(AssemblyError, match="line 1[0-9]") as message:
         gudgeon.load(file).start()
-    assert f"coupler (100 mm) longer by {1e3 * missing:.4g} mm" in str(told.value)
-    assert f"rocker (60 mm) longer by {1e3 * missing:.4g} mm" in str(told.value)
+    assert f"coupler (100 mm) longer by {1e3 * missing:.4g} mm" in str(message.value)
+    assert f"rocker (60 mm) longer by {1e3 * missing:.4g} mm" in str(message.value)
     reached = math.sqrt(0.09 - 0.16**2)  # of a straight line to Q that is as long as coupler and rocker
     crank = 0.3 * math.cos(ALPHA) - math.sqrt(0.16**2 - (0.3 * math.sin(ALPHA)) ** 2) - CRANK
-    assert reached > 0 and f"crank (50 mm) longer by {1e3 * crank:.4g} mm" in str(told.value)
+    assert reached > 0 and f"crank (50 mm) longer by {1e3 * crank:.4g} mm" in str(message.value)
 
 
 def test_what_is_too_short_is_measured_between_points_that_joints_use(tmp_path: Path) -> None:
@@ -194,11 +194,11 @@ def test_what_is_too_short_is_measured_between_points_that_joints_use(tmp_path: 
 def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
     """One that is by hundreds longer than all others; not one that is only too long."""
     file = tmp_path / "four.yaml"
-    for ground, told in (("180", "times the next longest: was 180 mm meant?"), ("5", "")):
+    for ground, message in (("180", "times the next longest: was 180 mm meant?"), ("5", "")):
         file.write_bytes(four_bar(ground=ground))
         with pytest.raises(AssemblyError) as caught:
             gudgeon.load(file).start()
-        assert told in str(caught.value) and ("was" in str(caught.value)) == bool(told)
+        assert message in str(caught.value) and ("was" in str(caught.value)) == bool(message)
 
 
 def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
@@ -207,9 +207,9 @@ def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
     file.write_bytes(four_bar().replace(b"length: 60 mm", b"length: 200 mm"))
     x, y = CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)
     most = math.hypot(GROUND - x, y) + COUPLER
-    with pytest.raises(AssemblyError) as told:
+    with pytest.raises(AssemblyError) as message:
         gudgeon.load(file).start()
-    assert f"rocker (200 mm) shorter by {1e3 * (0.2 - most):.4g} mm" in str(told.value)
+    assert f"rocker (200 mm) shorter by {1e3 * (0.2 - most):.4g} mm" in str(message.value)
 
 
 def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
@@ -227,9 +227,9 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
     free = tmp_path / "free.yaml"  # its runs go from start to end in C
     free.write_bytes(four_bar(start="start: {set: {crank.theta: 30 deg}, guess: {coupler.theta: 0}}", drives=""))
     for bars in (file, free):
-        with pytest.warns(UserWarning) as told:  # once for all runs
+        with pytest.warns(UserWarning) as caught:  # once for all runs
             gudgeon.load(bars).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
-        (one,) = told
+        (one,) = caught
         message = str(one.message)
         assert message.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
         assert one.filename == __file__
@@ -264,13 +264,13 @@ def test_a_guessed_place_picks_the_branch(tmp_path: Path, guess: float, side: in
     file.write_bytes(engine_of("piston.x: 160 mm"))
     x = CRANK * math.cos(ALPHA) + side * math.sqrt(0.12**2 - (CRANK * math.sin(ALPHA)) ** 2)
     engine = gudgeon.load(file)
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as message:
         warnings.simplefilter("always")
         run = engine.simulate(0.1, output=1, parameters={"start.guess.piston.x": 1e-3 * guess})
         many = engine.simulate_many({"start.guess.piston.x": [1e-3 * guess, 0.16]}, 0.1, output=1)
     assert run["piston.x"][0] == pytest.approx(x, abs=1e-12)
     assert many["piston.x"][0, 0] == pytest.approx(x, abs=1e-12) and many["piston.x"][1, 0] > 0.16
-    assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
+    assert ([f"piston.x begins {off} mm" in str(word.message) for word in message[:1]]) == [True] * bool(off)
 
 
 PLACE, POINT = "coupler.x: 60 mm", "coupler.tip: [60 mm, 30 mm], rocker.theta: 1"
@@ -331,8 +331,8 @@ start: {{guess: {{{guess}}}}}
 )
 def test_guesses_that_tell_assemblies_apart(guess: str, alike: bool) -> None:
     """The piston stands at 160.7 or -74.1 mm: its place tells them apart, that of the driven crank does not."""
-    told = found(engine_of(guess), branches=True)
-    assert len(told.assemblies) == 2 and len(told.alike) == alike
+    message = found(engine_of(guess), branches=True)
+    assert len(message.assemblies) == 2 and len(message.alike) == alike
 
 
 JANSEN = Path(__file__).parents[2] / "mechanisms" / "gallery" / "jansen_leg.yaml"
@@ -344,8 +344,8 @@ def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
     text = JANSEN.read_text(encoding="utf-8")
     assert ", f.theta: -65 deg" in text
     file.write_text(text.replace(", f.theta: -65 deg", ""), encoding="utf-8")
-    told = assemble_scenes(read_mechanism(file.read_bytes(), "jansen.yaml"), branches=True)
-    assert len(told.assemblies) == 8 and len(told.alike) == 1
+    message = assemble_scenes(read_mechanism(file.read_bytes(), "jansen.yaml"), branches=True)
+    assert len(message.assemblies) == 8 and len(message.alike) == 1
     output = CliRunner().invoke(app, ["check", str(file), "--branches"]).output
     assert "2 fit the start's guesses alike: guess f.theta too, -29.82 deg" in " ".join(output.split())
     assert "8 assemblies found" in output

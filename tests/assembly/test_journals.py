@@ -130,9 +130,9 @@ def test_a_linkage_closes_around_its_journals(scenes: Scenes) -> None:
     """Both as the file says, the crank as its motor, the piston on its line; the search in Python agrees with C."""
     p = prepare(scenes.driven.compiled, {"start.play.B.e.y": "-0.03 mm"})[0]
     start = scenes.driven.start({"start.play.B.e.y": "-0.03 mm"})
-    wanted = ([2e-5, 4e-5], [3e-3, 0.0], [0.0, -3e-5], [0.0, -2e-3])
-    for got, expected in zip(relative(start.q, start.v), wanted, strict=True):
-        np.testing.assert_allclose(got, expected, atol=1e-13)
+    expected = ([2e-5, 4e-5], [3e-3, 0.0], [0.0, -3e-5], [0.0, -2e-3])
+    for got, each in zip(relative(start.q, start.v), expected, strict=True):
+        np.testing.assert_allclose(got, each, atol=1e-13)
     np.testing.assert_allclose([start.q[2], start.q[7], start.v[2]], [math.radians(50), 0.0, 20.0], atol=1e-12)
     found = search(scenes.driven.compiled, p)
     np.testing.assert_allclose(found.q, start.q, atol=1e-12)
@@ -160,7 +160,7 @@ DEEP = 2e-6
 
 @pytest.mark.parametrize("method", ["dop853", "rk4", "scipy:DOP853"])
 @pytest.mark.parametrize(("speed", "told"), [(0.02, ""), (-0.02, "part at 0.02 m/s"), (0.0, "are at rest")])
-def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float, told: str) -> None:
+def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float, message: str) -> None:
     """δ̇⁻ of an onset without loss: m δ̇⁻²/2 = m δ̇²/2 + K δ^2.5/2.5; the first force by hand; the run tells of it."""
     n = np.array([0.6, 0.8])
     given = numbers((C + DEEP) * n, speed * n)
@@ -172,7 +172,7 @@ def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float,
     force = K * DEEP**1.5 * (1 + 0.75 * (1 - 0.81) * speed / onset)
     assert run["A.Fn"][0] == pytest.approx(force, rel=1e-6)
     notes = [note for note in run.diagnostics.notes if "begins in contact" in note]
-    assert [told in note for note in notes] == [True] * bool(told)
+    assert [message in note for note in notes] == [True] * bool(message)
     assert run.impacts["deltadot"][0] == run.memory[0, 0]  # where the note says that it is
 
 
@@ -276,10 +276,10 @@ def test_a_start_in_a_worn_place_of_a_bearing_that_is_turned(tmp_path: Path) -> 
 
 
 def test_check_tells_of_a_start_in_the_wall(scenes: Scenes) -> None:
-    for y, told in ((-0.28, ""), (-0.2836, "A begins 0.7141 µm inside its bearing's wall"), (-0.4, "e/c = 1.37")):
+    for y, message in ((-0.28, ""), (-0.2836, "A begins 0.7141 µm inside its bearing's wall"), (-0.4, "e/c = 1.37")):
         file = scenes.file("wall", FREE.replace("ex: 0.1 mm, ey: -0.05 mm", f"ex: 0.1 mm, ey: {y} mm"))
         shown = " ".join(CliRunner().invoke(app, ["check", str(file)]).output.split())
-        assert ("inside its bearing's wall" in shown) == bool(told) and told in shown
+        assert ("inside its bearing's wall" in shown) == bool(message) and message in shown
 
 
 def test_a_deep_start_is_not_the_steps_fault(scenes: Scenes) -> None:

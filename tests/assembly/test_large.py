@@ -60,13 +60,13 @@ def test_rows_beyond_the_columns_or_no_numbers_are_not_taken_for_independent() -
 def test_steps_are_those_of_least_squares(angle: float) -> None:
     matrix, rng = squares(angle), np.random.default_rng(0)
     target = matrix @ rng.standard_normal(matrix.shape[1])
-    wanted = np.linalg.lstsq(matrix, target, rcond=1e-12)[0]
-    assert smallest(matrix, target) == pytest.approx(wanted, abs=1e-7)
+    expected = np.linalg.lstsq(matrix, target, rcond=1e-12)[0]
+    assert smallest(matrix, target) == pytest.approx(expected, abs=1e-7)
     places = matrix[:, np.arange(matrix.shape[1]) % 3 != 2]  # more rows than columns: as Newton begins
     assert len(places) > places.shape[1]
     target = rng.standard_normal(len(places))
-    wanted = np.linalg.lstsq(places, target, rcond=1e-12)[0]
-    assert large.nearest_step(places, target) == pytest.approx(wanted, abs=1e-5)
+    expected = np.linalg.lstsq(places, target, rcond=1e-12)[0]
+    assert large.nearest_step(places, target) == pytest.approx(expected, abs=1e-5)
 
 
 def test_no_configuration_costs_a_dense_decomposition(monkeypatch: pytest.MonkeyPatch) -> None:

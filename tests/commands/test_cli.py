@@ -85,14 +85,14 @@ def test_check_tells_the_story_of_the_reduction(call: Gudgeon) -> None:
     assert [scene["auto begins with"] for scene in (ideal, dry, film)] == ["kinematic", "dop853", "radau9"]
     shown = call("check", "nine_bar_press", "-v").stdout
     assert max(map(len, shown.splitlines())) <= 100
-    ideal_told, dry_told = " ".join(shown.split()).split("scene dry ")
+    ideal_told, dry_message = " ".join(shown.split()).split("scene dry ")
     assert "24 24 every body by x, y and its angle; every joint closed 22 22 crank1, crank4 prescribe" in ideal_told
     assert "without masses, 2 of 2×2, 1 of 1×1 one after the other: L3 + L2, L7 + L6, L8" in ideal_told
-    assert "24 20 A, B have play" in dry_told and "closures guide.offset: the row that stays" in dry_told
-    assert "44 × 44 with 132 non-zeros" in dry_told and "→ 6 × 6 with 21" in dry_told
+    assert "24 20 A, B have play" in dry_message and "closures guide.offset: the row that stays" in dry_message
+    assert "44 × 44 with 132 non-zeros" in dry_message and "→ 6 × 6 with 21" in dry_message
     fewer = f"{operations['full'] / operations['reduced']:.2g} times fewer"
-    assert f"accelerations {operations['full']:,} → {operations['reduced']:,}, {fewer}" in dry_told
-    assert "scene lubricated: as dry, but" in dry_told
+    assert f"accelerations {operations['full']:,} → {operations['reduced']:,}, {fewer}" in dry_message
+    assert "scene lubricated: as dry, but" in dry_message
     assert dry["story"]["steps"][-1]["coordinates left"] == 5 and dry["story"]["steps"][-1]["rows left"] == 1
 
 
@@ -234,8 +234,11 @@ def test_stress_is_another_name_of_map(call: Gudgeon, pump: str) -> None:
     shown = call("--help").stdout
     assert " map " in shown and "stress" not in shown
     assert call("stress", "--help").stdout.splitlines()[4:] == call("map", "--help").stdout.splitlines()[4:]
-    told = [call(name, pump, "--range", "c=1mm..2mm") for name in ("map", "stress")]
-    assert told[1].stderr == f"warning: {STRESS}\n{told[0].stderr}" and [done.exit_code for done in told] == [2, 2]
+    message = [call(name, pump, "--range", "c=1mm..2mm") for name in ("map", "stress")]
+    assert message[1].stderr == f"warning: {STRESS}\n{message[0].stderr}" and [done.exit_code for done in message] == [
+        2,
+        2,
+    ]
     assert (stress.stress, stress.stress_box) == (maps.verdict_map, maps.verdict_box)
 
 
@@ -274,10 +277,10 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
         (lambda: emit_c(pump, tmp_path / "c", ("worn",)), ["deriving pump, scene worn"]),
         (lambda: load_scenes(Request(pump, ("ideal",))), ["deriving pump, scene ideal", "compiling pump, scene ideal"]),
     ]
-    for task, told in tasks:
+    for task, message in tasks:
         cold = shown(task, Screen())
         plain = re.sub(r"\x1b\[[?0-9;]*[A-Za-z]", "\n", cold)
-        assert list(dict.fromkeys(re.findall(r"\w+ \w+, scene \w+", plain)))[: len(told)] == told
+        assert list(dict.fromkeys(re.findall(r"\w+ \w+, scene \w+", plain)))[: len(message)] == message
         assert "\x1b[2K" in cold and not re.search(r"\x1b\[[0-9;]*m", cold)
         assert shown(task, Screen()) == ""
     equations = partial(write_equations, pump, tmp_path / "x.txt", ("worn",))
@@ -299,8 +302,8 @@ def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monk
     wrong = call(*words, "-q", "--laws", "none.py")
     assert wrong.exit_code == 2 and not wrong.stdout and wrong.stderr.startswith("error: ")
     if words[0] != "draw":
-        told, quietly = (json.loads(call(*words, *more).stdout) for more in (["--json"], ["--json", "--quiet"]))
-        assert told.keys() == quietly.keys()
+        message, quietly = (json.loads(call(*words, *more).stdout) for more in (["--json"], ["--json", "--quiet"]))
+        assert message.keys() == quietly.keys()
 
 
 @pytest.mark.parametrize(
@@ -315,9 +318,9 @@ def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monk
 )
 def test_files_that_are_written_are_told_as_json(line: str, files: dict[str, str], call: Gudgeon, pump: str) -> None:
     done = call(*line.replace("PUMP", pump).split(), "--json")
-    told = json.loads(done.stdout)
-    assert done.exit_code == 0 and told["files"] == files and all(Path(name).exists() for name in files.values())
-    assert all(isinstance(note, str) for note in told["notes"])
+    message = json.loads(done.stdout)
+    assert done.exit_code == 0 and message["files"] == files and all(Path(name).exists() for name in files.values())
+    assert all(isinstance(note, str) for note in message["notes"])
     if line.startswith("equations"):
         shown = json.loads(call("equations", pump, "-o", "-", "-s", "worn", "--json").stdout)
         assert shown == {"files": {}, "notes": [], "equations": Path("x.txt").read_text().removesuffix("\n")}

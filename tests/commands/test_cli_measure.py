@@ -51,11 +51,11 @@ PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pend
     ],
 )
 def test_options_that_say_nothing_are_refused(
-    arguments: tuple[str, ...], told: str, call: Gudgeon, pump: str, tmp_path: Path
+    arguments: tuple[str, ...], message: str, call: Gudgeon, pump: str, tmp_path: Path
 ) -> None:
     done = call("map", pump, *arguments)
     assert done.exit_code == 2, done.output
-    assert told in done.stderr and "load(" not in done.stderr
+    assert message in done.stderr and "load(" not in done.stderr
     assert written(tmp_path) == set()
 
 
@@ -153,13 +153,13 @@ def test_bench_takes_what_fits_a_scene(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_cross_checks_are_compared_with_another_method() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
-    wanted = ["scipy:DOP853", "scipy:RK45"]
-    found = bench(pendulum, [1e-3], [1e-5, 1e-6, 1e-7], t_end=0.5, quick=True, methods=wanted)
-    assert found.methods == tuple(wanted) and [len(found.of(name)) for name in wanted] == [2, 2]
-    first, second = (found.of(name)[0] for name in wanted)
+    expected = ["scipy:DOP853", "scipy:RK45"]
+    found = bench(pendulum, [1e-3], [1e-5, 1e-6, 1e-7], t_end=0.5, quick=True, methods=expected)
+    assert found.methods == tuple(expected) and [len(found.of(name)) for name in expected] == [2, 2]
+    first, second = (found.of(name)[0] for name in expected)
     assert first.reference is not None and first.reference.method == "rodas5p"  # not by the same formulas
     assert second.reference is not None and second.reference.method == "dop853"
-    for name in wanted:
+    for name in expected:
         assert found.of(name)[1].error.motion < found.of(name)[0].error.motion / 5 < 1e-5
 
 

@@ -114,11 +114,11 @@ def test_the_reference_has_the_parameters_of_the_scene(call: Gudgeon, tmp_path: 
     ],
 )
 def test_bad_arguments_end_with_2_and_nothing_written(
-    arguments: tuple[str, ...], told: str, call: Gudgeon, pump: str, tmp_path: Path
+    arguments: tuple[str, ...], message: str, call: Gudgeon, pump: str, tmp_path: Path
 ) -> None:
     done = call("run", pump, *arguments)
     assert done.exit_code == 2, done.output
-    assert told in done.stderr
+    assert message in done.stderr
     assert "Traceback" not in done.stderr and "adaptive" not in done.stderr
     assert written(tmp_path) == set()
 
@@ -285,10 +285,10 @@ def test_the_table_has_the_drives_and_no_rows_that_need_a_legend(call: Gudgeon, 
 def test_peaks_of_series_that_are_asked_for(call: Gudgeon, pump: str) -> None:
     """Of scenes that have them, over all steps, beside the file's own; angles in degrees, in JSON SI."""
     joint = gudgeon.load(pump, "worn").source.clearances[0].name
-    asked = ("--t-end", "5ms", "--peaks", "crank.theta", "--peaks", f"{joint}.e")
-    done = call("run", pump, *asked)
+    requested = ("--t-end", "5ms", "--peaks", "crank.theta", "--peaks", f"{joint}.e")
+    done = call("run", pump, *requested)
     assert done.exit_code == 0, done.output
-    found = json.loads(call("run", pump, *asked, "--json").stdout)["scenes"]
+    found = json.loads(call("run", pump, *requested, "--json").stdout)["scenes"]
     largest = found["worn"]["peaks"]["crank.theta"]["max"]
     row = next(line for line in done.stdout.splitlines() if line.split()[:2] == ["crank.theta", "max"])
     assert row.count(f"{math.degrees(largest):.4g} °") == 2

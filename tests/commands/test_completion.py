@@ -14,8 +14,8 @@ from tests.pump import TEXT
 def proposed(line: str) -> list[str]:
     """For the last word of a line, as the shell's own script asks."""
     words = line.split(" ")
-    told = {"_GUDGEON_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1)}
-    return CliRunner().invoke(app, [], env=told, prog_name="gudgeon").stdout.split()
+    message = {"_GUDGEON_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1)}
+    return CliRunner().invoke(app, [], env=message, prog_name="gudgeon").stdout.split()
 
 
 def test_names_files_scenes_and_methods(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -98,7 +98,7 @@ def test_masses_are_not_asked_for(call: Gudgeon, tmp_path: Path) -> None:
         ("four_baar", "four_bar"),
     ],
 )
-def test_what_cannot_be_is_told(line: str, told: str, call: Gudgeon, tmp_path: Path) -> None:
+def test_what_cannot_be_is_told(line: str, message: str, call: Gudgeon, tmp_path: Path) -> None:
     done = call("draw", *line.split())
-    assert done.exit_code == 2 and told in done.stderr, done.output
+    assert done.exit_code == 2 and message in done.stderr, done.output
     assert not list(tmp_path.rglob("*.svg"))

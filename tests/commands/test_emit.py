@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from gudgeon.commands import emit
-from gudgeon.commands.emit import LIST, emit_c, refuse_foreign
+from gudgeon.commands.emit import LIST, emit_c, refuse_foreign_files
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, OutputError
 from gudgeon.loading.compiler import find_compiler
@@ -24,7 +24,7 @@ from tests.tiny import tiny
 def source(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[KernelSource]:
     """What is emitted next, for scenes called ideal and dry; no mechanism is read."""
     current = [tiny()]
-    monkeypatch.setattr(emit, "chosen_scenes", lambda mechanism, wanted: wanted or ("ideal", "dry"))
+    monkeypatch.setattr(emit, "chosen_scenes", lambda mechanism, expected: expected or ("ideal", "dry"))
     monkeypatch.setattr(emit, "find_mechanism", Path)
     monkeypatch.setattr(emit, "read_bytes", lambda file: b"")
     monkeypatch.setattr(emit, "kernel_source", lambda data, file, scene: (current[0], "cache"))
@@ -85,7 +85,7 @@ def test_a_file_that_changes_after_it_was_looked_at_stays(source: list[KernelSou
     run(tmp_path / "c")
     (tmp_path / "c/dry/old.c").write_text("mine")
     source[0] = tiny()
-    emit._write(tmp_path / "c/dry", {"tiny.c": b""})
+    emit._write_folder(tmp_path / "c/dry", {"tiny.c": b""})
     assert (tmp_path / "c/dry/old.c").read_text() == "mine"
 
 
@@ -104,7 +104,7 @@ def test_a_failure_at_any_file_is_no_obstacle_to_the_next_emit(
     older = run(tmp_path / "c")
     first = tiny(3, files={**tiny(3).files, "more.h": "/* more */\n"})
     source[0] = first
-    wanted = run(tmp_path / "whole")
+    expected = run(tmp_path / "whole")
     real_open, real_replace = os.open, os.replace
     for failing in range(5):
         count = [0]
@@ -131,16 +131,16 @@ def test_a_failure_at_any_file_is_no_obstacle_to_the_next_emit(
         if call == "write":
             assert there == older
         names = there.keys() - {f"dry/{LIST}"}
-        assert older.keys() <= there.keys() and all(there[n] in (older.get(n), wanted[n]) for n in names)
-        refuse_foreign(tmp_path / "c/dry")
-    assert run(tmp_path / "c") == wanted
+        assert older.keys() <= there.keys() and all(there[n] in (older.get(n), expected[n]) for n in names)
+        refuse_foreign_files(tmp_path / "c/dry")
+    assert run(tmp_path / "c") == expected
 
 
 def test_what_a_killed_emit_left_aside_is_replaced(source: list[KernelSource], tmp_path: Path) -> None:
-    wanted = run(tmp_path / "c")
+    expected = run(tmp_path / "c")
     half = tmp_path / "c/dry" / f".gudgeon-{'0' * 16}.part"
-    half.write_bytes(wanted["dry/tiny.c"][:10])
-    assert run(tmp_path / "c") == wanted
+    half.write_bytes(expected["dry/tiny.c"][:10])
+    assert run(tmp_path / "c") == expected
 
 
 def test_a_first_emit_that_fails_leaves_no_folder(
@@ -171,16 +171,16 @@ def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
     good = file.read_text()
     file.write_text(good.replace("  model.h", "  ../model.h"))
     with pytest.raises(InputError) as caught:
-        refuse_foreign(tmp_path / "ideal")
+        refuse_foreign_files(tmp_path / "ideal")
     assert str(caught.value).startswith(f"{file} is no list")
     assert "dynamics.c" not in str(caught.value)
     line = next(each for each in good.splitlines() if each.endswith("  model.h"))
     file.write_text(good.replace(line, "0" * 64 + "  model.h"))
     with pytest.raises(InputError, match=rf": model.h and the checksums in {LIST} differ: files or list were changed"):
-        refuse_foreign(tmp_path / "ideal")
+        refuse_foreign_files(tmp_path / "ideal")
     (tmp_path / "ideal" / "mine.txt").write_text("x")
     with pytest.raises(InputError, match=r"did not write so: mine\.txt\n"):
-        refuse_foreign(tmp_path / "ideal")
+        refuse_foreign_files(tmp_path / "ideal")
 
 
 def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:

@@ -63,9 +63,9 @@ def gudgeon_process(line: str, folder: Path, before: str = "", **environment: st
 
 def test_help_waits_for_no_rich(tmp_path: Path) -> None:
     """Most of .4 s went into laying it out; the same of a wrong option. With a table rich is there."""
-    told = "import atexit, sys; atexit.register(lambda: print('with rich' if 'rich' in sys.modules else 'plain'));"
+    message = "import atexit, sys; atexit.register(lambda: print('with rich' if 'rich' in sys.modules else 'plain'));"
     for words, code, end in (("run --help", 0, "plain"), ("run --nope", 2, "plain"), ("laws", 0, "with rich")):
-        done = gudgeon_process(f"gudgeon {words}", tmp_path, told)
+        done = gudgeon_process(f"gudgeon {words}", tmp_path, message)
         assert (done.returncode, done.stdout.splitlines()[-1]) == (code, end)
 
 
@@ -80,13 +80,13 @@ def test_of_a_command_that_is_asked_for_its_options_alone_are_read(
         return made(command_info, **options)
 
     monkeypatch.setattr("typer.main.get_command_from_info", noted)
-    for arguments, wanted in (["map", "-h"], ["map"]), (["import", "-h"], ["import"]), (["-h"], ["run", "map"]):
+    for arguments, expected in (["map", "-h"], ["map"]), (["import", "-h"], ["import"]), (["-h"], ["run", "map"]):
         read.clear()
         monkeypatch.setattr("sys.argv", ["gudgeon", *arguments])
         with pytest.raises(SystemExit) as ended:
             cli.main()
         assert ended.value.code == 0 and capsys.readouterr().out.startswith("Usage: gudgeon")
-        assert {*wanted} <= {*read} and (len(read) == 1) == (len(arguments) == 2)
+        assert {*expected} <= {*read} and (len(read) == 1) == (len(arguments) == 2)
     monkeypatch.setattr("sys.argv", ["gudgeon", "rum"])
     with pytest.raises(SystemExit):
         cli.main()
@@ -153,8 +153,8 @@ def test_what_an_encoding_lacks_is_escaped_as_in_json(call: Gudgeon, tmp_path: P
         json.loads(gudgeon_process(f"{line} --json", tmp_path, PYTHONIOENCODING="ascii").stdout),
         json.loads(call(*line.split()[1:], "--json").stdout),
     ]
-    for told in (scene for document in found for scene in document["scenes"].values()):
-        assert told.pop("seconds")  # the only thing that two derivations tell otherwise
+    for message in (scene for document in found for scene in document["scenes"].values()):
+        assert message.pop("seconds")  # the only thing that two derivations tell otherwise
     assert found[0] == found[1] and "non-zeros of Φ_q" in found[0]["scenes"]["ideal"]
 
 
@@ -198,7 +198,7 @@ def test_as_a_module(tmp_path: Path) -> None:
 def test_errors_are_red_where_somebody_looks_and_wants_it(
     no_color: str | None, term: str, red: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from gudgeon.commands.told import complain
+    from gudgeon.commands.outcome import complain
     from gudgeon.errors import GudgeonError
 
     monkeypatch.delenv("NO_COLOR", raising=False)
@@ -212,18 +212,18 @@ def test_errors_are_red_where_somebody_looks_and_wants_it(
 
 @pytest.mark.parametrize("looked_at", [True, False])
 def test_a_bar_is_shown_on_a_terminal_alone(
-    looked_at: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    is_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """And not where a command is asked to be quiet, or for JSON."""
     from gudgeon.commands.progress import progress_bar
 
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: looked_at, raising=False)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal, raising=False)
     for quiet in (False, True):
         with progress_bar(quiet) as bar:
             report = bar("study")
-            assert (report is not None) == (looked_at and not quiet)
+            assert (report is not None) == (is_terminal and not quiet)
             if report:
                 report(0.5, "3 of 6 runs")
         out, err = capsys.readouterr()
-        assert out == "" and ("3 of 6 runs" in err) == (looked_at and not quiet)
+        assert out == "" and ("3 of 6 runs" in err) == (is_terminal and not quiet)

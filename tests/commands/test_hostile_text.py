@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 import gudgeon
-from gudgeon.language.shown import in_figure, one_line, plain_console, visible
+from gudgeon.language.shown import figure_title, one_line, plain_console, visible
 from gudgeon.results.reports import comparison
 from gudgeon.results.reports.comparison import compare, tables
 from gudgeon.results.results import Result
@@ -77,9 +77,9 @@ def test_a_title_is_text_in_figures(title: str, run: Result, ideal: Result) -> N
 
 @pytest.mark.parametrize("title", TITLES)
 def test_what_is_shown_can_be_shown(title: str) -> None:
-    assert is_safe(visible(title)) and is_safe(one_line(title)) and is_safe(in_figure(title))
+    assert is_safe(visible(title)) and is_safe(one_line(title)) and is_safe(figure_title(title))
     assert "\n" not in one_line(title) and len(one_line(title)) <= 240
-    assert len(in_figure(title, 60).splitlines()) <= 5
+    assert len(figure_title(title, 60).splitlines()) <= 5
 
 
 def test_text_that_only_looks_odd_stays_as_it_is() -> None:
@@ -152,8 +152,8 @@ def test_errors_quote_what_a_terminal_must_not_obey(
     before, after = place
     assert before in TEXT
     for text in (HOSTILE, "[bold]x[/foo]"):
-        told = json.dumps(text) if quoted else text
-        (tmp_path / "hostile.yaml").write_text(TEXT.replace(before, after.replace("TEXT", told), 1))
+        message = json.dumps(text) if quoted else text
+        (tmp_path / "hostile.yaml").write_text(TEXT.replace(before, after.replace("TEXT", message), 1))
         done = call("check", "hostile.yaml", "-v")
         assert done.exit_code in ((0, 2) if place[0] == TITLE else (2,)), done.output
         assert is_safe(done.stdout) and is_safe(done.stderr) and "Traceback" not in done.stderr

@@ -17,7 +17,7 @@ import pytest
 from gudgeon.commands.law_plot import figure_of
 from gudgeon.generator.field import NUMBER
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURCES
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, bundled_laws, called
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
 from gudgeon.generator.targets.latex.law_page import laws_in_order, laws_page
@@ -68,7 +68,7 @@ def test_the_table_has_every_law_and_every_name(call: Gudgeon) -> None:
     assert done.exit_code == 0 and {*NAMES, *RESULTS} <= {*words}
     listed = json.loads(call("laws", "--json").stdout)
     found = {role: [law["law"] for law in some] for role, some in listed.items()}
-    assert found == {role: [law.name for law in house().values() if law.role == role] for role in RESULTS}
+    assert found == {role: [law.name for law in bundled_laws().values() if law.role == role] for role in RESULTS}
     hertz = next(law for law in listed["normal"] if law["law"] == "hertz")
     assert [*RESULTS] == [*listed] and "flores" in hertz["also"]
 
@@ -101,20 +101,20 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
     first, *others = forms(law, name)
     for form in (first, *others):
         changed = ((), ()) if form is first else (form.constants, form.steps)
-        letters = {of_latex(own.symbol).text for own in law.parameters if form.chosen.get(own.name) == GIVEN}
+        letters = {of_latex(own.symbol).text for own in law.parameters if form.selected.get(own.name) == GIVEN}
         constants = [one for one in first.constants if one.left.text not in letters]  # what is given follows from none
         read = evaluate([*merged(constants, changed[0]), *merged(first.steps, changed[1])], known)
-        chosen = dict(law.also.get(name, {})) | {key: x for key, x in form.chosen.items() if x != GIVEN}
+        selected = dict(law.also.get(name, {})) | {key: x for key, x in form.selected.items() if x != GIVEN}
         given = {
             own.name: numbers[own.name]
             for own in law.parameters
-            if own.required or own.default is not None or own.name in form.chosen
+            if own.required or own.default is not None or own.name in form.selected
         }
-        alone = Evaluator(law.name, given, **chosen)
+        alone = Evaluator(law.name, given, **selected)
         got = alone(*(state[symbol] for symbol in alone.reads))
         called_here = {key: of.text for key, of in form.used}
         results = [read[called_here[result]] if result in called_here else 0.0 for result in RESULTS[law.role]]
-        assert results == pytest.approx(got, rel=1e-12), form.chosen
+        assert results == pytest.approx(got, rel=1e-12), form.selected
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -123,11 +123,11 @@ def test_all_about_one(name: str, call: Gudgeon) -> None:
     text = " ".join(done.stdout.split())
     assert done.exit_code == 0 and law.title in text and (law.reference or law.source) in text and "probe_" not in text
     assert max(map(width, done.stdout.splitlines())) <= 100
-    told = json.loads(call("laws", name, "--json").stdout)
-    assert [key["key"] for key in told["keys"]] == [own.name for own in law.fields_as(name)]
-    assert told["law"] == law.name and told["role"] == law.role and told["validity"] == law.validity
+    message = json.loads(call("laws", name, "--json").stdout)
+    assert [key["key"] for key in message["keys"]] == [own.name for own in law.fields_as(name)]
+    assert message["law"] == law.name and message["role"] == law.role and message["validity"] == law.validity
     lines = sections(done.stdout)
-    assert [f"  {line}" for line in told["equations"]] == [line for line in lines["Equations"] if " = " in line]
+    assert [f"  {line}" for line in message["equations"]] == [line for line in lines["Equations"] if " = " in line]
     found = {cells[0]: cells for cells in rows(lines["Numbers"]) if len(cells) == 6}
     for own in law.fields_as(name):
         assert own.name in (found if own.kind == NUMBER else " ".join(lines["Options"]))
@@ -150,7 +150,7 @@ def test_dampings_are_cited(call: Gudgeon) -> None:
 
 def test_a_film_tells_its_shear_torque_and_what_is_nothing_without_it() -> None:
     first, *others = forms(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
-    assert [form.chosen for form in others if form.equations] == [{"as_printed": True}, {"shear": True}]
+    assert [form.selected for form in others if form.equations] == [{"as_printed": True}, {"shear": True}]
     assert not [one for one in first.equations if in_a_line(one).endswith(" = 0")]
 
 
@@ -233,9 +233,9 @@ def test_bristles_that_have_gone_far_slide() -> None:
         ("ocvirk --plot x.svg --set extra_clearance=1e300", "all forces are 0"),
     ],
 )
-def test_what_cannot_be_drawn(line: str, told: str, call: Gudgeon) -> None:
+def test_what_cannot_be_drawn(line: str, message: str, call: Gudgeon) -> None:
     done = call("laws", *shlex.split(line))
-    assert done.exit_code == 2 and told in done.stderr, done.output
+    assert done.exit_code == 2 and message in done.stderr, done.output
 
 
 def test_the_page_of_laws_is_current() -> None:

@@ -31,8 +31,12 @@ def test_a_study_to_begin_with_runs(call: Gudgeon, tmp_path: Path) -> None:
     """Its trends are judged too; and it explains itself."""
     done = call("new", "play", "--study")
     assert done.exit_code == 0 and "wrote play.yaml" in done.stdout and "gudgeon study play.yaml" in done.stdout
-    told = call("study", "play.yaml", "--starts", "2")
-    assert told.exit_code == 0 and "18 runs (c 3 × omega 3 × start 2)" in told.stdout and "2 trends" in told.stdout
+    message = call("study", "play.yaml", "--starts", "2")
+    assert (
+        message.exit_code == 0
+        and "18 runs (c 3 × omega 3 × start 2)" in message.stdout
+        and "2 trends" in message.stdout
+    )
     text = (tmp_path / "play.yaml").read_text(encoding="utf-8")
     assert text.count("#") > 12 and max(map(len, text.splitlines())) <= 120
     for line, why in (
@@ -69,10 +73,10 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
         ("link", "is there already"),
     ],
 )
-def test_what_is_refused_leaves_all_as_it_was(line: str, told: str, call: Gudgeon, tmp_path: Path) -> None:
+def test_what_is_refused_leaves_all_as_it_was(line: str, message: str, call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "there.yaml").write_text("mine")
     (tmp_path / "link.yaml").symlink_to("nowhere")
     done = call("new", *line.split())
-    assert done.exit_code == 2 and told in done.stderr
+    assert done.exit_code == 2 and message in done.stderr
     assert (tmp_path / "there.yaml").read_text() == "mine" and not (tmp_path / "nowhere").exists()
     assert written(tmp_path) == {"there.yaml"} or written(tmp_path) == {"there.yaml", "link.yaml"}

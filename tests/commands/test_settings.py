@@ -55,11 +55,11 @@ def test_a_zero_that_is_no_component_and_one_that_is_left_out(tmp_path: Path) ->
     plain.write_text(text, encoding="utf-8")
     source = gudgeon.load(plain).source
     for address in ("forces.coil.damping", "coil.damping"):
-        told, hint = as_parameter(source, address)
-        assert told.startswith("forces.coil.damping is 0, written so") and "damping: own) and set that" in hint
+        message, hint = as_parameter(source, address)
+        assert message.startswith("forces.coil.damping is 0, written so") and "damping: own) and set that" in hint
     oiled = gudgeon.load("nine_bar_press", "lubricated").source
-    told, _ = as_parameter(oiled, "contacts.oil.film.extra_clearance")
-    assert told.startswith("contacts.oil.film.extra_clearance is 0, written so or left out,")
+    message, _ = as_parameter(oiled, "contacts.oil.film.extra_clearance")
+    assert message.startswith("contacts.oil.film.extra_clearance is 0, written so or left out,")
     own = text.replace("damping: 0", "damping: own").replace("\nforces:", "\nparameters: {own: 0 N*s/m}\n\nforces:")
     named.write_text(own, encoding="utf-8")
     assert own.count("own: 0") == own.count(": own") == 1
@@ -68,7 +68,7 @@ def test_a_zero_that_is_no_component_and_one_that_is_left_out(tmp_path: Path) ->
 
 def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:
     """A start that has its section, and what is driven: itself, or by the linkage; an address without its section."""
-    for address, told in (
+    for address, message in (
         ("crank.omega", "motor drives crank: how it moves is in drives.motor.value, here by "),
         ("rod.omega", "motor drives the linkage, which has no freedom left: how it moves is in "),
         ("piston.x", "its start is start.guess.piston.x"),
@@ -77,7 +77,7 @@ def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -
             done = call(command, pump, "--set", f"{address}=1")
             words = " ".join(done.stderr.split())
             assert done.exit_code == 2 and f"{address} is a result of the motion, and no number of the file" in words
-            assert told in words and "start: {rates" not in words
+            assert message in words and "start: {rates" not in words
     done = call("check", pump, "--set", "motor.value=1")
     assert done.exit_code == 2 and "drives.motor.value is an expression of t or motion" in " ".join(done.stderr.split())
     with pytest.raises(UnknownNameError, match=r"bob.omega is a result .*\n.*start.rates.bob.omega"):
@@ -127,10 +127,10 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
         ("bearings.pin.radius=1e300", "bearings.pin.radius is 1e+300 m, too far from 1 for doubles: B.K, which"),
     ],
 )
-def test_numbers_that_mean_nothing(command: str, setting: str, told: str, call: Gudgeon, pump: str) -> None:
+def test_numbers_that_mean_nothing(command: str, setting: str, message: str, call: Gudgeon, pump: str) -> None:
     """Check says so as a run does; below 2.2e-308 a number has lost digits before anything is made of it."""
     done = call(command, pump, "--set", setting)
-    assert done.exit_code == 2 and told in " ".join(done.stderr.split())
+    assert done.exit_code == 2 and message in " ".join(done.stderr.split())
 
 
 def test_clearances_down_to_what_doubles_tell_apart(pump: str) -> None:
@@ -149,16 +149,16 @@ def test_clearances_down_to_what_doubles_tell_apart(pump: str) -> None:
 def test_a_drive_too_fast_for_doubles_is_no_dead_centre(scene: str, call: Gudgeon, pump: str) -> None:
     done = call("run", pump, "--scene", scene, "--set", "omega=1e200")
     assert done.exit_code == 1
-    told = f"scene {scene}: velocities and accelerations are too large for doubles at t = 0 s; drive motor"
-    assert told in done.stderr and "its rate 1e+200 rad/s\n  a slower drive can be followed" in done.stderr
+    message = f"scene {scene}: velocities and accelerations are too large for doubles at t = 0 s; drive motor"
+    assert message in done.stderr and "its rate 1e+200 rad/s\n  a slower drive can be followed" in done.stderr
 
 
 @pytest.mark.parametrize(("key", "option"), [("step", "--step"), ("t_end", "--t-end"), ("output", "--output")])
 def test_how_a_run_goes_is_told_to_the_run(key: str, option: str, call: Gudgeon, pump: str) -> None:
     for command in ("check", "run"):
         done = call(command, pump, "--set", f"scenes.worn.simulate.{key}=1")
-        told = " ".join(done.stderr.split())
-        assert done.exit_code == 2 and f"tell the run: {option} of the command, {key}= of simulate" in told
+        message = " ".join(done.stderr.split())
+        assert done.exit_code == 2 and f"tell the run: {option} of the command, {key}= of simulate" in message
     with pytest.raises(UnknownNameError, match=option):
         gudgeon.load(pump).simulate(1e-3, parameters={f"scenes.worn.simulate.{key}": 1.0})
 
@@ -189,9 +189,11 @@ def test_a_mechanism_in_millimetres_by_mistake_is_remarked(call: Gudgeon, tmp_pa
     bare = TEXT.partition("scenes:")[0].replace("30 mm,", "30,").replace("120 mm,", "120,").replace("0.14}", "140}")
     (tmp_path / "bare.yaml").write_text(bare)
     done = call("check", "bare.yaml")
-    told = " ".join(done.stdout.split())
+    message = " ".join(done.stdout.split())
     assert done.exit_code == 0, done.output
-    assert "size: bodies.rod.length is 120 m: bare numbers are metres; if millimetres are meant, write 120 mm" in told
+    assert (
+        "size: bodies.rod.length is 120 m: bare numbers are metres; if millimetres are meant, write 120 mm" in message
+    )
     (tmp_path / "crane.yaml").write_text(bare.replace("30,", "12,").replace("120,", "48,").replace("140}", "58}"))
     for name in ("crane.yaml", "nine_bar_press", "car_axis"):
         assert "size:" not in call("check", name).stdout
@@ -223,8 +225,8 @@ def test_a_law_is_swapped_elsewhere(key: str, call: Gudgeon) -> None:
     """`--set` has numbers; where a choice that C is made of can be changed is told, and Python has it there."""
     address = f"contacts.dry.normal.{key}"
     done = call("run", "slider_crank", "--scene", "dry", "--set", f"{address}=hertz")
-    told = " ".join(done.stderr.split())
-    assert done.exit_code == 2 and f"--set: {address} is a choice that C is made of" in told
-    assert f"other: {{extends: dry, normal: {{{key}: …}}}}" in told and f'overrides={{"{address}": "…"}}' in told
+    message = " ".join(done.stderr.split())
+    assert done.exit_code == 2 and f"--set: {address} is a choice that C is made of" in message
+    assert f"other: {{extends: dry, normal: {{{key}: …}}}}" in message and f'overrides={{"{address}": "…"}}' in message
     with pytest.raises(UnknownNameError, match="is a choice that C is made of"):
         gudgeon.load("slider_crank", "dry").simulate(1e-4, parameters={address: 1.0})

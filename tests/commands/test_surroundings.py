@@ -28,11 +28,11 @@ STRANGE = {
 }
 
 
-def without_times(told: object) -> object:
+def without_times(message: object) -> object:
     """But for what the machine took."""
-    if isinstance(told, dict):
-        return {key: without_times(value) for key, value in told.items() if "seconds" not in key}
-    return [without_times(value) for value in told] if isinstance(told, list) else told
+    if isinstance(message, dict):
+        return {key: without_times(value) for key, value in message.items() if "seconds" not in key}
+    return [without_times(value) for value in message] if isinstance(message, list) else message
 
 
 def run(folder: Path, around: dict[str, str], umask: int) -> tuple[object, dict[str, np.ndarray]]:
@@ -55,8 +55,8 @@ def test_a_run_is_the_same_in_strange_surroundings(tmp_path: Path) -> None:
     folders = tmp_path / "here", tmp_path / 'ölçüm & "s"'
     for folder in folders:
         folder.mkdir()
-    (told, series), (told_there, series_there) = run(folders[0], {}, 0o022), run(folders[1], STRANGE, 0o077)
-    assert told == told_there
+    (message, series), (told_there, series_there) = run(folders[0], {}, 0o022), run(folders[1], STRANGE, 0o077)
+    assert message == told_there
     assert series.keys() == series_there.keys() and len(series) > 20
     assert [name for name in series if not np.array_equal(series[name], series_there[name], equal_nan=True)] == []
     assert (folders[1] / "out" / "slider_crank_dry.nc").stat().st_mode & 0o777 == 0o600

@@ -24,11 +24,11 @@ from PIL import Image  # noqa: E402
 import gudgeon  # noqa: E402
 from gudgeon.drawing.insets import eccentricity  # noqa: E402
 from gudgeon.drawing.labels import overlapping  # noqa: E402
-from gudgeon.drawing.page import _followed  # noqa: E402
+from gudgeon.drawing.page import _track_names  # noqa: E402
 from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
-from gudgeon.results.figures.animation import RED, sketches, touching_between, wanted_of  # noqa: E402
+from gudgeon.results.figures.animation import RED, check_animation_options, sketches, touching_between  # noqa: E402
 from gudgeon.results.figures.mechanism_plots import touching_at  # noqa: E402
 from gudgeon.results.figures.postures import posture_at  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
@@ -72,8 +72,8 @@ def test_each_picture_has_its_pins_where_the_run_has_them(crank: Result, html: s
     for t, picture in zip(data["times"], pictures, strict=True):
         x, y, _ = disc(pin(picture, "crankpin"))
         angle = 20.0 * np.pi * t
-        wanted = scale * 0.05 * np.cos(angle), scale * 0.05 * np.sin(angle)
-        assert (x - pivot[0], pivot[1] - y) == pytest.approx(wanted, abs=0.4)
+        expected = scale * 0.05 * np.cos(angle), scale * 0.05 * np.sin(angle)
+        assert (x - pivot[0], pivot[1] - y) == pytest.approx(expected, abs=0.4)
     assert scale > 1000.0
 
 
@@ -138,17 +138,17 @@ console.log(JSON.stringify([drawn, made.t.textContent, named]));
 """
     (tmp_path / "x.js").write_text(stub.replace("DATA", json.dumps(raw)) + script + ask)
     done = subprocess.run(["node", tmp_path / "x.js"], capture_output=True, text=True, check=True)
-    drawn, told, xs = json.loads(done.stdout)
+    drawn, message, xs = json.loads(done.stdout)
     assert drawn == [shape[0] if shape else "" for shape in pictures[7].values()]
-    assert told == "t = 0.020000 s" and xs == [place[0] for place in places[7]]
+    assert message == "t = 0.020000 s" and xs == [place[0] for place in places[7]]
 
 
 def test_a_journals_number_moves_with_it(crank: Result, html: str) -> None:
     _, _, places = frames(html)
-    told = [[place[2] for place in picture if len(place) > 2] for picture in places]
-    assert all(len(texts) == 1 and texts[0].startswith("wristpin ×") for texts in told)
+    message = [[place[2] for place in picture if len(place) > 2] for picture in places]
+    assert all(len(texts) == 1 and texts[0].startswith("wristpin ×") for texts in message)
     last = crank["wristpin.eps"][-1]
-    assert "e/c = 0.00" in told[0][0] and f"e/c = {last:.2f}" in told[-1][0]
+    assert "e/c = 0.00" in message[0][0] and f"e/c = {last:.2f}" in message[-1][0]
 
 
 def test_a_blow_between_two_pictures_is_seen(run: Result) -> None:
@@ -161,8 +161,8 @@ def test_a_blow_between_two_pictures_is_seen(run: Result) -> None:
 
 def test_red_is_what_is_at_that_time(crank: Result) -> None:
     """A red journal where e ≥ c at the picture's time; a red bearing where a contact came and went since the last."""
-    wanted = wanted_of(crank, 1.0, len(crank.t), [], False, False)
-    every = [*sketches(crank, replace(wanted, times=crank.t))]
+    expected = check_animation_options(crank, 1.0, len(crank.t), [], False, False)
+    every = [*sketches(crank, replace(expected, times=crank.t))]
     now = np.array(["touching" in roles(sketch) for sketch in every])
     since = np.array(["touched" in roles(sketch) for sketch in every])
     assert (now == (crank["wristpin.eps"] >= 1.0)).all() and now.any() and not now.all()
@@ -189,8 +189,8 @@ def test_files(crank: Result, tmp_path: Path) -> None:
     with Image.open(tmp_path / "x.gif") as film:  # few colours, those of a drawing among them: they stay what they are
         assert film.n_frames == 3 and film.info["duration"] == 150
         colours = {colour for _, colour in film.convert("RGB").getcolors(1 << 20)}
-    wanted = (np.array(to_rgb(colour)) * 255.0 for colour in ("#ffffff", INK, TINTS[0]))
-    assert all(min(np.abs(np.subtract(one, other)).max() for other in colours) < 8.0 for one in wanted)
+    expected = (np.array(to_rgb(colour)) * 255.0 for colour in ("#ffffff", INK, TINTS[0]))
+    assert all(min(np.abs(np.subtract(one, other)).max() for other in colours) < 8.0 for one in expected)
     data = (tmp_path / "x.gif").read_bytes()
     assert data.startswith(b"GIF89a") and data.count(b"\x21\xf9\x04") == 3  # a control block for each picture
     shown = crank.animate(str(tmp_path / "x.HTML"), seconds=0.3, rate=10)
@@ -202,10 +202,10 @@ def test_files(crank: Result, tmp_path: Path) -> None:
 def test_names_follow_and_lie_on_no_other(name: str) -> None:
     """A turn of the crank: each name keeps its place beside what it names until another name is there."""
     run = gudgeon.load(name).simulate()
-    drawn = list(sketches(run, wanted_of(run, 1.6, 25.0, [], False, False)))
+    drawn = list(sketches(run, check_animation_options(run, 1.6, 25.0, [], False, False)))
     scale = 700.0 / float(drawn[0].high[0] - drawn[0].low[0])
     halves = {label.part: np.array([3.5 * len(label.text), 6.0]) for label in drawn[0].labels}
-    followed = list(_followed(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
+    followed = list(_track_names(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
     fixed = still = moves = 0
     for sketch, before, now in zip(drawn[2:], followed, followed[1:], strict=False):
         middles = {label.part: scale * label.place + now[label.part] for label in sketch.labels}
@@ -221,7 +221,7 @@ def test_names_follow_and_lie_on_no_other(name: str) -> None:
 
 def test_each_picture_is_told(crank: Result, tmp_path: Path) -> None:
     heard: list[tuple[float, str]] = []
-    crank.animate(tmp_path / "x.gif", seconds=0.4, rate=10.0, progress=lambda *told: heard.append(told))
+    crank.animate(tmp_path / "x.gif", seconds=0.4, rate=10.0, progress=lambda *message: heard.append(message))
     assert heard == [(k / 4, f"picture {k + 1} of 4") for k in range(4)]
     with pytest.raises(BadValueError, match="progress"):
         crank.animate(progress=3)  # type: ignore[arg-type]
@@ -229,8 +229,8 @@ def test_each_picture_is_told(crank: Result, tmp_path: Path) -> None:
 
 def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
-    asked: Any = crank.animate
-    for arguments, kind, told in (
+    requested: Any = crank.animate
+    for arguments, kind, message in (
         ({"path": tmp_path / "x.mp4"}, GudgeonError, "ffmpeg"),
         ({"path": tmp_path / "x.avi"}, BadValueError, ".gif, .mp4 or .html"),
         ({"path": tmp_path}, BadValueError, "expected a name"),
@@ -241,8 +241,8 @@ def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pyte
         ({"points": ["rod.hed"]}, UnknownNameError, "nearest: rod.head"),
         ({"forces": "yes"}, BadValueError, "forces is"),
     ):
-        with pytest.raises(kind, match=told):
-            asked(**arguments)
+        with pytest.raises(kind, match=message):
+            requested(**arguments)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -44,11 +44,11 @@ def test_everything_is_drawn_once_and_no_name_lies_on_another(file: Path) -> Non
     svg = as_bytes(picture, ".svg").decode()
     ids = re.findall(r'<g id="([^"]+)"', svg)
     mechanism = found.mechanism
-    wanted = [f"body-{name}" for name in mechanism.bodies] + [f"joint-{name}" for name in mechanism.joints]
-    wanted += [f"drive-{name}" for name in mechanism.drives] + [f"force-{name}" for name in mechanism.forces]
-    wanted += ["gravity"] if mechanism.gravity and not all(g.is_zero for g in mechanism.gravity) else []
-    assert set(wanted) <= set(ids)
-    assert {f"name-{name}" for name in wanted} <= set(ids)
+    expected = [f"body-{name}" for name in mechanism.bodies] + [f"joint-{name}" for name in mechanism.joints]
+    expected += [f"drive-{name}" for name in mechanism.drives] + [f"force-{name}" for name in mechanism.forces]
+    expected += ["gravity"] if mechanism.gravity and not all(g.is_zero for g in mechanism.gravity) else []
+    assert set(expected) <= set(ids)
+    assert {f"name-{name}" for name in expected} <= set(ids)
     assert len(set(ids)) == len(ids)
     placed = dict(boxes(picture))
     assert len(placed) == len(sketch.labels)
@@ -135,16 +135,16 @@ def test_a_gap_is_as_long_as_the_linkage_is_open(text: str) -> None:
             lengths.setdefault(owner, []).append(left)
     sizes = {f"gap {owner}": float(np.linalg.norm(left)) for owner, left in lengths.items()}
     spans = {s.part: float(np.hypot(*(s.points[1] - s.points[0]))) for s in shapes if isinstance(s, Line)}
-    wanted = {part: size for part, size in sizes.items() if size > 2e-3 * max(sizes.values())}
-    assert len(wanted) > 1 and set(wanted) <= set(spans)
-    for part, size in wanted.items():
+    expected = {part: size for part, size in sizes.items() if size > 2e-3 * max(sizes.values())}
+    assert len(expected) > 1 and set(expected) <= set(spans)
+    for part, size in expected.items():
         if part != "gap rod":  # whose row is quadratic in its length
             assert spans[part] == pytest.approx(size, rel=1e-9), part
     rod = next((s for s in shapes if s.part == "gap rod"), None)
     if isinstance(rod, Line):
         reach = float(np.hypot(*(found.posture.place("slide.origin") - [0.3, 0.0])))
         assert spans["gap rod"] == pytest.approx(abs(reach - 0.08), rel=1e-12)
-    assert {label.part for label in labels} >= set(wanted)
+    assert {label.part for label in labels} >= set(expected)
     svg = as_bytes(figure_of([make_sketch(found.posture, more=shapes, labels=labels)], [""], "x"), ".svg").decode()
     assert all(f'id="{part.replace(" ", "-")}"' in svg for part in spans)
 

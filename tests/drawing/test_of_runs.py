@@ -109,16 +109,16 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
     ax = press.plot.mechanism(float(press.t[k]), velocities=True, forces=True)
     found = by_gid(ax)
     (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
-    told = {label.part: label.text for label in names.sketch.labels}
+    message = {label.part: label.text for label in names.sketch.labels}
     for role, on, unit, letter, of_these in (
         ("velocity", "", "m/s", "v", ("L1.head", "L7.com", "L8.head")),
         ("reaction", " on the second body", "N", "F", ("O1", "Q8", "slider", "B")),
     ):
-        wanted = {name: [press[f"{name}.{letter}{axis}"][k] for axis in "xy"] for name in of_these}
-        stands, of = re.fullmatch(rf"{role}{on}: ([\d.]+) (m?{unit})", told[f"scale {role}"]).groups()  # type: ignore[union-attr]
+        expected = {name: [press[f"{name}.{letter}{axis}"][k] for axis in "xy"] for name in of_these}
+        stands, of = re.fullmatch(rf"{role}{on}: ([\d.]+) (m?{unit})", message[f"scale {role}"]).groups()  # type: ignore[union-attr]
         tail, tip = found[f"scale-{role}"].get_xy()[0], found[f"scale-{role}-2"].get_xy()[0]
         metres = np.hypot(*(tip - tail)) / (float(stands) * (1e-3 if of.startswith("m") and of != "m/s" else 1.0))
-        for name, vector in wanted.items():
+        for name, vector in expected.items():
             if f"{role}-{name}" in found:
                 span = found[f"{role}-{name}-2"].get_xy()[0] - found[f"{role}-{name}"].get_xy()[0]
                 assert span == pytest.approx(np.array(vector) * metres, rel=1e-9, abs=1e-12), name
@@ -136,8 +136,8 @@ def test_applied_forces_are_to_the_scale_of_reactions(pushed: Result) -> None:
     ax = pushed.plot.mechanism(float(pushed.t[20]), forces=True)
     found = by_gid(ax)
     (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
-    told = {label.part: label.text for label in names.sketch.labels}["scale reaction"]
-    stands, unit = re.fullmatch(r"reaction on the second body, applied force: ([\d.]+) (m?N)", told).groups()  # type: ignore[union-attr]
+    message = {label.part: label.text for label in names.sketch.labels}["scale reaction"]
+    stands, unit = re.fullmatch(r"reaction on the second body, applied force: ([\d.]+) (m?N)", message).groups()  # type: ignore[union-attr]
     length = np.hypot(*(found["scale-reaction-2"].get_xy()[0] - found["scale-reaction"].get_xy()[0]))
     metres = length / (float(stands) * (1e-3 if unit == "mN" else 1.0))
     for gid, series in (("force-push", "push"), *((f"reaction-{joint}", joint) for joint in ("O", "slider"))):
@@ -171,7 +171,7 @@ def test_a_paths_legend_lies_beside_the_drawing(four_bar: Result) -> None:
 
 
 def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
-    for asked, kind, told in (
+    for requested, kind, message in (
         (lambda: four_bar.plot.mechanism(None), BadValueError, "t is None: expected a time"),  # type: ignore[arg-type]
         (lambda: four_bar.plot.mechanism(2.0), BadValueError, "from 0 s to 1 s"),
         (lambda: four_bar.plot.mechanism("0.1 kg"), gudgeon.InputError, "time"),
@@ -183,8 +183,8 @@ def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
         (lambda: four_bar.plot.path(3), BadValueError, "points is 3: expected the name of a point"),  # type: ignore[arg-type]
         (lambda: four_bar.plot.path([["rocker"]]), BadValueError, "points is list"),  # type: ignore[list-item]
     ):
-        with pytest.raises(kind, match=told):
-            asked()
+        with pytest.raises(kind, match=message):
+            requested()
     axes = four_bar.plot.mechanism("250 ms")
     title = f"{four_bar.source.title}: {four_bar.source.scene}, t = 0.25 s"  # what `gudgeon draw` puts above it
     assert " ".join(axes.get_title().split()) == title and four_bar.plot.mechanism(0.1, ax=axes) is axes

@@ -28,8 +28,8 @@ def test_a_journal_is_drawn_where_it_is_at_the_scale_that_is_told() -> None:
     assert by_role["clearance"].radius == pytest.approx(times * 2e-4)
     assert by_role["hole"].radius - by_role["journal"].radius == pytest.approx(times * 2e-4)  # the gap is to scale
     assert "touching" not in by_role
-    told = next(label.text for label in sketch.labels if label.part == "inset wristpin")
-    assert f"×{times:g}" in told and "e/c = 0.65" in told
+    message = next(label.text for label in sketch.labels if label.part == "inset wristpin")
+    assert f"×{times:g}" in message and "e/c = 0.65" in message
     assert any(f"×{times:g}" in note and "0.2 mm" in note for note in sketch.notes)
 
 
@@ -57,8 +57,8 @@ def test_a_slider_is_drawn_between_its_walls_where_it_is() -> None:
         upper = disc in (discs[0], discs[2])
         gap = heights[0].min() - disc.centre @ up if upper else disc.centre @ up - heights[1].max()
         assert gap == pytest.approx(-times * depth, abs=1e-12) and disc.role == role
-    told = next(label.text for label in sketch.labels if label.part == "inset way")
-    assert f"×{times:g}" in told and f"e/c = {max(delta) / C + 1:.2f}" in told
+    message = next(label.text for label in sketch.labels if label.part == "inset way")
+    assert f"×{times:g}" in message and f"e/c = {max(delta) / C + 1:.2f}" in message
     assert any(f"×{times:g}" in note and "gap 0.2 mm on each side" in note for note in sketch.notes)
     block = next(shape.points for shape in sketch.of("body block") if isinstance(shape, Line))
     assert unit_vector(block[1] - block[0]) == pytest.approx([np.cos(0.2025), np.sin(0.2025)])

@@ -63,8 +63,8 @@ def test_lines_through_a_box_are_found(segment: np.ndarray, corner: np.ndarray, 
 
 def test_boxes_that_overlap() -> None:
     boxes = np.array([[0.0, 0.0, 2.0, 1.0], [5.0, 5.0, 6.0, 6.0]])
-    taken = np.array([[1.9, 0.9, 3.0, 3.0], [2.0, 0.0, 3.0, 1.0], [5.2, 5.2, 5.3, 5.3]])
-    assert overlapping(boxes, taken).tolist() == [[True, False, False], [False, False, True]]
+    used = np.array([[1.9, 0.9, 3.0, 3.0], [2.0, 0.0, 3.0, 1.0], [5.2, 5.2, 5.3, 5.3]])
+    assert overlapping(boxes, used).tolist() == [[True, False, False], [False, False, True]]
 
 
 @settings(deadline=None)

@@ -200,5 +200,5 @@ def test_owners_exist_and_every_field_of_the_integrator_has_one() -> None:
     ],
 )
 def test_writes_are_found(line: str, found: str | None) -> None:
-    told = strangers("run/stranger.c", f"static void g(Integrator *run)\n{{\n    {line}\n}}\n")
-    assert bool(told) == bool(found) and all(f"is of {found}," in row for row in told)
+    message = strangers("run/stranger.c", f"static void g(Integrator *run)\n{{\n    {line}\n}}\n")
+    assert bool(message) == bool(found) and all(f"is of {found}," in row for row in message)

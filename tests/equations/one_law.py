@@ -18,7 +18,7 @@ class Evaluator:
     def __init__(self, name: str, parameters: Mapping[str, float], **options: str | bool) -> None:
         self.law = laws()[name]
         values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
-        chosen = {o.name: o.choice for o in self.law.options} | options
+        selected = {o.name: o.choice for o in self.law.options} | options
         symbols = {v: sp.Symbol(v, real=True) for v in self.law.variables}
         pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
         numbers = {k: sp.Float(v) for k, v in values.items() if v is not None}
@@ -26,7 +26,7 @@ class Evaluator:
         def derive(name: str, expression: Any, meaning: str) -> Any:
             return expression
 
-        steps = self.law.build(LawInputs(numbers, chosen, pair, symbols, derive))
+        steps = self.law.build(LawInputs(numbers, selected, pair, symbols, derive))
         read = {s.name for step in steps.values() for s in sp.sympify(step).free_symbols}
         known, self._steps = [s for name, s in symbols.items() if name in (*VARIABLES[self.law.role], *read)], []
         self.reads = tuple(symbol.name for symbol in known)

@@ -10,9 +10,9 @@ import sympy as sp
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.pycode import PythonCodePrinter
 
-from gudgeon.generator.symbols.corners import Pick
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
-from gudgeon.generator.targets.quick import Quick
+from gudgeon.generator.symbols.switches import Pick
+from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 SYMBOLS = x, y, z = sp.symbols("x y z", real=True)
 NUMBERS = (*map(sp.Integer, (-3, -1, 2, 7)), sp.Rational(-1, 2), sp.Rational(3, 7), sp.Float(0.3), sp.Float(-1.5))
@@ -70,7 +70,7 @@ def test_derivatives_and_symbols_of_random_expressions() -> None:
 
 @pytest.mark.parametrize("printer", [C99CodePrinter, PythonCodePrinter])
 def test_texts_of_random_expressions(printer: type[C99CodePrinter | PythonCodePrinter]) -> None:
-    quick = type("Printer", (Quick, printer), {})()
+    quick = type("Printer", (CachedPrinter, printer), {})()
     for expression in expressions(200):
         if expression.has(sp.Float) and printer is PythonCodePrinter:
             continue  # every printer of gudgeon writes these in its own way

@@ -149,13 +149,13 @@ def test_values_at_random_states(scene: str, tmp_path: Path) -> None:
     states = np.random.default_rng(4).uniform(-1.0, 1.0, (20, 19))
     states[:, 0] += 1.5  # t
     t, q, v = states[:, 0], states[:, 1:10].T, states[:, 10:].T
-    wanted = [
+    expected = [
         q[0] + 0.025 * np.cos(q[2]) - 2 * 0.2e-3,
         v[4] + v[5] * 0.06 * np.cos(q[5]) - 3.0 + q[7] / (t + 1.0),
         np.abs(q[5]) - 0.3 * v[2] / (20 * np.pi),
     ]
     found = values(generate(file(), "slider.yaml", scene), DRIVER, states, tmp_path).reshape(20, 3)
-    np.testing.assert_allclose(found, np.transpose(wanted), rtol=1e-13, atol=1e-14)
+    np.testing.assert_allclose(found, np.transpose(expected), rtol=1e-13, atol=1e-14)
 
 
 def test_written_equations_hold_them() -> None:

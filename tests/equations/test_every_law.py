@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from gudgeon.generator.kinds.laws.law import FURTHER, VARIABLES, Law, LawInputs, PairSymbols, house
+from gudgeon.generator.kinds.laws.law import FURTHER, VARIABLES, Law, LawInputs, PairSymbols, bundled_laws
 from tests.equations.one_law import PAIR
 from tests.equations.subjects import NAN, Subject, make
 from tests.programs import needs_compiler
@@ -99,7 +99,7 @@ def _corners(value: sp.Expr) -> Iterator[sp.Expr]:
 def choices() -> list[tuple[str, str]]:
     """Every law that gives a force with its defaults, then with each other choice of one key."""
     found = []
-    for law in (law for law in house().values() if not law.rigid):
+    for law in (law for law in bundled_laws().values() if not law.rigid):
         found.append((law.name, ""))
         found += [(law.name, f"{own.name}={x}") for own in law.options for x in own.values if x != own.choice]
     return found
@@ -107,7 +107,7 @@ def choices() -> list[tuple[str, str]]:
 
 @cache
 def vectors(name: str, choice: str, *changed: tuple[str, float]) -> Vectors:
-    law = house()[name]
+    law = bundled_laws()[name]
     options = {own.name: own.choice for own in law.options}
     if choice:
         key, _, word = choice.partition("=")
@@ -154,9 +154,9 @@ def passive(own: Vectors, count: int, seed: int = 1) -> Array:
         F_n, v_t = state[:2]
         if law.states:
             return stored(own, state)
-        taken = -own(*state)["F_t"] * np.sign(v_t) / F_n
-        assert (taken <= MU_S * (1.0 + 1e-12)).all()
-        return np.asarray(taken)
+        used = -own(*state)["F_t"] * np.sign(v_t) / F_n
+        assert (used <= MU_S * (1.0 + 1e-12)).all()
+        return np.asarray(used)
     if law.role == "film":
         _, w_n, w_t = state
         got = own(*state)
@@ -184,12 +184,12 @@ def stored(own: Vectors, state: list[Array]) -> Array:
 def test_it_gives_no_energy(name: str, choice: str, count: int) -> None:
     """And shares of mixed lubrication, by which two that take are added, lie between 0 and 1."""
     changed = [("damping", 4.0 * MU / 10.0)] if name == "lugre" else []  # its bound, for slips up to 10 m/s
-    taken = passive(vectors(name, choice, *changed), count)
-    assert np.isfinite(taken).all()
+    used = passive(vectors(name, choice, *changed), count)
+    assert np.isfinite(used).all()
     if (name, choice) in WRONG:
-        assert taken.min() < -0.1
+        assert used.min() < -0.1
     else:
-        assert taken.min() >= -1e-12
+        assert used.min() >= -1e-12
 
 
 def test_bristles_give_energy_beyond_the_bound_of_their_damping() -> None:
@@ -235,7 +235,7 @@ def jump(own: Vectors, g: Callable[..., Any], seed: int) -> float | None:
     )
 
 
-@pytest.mark.parametrize("name", sorted(n for n, law in house().items() if law.role == "film"))
+@pytest.mark.parametrize("name", sorted(n for n, law in bundled_laws().items() if law.role == "film"))
 def test_a_film_is_isotropic_at_the_centre_and_none_at_rest(name: str) -> None:
     """At ε = 0 any direction may be the normal: force and velocity are parallel, and alike whichever way they point."""
     own, rng = vectors(name, ""), np.random.default_rng(4)
@@ -248,12 +248,12 @@ def test_a_film_is_isotropic_at_the_centre_and_none_at_rest(name: str) -> None:
     assert max(np.abs(still[force]).max() for force in ("F_r", "F_t")) < 1e-140  # what keeps 0/0 away
 
 
-@pytest.mark.parametrize("name", sorted(n for n, law in house().items() if law.role == "film"))
+@pytest.mark.parametrize("name", sorted(n for n, law in bundled_laws().items() if law.role == "film"))
 def test_a_film_is_in_proportion_to_its_viscosity(name: str) -> None:
     """So that without viscosity what is left of a joint's force is what its surfaces bear (simulation/wear.py)."""
-    state = random(house()[name], 1000)
+    state = random(bundled_laws()[name], 1000)
     thin, thick, none = (vectors(name, "shear=True", ("viscosity", mu))(*state) for mu in (0.01, 0.03, 0.0))
-    for result in house()[name].results:
+    for result in bundled_laws()[name].results:
         np.testing.assert_allclose(thick[result], 3.0 * thin[result], rtol=1e-12)
         assert np.abs(thin[result]).max() > 0.0 and not np.any(none[result])
 
@@ -305,7 +305,7 @@ scenes: {{all: {{play: {{{", ".join(f"J{k}: {{bearing: b, contact: c{k}}}" for k
 def test_no_law_without_states_is_left_out_of_the_slopes() -> None:
     named = {word.strip(" ,{}") for word in CONTACTS.replace("law: ", "\n@").split("\n") if word.startswith("@")}
     named = {word[1:].split(",")[0].strip(" }") for word in named}
-    assert named == {law.name for law in house().values() if not (law.states or law.rigid)}
+    assert named == {law.name for law in bundled_laws().values() if not (law.states or law.rigid)}
 
 
 @pytest.fixture(scope="module")

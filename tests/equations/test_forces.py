@@ -40,8 +40,8 @@ def test_every_law_is_built_of_smooth_pieces_and_known_symbols() -> None:
         symbols = {v: sp.Symbol(v, real=True) for v in law.variables}
         parameters = {p.name: sp.Symbol(p.name, positive=True) for p in law.parameters}
         pair = PairSymbols(**{k: sp.Symbol(k, positive=True) for k in vars(PAIR)})
-        chosen = {o.name: o.choice for o in law.options}
-        steps = law.build(LawInputs(parameters, chosen, pair, symbols, lambda name, expression, meaning: expression))
+        selected = {o.name: o.choice for o in law.options}
+        steps = law.build(LawInputs(parameters, selected, pair, symbols, lambda name, expression, meaning: expression))
         assert set(law.results) <= set(steps)
         known = {*symbols.values(), *parameters.values(), *vars(pair).values()}
         for name, expression in steps.items():
@@ -142,12 +142,14 @@ def test_restitution_of_the_normal_law(given_restitution: float, delivered: floa
 
 @pytest.mark.parametrize(("name", "numbers"), [("hertz", {"stiffness": 1e9}), ("liu", {})])
 @pytest.mark.parametrize("asked", [1e-3, 0.05, 0.3, 0.9, 0.9999, 1.0])
-def test_the_exact_damping_is_the_identitys(name: str, numbers: dict[str, float], asked: float) -> None:
+def test_the_exact_damping_is_the_identitys(name: str, numbers: dict[str, float], requested: float) -> None:
     """1 − a e = (1 + a) e^{−a(1 + e)}, which is the identity for a > 0."""
-    law = Evaluator(name, {"restitution": asked, **numbers}, dissipation="exact")
+    law = Evaluator(name, {"restitution": requested, **numbers}, dissipation="exact")
     a = law(1e-5, 1.0)[0] / law(1e-5, 0.0)[0] - 1.0
-    assert 1.0 - a * asked == pytest.approx((1.0 + a) * math.exp(-a * (1.0 + asked)), abs=4e-15)
-    assert (a == 0.0) == (asked == 1.0) and (asked < 0.9 or a == pytest.approx(1.5 * (1.0 - asked) / asked, rel=2e-3))
+    assert 1.0 - a * requested == pytest.approx((1.0 + a) * math.exp(-a * (1.0 + requested)), abs=4e-15)
+    assert (a == 0.0) == (requested == 1.0) and (
+        requested < 0.9 or a == pytest.approx(1.5 * (1.0 - requested) / requested, rel=2e-3)
+    )
 
 
 @FAST

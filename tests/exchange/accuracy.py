@@ -52,9 +52,9 @@ def main() -> None:
             reference = simulation.simulate(output=np.linspace(0.0, t_end, 51), rtol=1e-12)
             for kind in kinds:
                 first = (f"{name}, {which}", f"{t_end:g}", str(reference.diagnostics.onsets), series)
-                told = (f"{error(fmu, kind, rtol, series, reference):.0e}" for rtol in TOLERANCES)
-                told_of = " | ".join(first) if kind == kinds[0] else "| | |"
-                print("|", told_of, "|", " | ".join((kind, *told)), "|")
+                message = (f"{error(fmu, kind, rtol, series, reference):.0e}" for rtol in TOLERANCES)
+                message_of = " | ".join(first) if kind == kinds[0] else "| | |"
+                print("|", message_of, "|", " | ".join((kind, *message)), "|")
 
 
 if __name__ == "__main__":

@@ -149,7 +149,7 @@ def test_it_is_valid_and_moves_as_the_native_run(
 def test_a_state_that_is_put_back_leads_on_to_the_same_bits(tmp_path: Path) -> None:
     press = scene("nine_bar_press", "dry")
     with instance(written(press, tmp_path), 0.02) as slave:
-        wanted = [slave.place[name] for name in ("S9.y", "A.ex", "B.F_n" if "B.F_n" in slave.place else "B.ey")]
+        expected = [slave.place[name] for name in ("S9.y", "A.ex", "B.F_n" if "B.F_n" in slave.place else "B.ey")]
         for k in range(5):
             slave.doStep(k * 1e-3, 1e-3)
         kept = slave.getFMUState()
@@ -157,7 +157,7 @@ def test_a_state_that_is_put_back_leads_on_to_the_same_bits(tmp_path: Path) -> N
         for _ in range(2):
             for k in range(5, 10):
                 slave.doStep(k * 1e-3, 1e-3)
-            ways.append(slave.getFloat64(wanted))
+            ways.append(slave.getFloat64(expected))
             slave.setFMUState(kept)
         slave.freeFMUState(kept)
     assert ways[0] == ways[1]
@@ -214,11 +214,11 @@ def test_numbers_that_the_native_run_refuses_end_initialization(
         instance(written(press, tmp_path), **{name: value}),
     ):
         pass
-    said = capsys.readouterr().out
+    specified = capsys.readouterr().out
     if value < 1e100:  # of a number that overflows native runs say more
-        assert str(native.value).replace(" with c =", " with parameters.c =").split(" (")[0] in said
+        assert str(native.value).replace(" with c =", " with parameters.c =").split(" (")[0] in specified
     else:
-        assert "which follows from" in str(native.value) and "that follows from these parameters is inf" in said
+        assert "which follows from" in str(native.value) and "that follows from these parameters is inf" in specified
 
 
 def test_bounds_are_in_the_description(tmp_path: Path) -> None:
@@ -248,9 +248,9 @@ def test_an_event_that_stops_asks_to_terminate(tmp_path: Path) -> None:
     file = tmp_path / "falling.yaml"
     file.write_text(STOPPING, encoding="utf-8")
     with instance(written(gudgeon.load(file), tmp_path)) as slave:
-        told = [slave.doStep(k * 0.1, 0.1)[1] for k in range(6)]
+        message = [slave.doStep(k * 0.1, 0.1)[1] for k in range(6)]
         height = slave.getFloat64([slave.place["weight.y"]])[0]
-    assert told == [False] * 4 + [True] * 2  # after half a second
+    assert message == [False] * 4 + [True] * 2  # after half a second
     assert height == pytest.approx(-1.25, abs=1e-10)
 
 
@@ -294,9 +294,9 @@ def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: py
     assert names == {name for name in whole if not name.startswith("binaries/")} and len(whole) == len(names) + 1
     units = re.findall(r'SourceFile name="(.*?)"', build)
     assert units and {f"sources/{unit}" for unit in units} <= names
-    told = re.findall(r"^- `(.*?)`", page, re.MULTILINE)
-    assert {f"sources/{name}" for name in (*told, "buildDescription.xml")} <= names
-    assert {"model.h", "reduced.c", "fmu.h"} <= {*told} and " ".join(units) in page and "ROOT" not in page
+    message = re.findall(r"^- `(.*?)`", page, re.MULTILINE)
+    assert {f"sources/{name}" for name in (*message, "buildDescription.xml")} <= names
+    assert {"model.h", "reduced.c", "fmu.h"} <= {*message} and " ".join(units) in page and "ROOT" not in page
 
 
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,7 @@ from gudgeon.contract.boundary import VR_INDICATORS as INDICATORS
 from gudgeon.contract.boundary import VR_OUTPUTS as OUTPUTS
 from gudgeon.contract.boundary import VR_RATES as RATES
 from gudgeon.contract.boundary import VR_STATES as STATES
-from gudgeon.exchange.fmu_description import kept_from_exchange, outputs, states
+from gudgeon.exchange.fmu_description import exchange_obstacle, outputs, states
 from tests.exchange.test_fmu import instance, scene, written
 from tests.programs import needs_compiler
 
@@ -143,11 +143,11 @@ def expect_directional_derivatives(simulation: gudgeon.Simulation, tmp_path: Pat
 
         def at(moved: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             made.setContinuousStates((c_double * count)(*moved), count)
-            told = np.array(made.getFloat64([OUTPUTS + k for k in shown]))
-            return vector(made, "getContinuousStateDerivatives", count), told
+            message = np.array(made.getFloat64([OUTPUTS + k for k in shown]))
+            return vector(made, "getContinuousStateDerivatives", count), message
 
         steps = [[at(x + h * seed) for h in (1e-4, -1e-4)], [at(x + h * seed) for h in (2e-4, -2e-4)]]
-        wanted = [
+        expected = [
             (4.0 * (near[0][k] - near[1][k]) / 2e-4 - (far[0][k] - far[1][k]) / 4e-4) / 3.0
             for near, far in [steps]
             for k in (0, 1)
@@ -155,12 +155,12 @@ def expect_directional_derivatives(simulation: gudgeon.Simulation, tmp_path: Pat
         at(x)
         knowns = [STATES + k for k in range(count)]
         rates = np.array(made.getDirectionalDerivative([RATES + k for k in range(count)], knowns, seed))
-        told = np.array(made.getDirectionalDerivative([OUTPUTS + k for k in shown], knowns, seed))
+        message = np.array(made.getDirectionalDerivative([OUTPUTS + k for k in shown], knowns, seed))
         assert (vector(made, "getContinuousStates", count) == x).all()
         assert made.getFloat64([RATES + 1]) == [vector(made, "getContinuousStateDerivatives", count)[1]]
     for part in (slice(None, -3), slice(-3, None)):
-        assert abs(rates - wanted[0])[part].max() <= 1e-6 * abs(wanted[0][part]).max()
-    assert abs(told - wanted[1]).max() <= outputs_off * abs(wanted[1]).max() and abs(told).max() > 0.0
+        assert abs(rates - expected[0])[part].max() <= 1e-6 * abs(expected[0][part]).max()
+    assert abs(message - expected[1]).max() <= outputs_off * abs(expected[1]).max() and abs(message).max() > 0.0
 
 
 @contextmanager
@@ -283,25 +283,25 @@ def test_a_jump_of_a_force_is_an_event(tmp_path: Path) -> None:
 def test_a_state_goes_through_bytes(tmp_path: Path) -> None:
     fmu = written(scene("nine_bar_press", "dry"), tmp_path)
     with instance(fmu, 0.02) as one, instance(fmu, 0.02) as two:
-        wanted = [OUTPUTS + k for k in range(6)]
+        expected = [OUTPUTS + k for k in range(6)]
         for k in range(8):
             one.doStep(k * 1e-3, 1e-3)
         kept = one.getFMUState()
-        told = one.serializeFMUState(kept)
+        message = one.serializeFMUState(kept)
         one.freeFMUState(kept)
-        again = two.deserializeFMUState(told)
+        again = two.deserializeFMUState(message)
         two.setFMUState(again)
         two.freeFMUState(again)
         for each in (one, two):
             each.doStep(8e-3, 2e-3)
-        assert one.getFloat64(wanted) == two.getFloat64(wanted)
+        assert one.getFloat64(expected) == two.getFloat64(expected)
         with pytest.raises(Exception, match="DeserializeFMUState"):
-            two.deserializeFMUState(told[: len(told) // 2])
+            two.deserializeFMUState(message[: len(message) // 2])
 
 
 def test_what_others_cannot_integrate_says_why(tmp_path: Path) -> None:
     for name, why in (("four_bar", "no freedom"), ("shaker", "drives alone")):
         simulation = scene(name, "ideal")
-        assert why in kept_from_exchange(simulation.source)
+        assert why in exchange_obstacle(simulation.source)
         assert fmpy.read_model_description(written(simulation, tmp_path)).modelExchange is None
-    assert not kept_from_exchange(gudgeon.load("pendulum").source)
+    assert not exchange_obstacle(gudgeon.load("pendulum").source)

@@ -20,8 +20,8 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
 from gudgeon.exchange.mechanism_yaml import LINE_MASS, mechanism_text
-from gudgeon.exchange.pmks import of_pmks
-from gudgeon.exchange.pylinkage import of_pylinkage
+from gudgeon.exchange.pmks import read_pmks
+from gudgeon.exchange.pylinkage import read_pylinkage
 from gudgeon.exchange.read import mechanism_of, read_linkage
 from tests.programs import needs_compiler
 
@@ -101,18 +101,20 @@ def test_inches_are_centimetres_of_other_size(tmp_path: Path) -> None:
 def test_numbers_of_pmks() -> None:
     """To the base 64, a 0 in front for a negative one, thousandths."""
     joints = "4A,A,0wS,10,0.0B,B,_-,0,0.4C,C,0Fe,Fe,0"
-    linkage = of_pmks(f"0.SS.K,0.201.{joints}..YRAB,AB,Fe,Fe,0,0,fff,A,B,,.YRBC,BC,Fe,Fe,0,0,fff,B,C,,...")
+    linkage = read_pmks(f"0.SS.K,0.201.{joints}..YRAB,AB,Fe,Fe,0,0,fff,A,B,,.YRBC,BC,Fe,Fe,0,0,fff,B,C,,...")
     assert linkage.positions == {"A": (-3.740, 0.064), "B": ((62 * 64 + 63) / 1000, 0.0), "C": (-1.0, 1.0)}
     assert linkage.unit == "m" and linkage.gravity is None and not linkage.drives
 
 
 def test_what_is_not_said_is_told(tmp_path: Path) -> None:
     stored = json.loads((DATA / "pylinkage_fourbar.json").read_text(encoding="utf-8"))
-    text = mechanism_text(of_pylinkage(stored["file"]))
+    text = mechanism_text(read_pylinkage(stored["file"]))
     head = text.partition("format:")[0]
     assert "counts steps" in head and "Masses are not in it" in head and "no units" in head
     assert f"mass: {3.0 * LINE_MASS:g} kg" in text
-    assert "\n" not in mechanism_text(of_pylinkage({**stored["file"], "name": "a\nname: b"})).split("format:")[0][1:20]
+    assert (
+        "\n" not in mechanism_text(read_pylinkage({**stored["file"], "name": "a\nname: b"})).split("format:")[0][1:20]
+    )
 
 
 MOVED = {
@@ -159,10 +161,10 @@ def changed(k: int, **values: Any) -> dict[str, Any]:
         ({"joints": [{"id": "A", "type": "ground", "position": [0, 0]}], "links": []}, "nothing in it moves"),
     ],
 )
-def test_what_cannot_be_read_is_refused(data: Any, told: str, tmp_path: Path) -> None:
+def test_what_cannot_be_read_is_refused(data: Any, message: str, tmp_path: Path) -> None:
     file = tmp_path / "odd.json"
     file.write_text(json.dumps(data), encoding="utf-8")
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         mechanism_of(file)
     done = CliRunner().invoke(app, ["import", str(file), "-o", str(tmp_path / "x.yaml")])
     assert done.exit_code == 2 and not (tmp_path / "x.yaml").exists()

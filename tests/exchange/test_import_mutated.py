@@ -21,8 +21,8 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
 from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import address_in, of_old_pmks, of_pmks
-from gudgeon.exchange.pylinkage import of_pylinkage
+from gudgeon.exchange.pmks import address_in, read_old_pmks, read_pmks
+from gudgeon.exchange.pylinkage import read_pylinkage
 from gudgeon.exchange.read import mechanism_of, read_linkage
 from gudgeon.generator.reader.read import read_mechanism
 from tests.exchange.test_import import MOVED, SIX_BAR
@@ -72,14 +72,16 @@ def test_ordinary_names_become_legal_ones() -> None:
         own = [str(joint.get("id", joint.get("name"))) for joint in document["joints"]]
         own += [str(link["id"]) for link in document.get("links", [])]
         for _ in range(12):
-            chosen = rng.sample(NAMES, len(own))
-            accepted(of_pylinkage(renamed(document, dict(zip(own, chosen, strict=True))) | {"name": rng.choice(NAMES)}))
+            selected = rng.sample(NAMES, len(own))
+            accepted(
+                read_pylinkage(renamed(document, dict(zip(own, selected, strict=True))) | {"name": rng.choice(NAMES)})
+            )
 
 
 def test_a_link_may_be_called_as_a_joint_is() -> None:
     document = documents()[0]
     document["links"][2]["id"] = document["joints"][0]["id"]
-    accepted(of_pylinkage(document))
+    accepted(read_pylinkage(document))
 
 
 def mutated(document: Any, rng: random.Random) -> Any:
@@ -112,7 +114,7 @@ def test_damaged_files_of_pylinkage_are_refused_or_read() -> None:
     for k in range(700):
         document = documents()[k % 5] if k < 5 else mutated(documents()[k % 5], rng)
         try:
-            linkage = of_pylinkage(document)
+            linkage = read_pylinkage(document)
             text = mechanism_text(linkage)
         except InputError:
             continue
@@ -193,7 +195,7 @@ def test_work_grows_with_the_size_of_a_file() -> None:
 
         sys.setprofile(count)
         try:
-            mechanism_text(of_pylinkage(document))
+            mechanism_text(read_pylinkage(document))
         finally:
             sys.setprofile(None)
         return counted[0]
@@ -203,13 +205,13 @@ def test_work_grows_with_the_size_of_a_file() -> None:
 
 def test_old_links_have_the_points_of_today() -> None:
     """The six-bar of the authors of PMKS+ as it was shared before 2023, and as today; a welded linkage of May 2023."""
-    today = of_pmks(address_in(SIX_BAR) or "")
-    old = of_old_pmks(address_in(LINKS["pr92_old_sixbar"]) or "")
+    today = read_pmks(address_in(SIX_BAR) or "")
+    old = read_old_pmks(address_in(LINKS["pr92_old_sixbar"]) or "")
     assert old.positions == {name: pytest.approx(at) for name, at in today.positions.items()}
     assert set(old.ground) == set(today.ground) == {"A", "G"}
     assert {frozenset(b.local) for b in old.bodies} == {frozenset(b.local) for b in today.bodies}
     assert old.drives[0].rate == pytest.approx(10 * math.pi / 30.0) and old.unit == "cm"
-    welded = of_pmks(address_in(LINKS["pr35_welded"]) or "")
+    welded = read_pmks(address_in(LINKS["pr35_welded"]) or "")
     assert [body.name for body in welded.bodies] == ["ab", "cd", "gh", "hi", "bcefgj"]
     body, parts = welded.bodies[-1], [(-4.048, -1.016), (-14.153, 3.773)]
     assert set(body.local) == set("bcefgj") and body.mass == pytest.approx(2.0)
@@ -232,16 +234,16 @@ def test_an_input_at_a_floating_pin_turns_one_link_against_the_other(tmp_path: P
 @pytest.mark.parametrize(
     ("joint", "told"), [("4A,A,0,0,0", "A: it is an input and joins"), ("2A,A,0,0,0", "A: it is an input and joins")]
 )
-def test_no_input_is_left_out(joint: str, told: str) -> None:
+def test_no_input_is_left_out(joint: str, message: str) -> None:
     """An input that joins nothing is refused, and so is one among three links."""
     flags = int(joint[0]) | 2
     lone = f"0.0.A.1.{flags}{joint[1:]}.0B,B,1,0,0.0C,C,0,1,0..YRBC,BC,1,1,0,0,ccc,B,C,,...NT"
-    with pytest.raises(InputError, match=told):
-        of_pmks(lone)
+    with pytest.raises(InputError, match=message):
+        read_pmks(lone)
     three = ".".join(f"YRA{k},A{k},1,1,0,0,ccc,A,{k},," for k in "BCD")
     points = "2A,A,0,0,0.0B,B,1,0,0.0C,C,0,1,0.0D,D,1,1,0"
     with pytest.raises(InputError, match="A: it is an input and joins 3 links"):
-        of_pmks(f"0.0.A.1.{points}..{three}...NT")
+        read_pmks(f"0.0.A.1.{points}..{three}...NT")
 
 
 def test_import_refuses_what_check_would(tmp_path: Path) -> None:

@@ -82,7 +82,7 @@ def table_and_figure(room: Path) -> Act:
 
     simulation = gudgeon.load("pendulum")
     found = [bench(simulation, [0.01 / (k + 1)], [1e-6], t_end=0.1, quick=True, methods=["rk4"]) for k in range(2)]
-    return lambda folder, k: told(lambda: show_bench(simulation.source, [found[k]], folder / "x.csv", None))
+    return lambda folder, k: message(lambda: show_bench(simulation.source, [found[k]], folder / "x.csv", None))
 
 
 @task
@@ -92,7 +92,7 @@ def figure(room: Path) -> Act:
 
     run = gudgeon.load("pendulum").simulate(1.0)
     pictures = [figure({"ideal": run}, {}, [name]) for name in list(run.names)[:2]]
-    return lambda folder, k: told(lambda: save_figure(pictures[k], folder / "x.png"))
+    return lambda folder, k: message(lambda: save_figure(pictures[k], folder / "x.png"))
 
 
 @task
@@ -105,7 +105,7 @@ def save(room: Path) -> Act:
     runs = [pendulum.simulate(1.0 + k, output=200 * (k + 1)) for k in range(2)]
     for k, run in enumerate(runs):
         run.save(folder / f"{k}.nc")
-    return lambda folder, k: told(lambda: runs[k].save(folder / "run.nc"))
+    return lambda folder, k: message(lambda: runs[k].save(folder / "run.nc"))
 
 
 @task
@@ -117,13 +117,13 @@ def study(room: Path) -> Act:
     resolve.BLOCK = 1
     file = {"mechanism": "pendulum", "parameters": {"g": [5, 7, 9]}, "t_end": "0.1 s", "output": 500, "keep": ["bob.x"]}
     gudgeon.study(file)
-    return lambda folder, k: told(lambda: gudgeon.study(file, folder / f"{k}.study").save(folder / "study.nc"))
+    return lambda folder, k: message(lambda: gudgeon.study(file, folder / f"{k}.study").save(folder / "study.nc"))
 
 
 @task
 def compile(room: Path) -> Act:
     """A cache without room: the library is had all the same, from a temporary folder, and that is told."""
-    return lambda folder, k: told(lambda: compiled(folder, k))
+    return lambda folder, k: message(lambda: compiled(folder, k))
 
 
 @task
@@ -132,7 +132,7 @@ def compile_nowhere(room: Path) -> Act:
 
     def act(folder: Path, k: int) -> None:
         tempfile.tempdir = os.environ["TMPDIR"] = str(folder / "tmp")
-        told(lambda: compiled(folder, k))
+        message(lambda: compiled(folder, k))
 
     return act
 
@@ -146,30 +146,30 @@ def compiled(folder: Path, k: int) -> None:
     assert all(is_whole(entry) for entry in folder.glob("cache/libraries/*"))
 
 
-def told(act: Callable[[], object]) -> None:
+def message(act: Callable[[], object]) -> None:
     """As the command line does: an error of ours is a sentence and an exit code."""
-    from gudgeon.commands.told import told
+    from gudgeon.commands.outcome import message
 
-    told(act)()
+    message(act)()
 
 
 def child(act: Callable[[], object]) -> tuple[int, str]:
     """Exit status (a signal is negative) and what is told on stderr, by a process that ends as any does."""
-    with tempfile.TemporaryFile() as said:
+    with tempfile.TemporaryFile() as specified:
         process = os.fork()
         if process == 0:
             import typer
 
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-            os.dup2(said.fileno(), 2)
+            os.dup2(specified.fileno(), 2)
             try:
                 act()
             except typer.Exit as end:
                 sys.exit(end.exit_code)
             sys.exit(0)  # with everything that is done at exit
         status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
-        said.seek(0)
-        return status, said.read().decode(errors="replace")
+        specified.seek(0)
+        return status, specified.read().decode(errors="replace")
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -204,8 +204,8 @@ def versions(disk: Path, room: Path, act: Act) -> tuple[dict[str, bytes], dict[s
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         for version in range(k + 1):
-            status, said = child(lambda version=version: act(folder, version))  # type: ignore[misc]
-            assert status == 0, said
+            status, specified = child(lambda version=version: act(folder, version))  # type: ignore[misc]
+            assert status == 0, specified
         found.append(contents(folder))
         if k == 0:
             shutil.copytree(folder, room / "older")
@@ -227,23 +227,23 @@ def check(
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(room / "older", folder)
     filler = full(disk, free)
-    status, said = child(lambda: act(folder, 1))
+    status, specified = child(lambda: act(folder, 1))
     there = contents(folder)
-    if status < 0 or "Traceback" in said or "Exception ignored" in said:
-        wrong.append(f"{free}: ended with {status}: {said[-300:]}")
-    if status == 0 and there != newer and "not kept" not in said:
+    if status < 0 or "Traceback" in specified or "Exception ignored" in specified:
+        wrong.append(f"{free}: ended with {status}: {specified[-300:]}")
+    if status == 0 and there != newer and "not kept" not in specified:
         wrong.append(f"{free}: says that all is written, and it is not")
-    if status != 0 and not ("No space left" in said or "nothing can be written" in said):
-        wrong.append(f"{free}: does not say why: {said[-300:]}")
+    if status != 0 and not ("No space left" in specified or "nothing can be written" in specified):
+        wrong.append(f"{free}: does not say why: {specified[-300:]}")
     for name in older.keys() | there.keys():
         if name not in there:
             wrong += [f"{free}: {name} is lost"] if name not in newer or name in older.keys() & newer.keys() else []
         elif there[name] not in (older.get(name), newer.get(name)) and not name.endswith("emitted.sha256"):
             wrong.append(f"{free}: {name} is neither the older nor the newer")
     filler.unlink()
-    status_again, said = child(lambda: act(folder, 1))
+    status_again, specified = child(lambda: act(folder, 1))
     if status_again != 0 or contents(folder) != newer:
-        wrong.append(f"{free}: with room again: {status_again}, {said[-300:]}")
+        wrong.append(f"{free}: with room again: {status_again}, {specified[-300:]}")
     return status, wrong
 
 

@@ -69,8 +69,8 @@ print(len(tries))
 @pytest.mark.slow
 def test_a_cache_that_is_mounted_noexec_is_told_and_compiled_into_once(tmp_path: Path) -> None:
     (tmp_path / "disk").mkdir()
-    asked = (sys.executable, "-W", "always", "-c", TWICE, str(tmp_path / "disk"), str(ROOT), "1")
-    line = own_namespace(tmp_path / "disk", *asked, options="noexec")
+    requested = (sys.executable, "-W", "always", "-c", TWICE, str(tmp_path / "disk"), str(ROOT), "1")
+    line = own_namespace(tmp_path / "disk", *requested, options="noexec")
     if line is None:
         pytest.skip("no file system of one's own can be made here")
     done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True)

@@ -16,8 +16,8 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import OutputError
-from gudgeon.files import room
-from gudgeon.files.room import check_disk, check_memory, free_disk, free_memory, in_bytes
+from gudgeon.files import free_space
+from gudgeon.files.free_space import check_disk, check_memory, free_disk, free_memory, size_text
 from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import axis
@@ -41,7 +41,7 @@ class Disk(NamedTuple):
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine with a gigabyte of memory and ten megabytes of disk, where no run may begin."""
-    monkeypatch.setattr(room, "free_memory", lambda: GB)
+    monkeypatch.setattr(free_space, "free_memory", lambda: GB)
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(2500))
     for place in ("integrators.batch.Runs.here", "integrators.batch.Runs.run"):
         monkeypatch.setattr(f"gudgeon.{place}", None)
@@ -78,7 +78,7 @@ def test_what_is_free_is_the_least_of_machine_group_and_limit(tmp_path: Path) ->
 
 def test_a_limit_of_the_process_counts() -> None:
     """`ulimit -v`: what is free is at most what it leaves, and a run that needs more is told so in a word."""
-    code = "import gudgeon; from gudgeon.files.room import free_memory; print(free_memory())\n"
+    code = "import gudgeon; from gudgeon.files.free_space import free_memory; print(free_memory())\n"
     code += "gudgeon.load('pendulum').simulate(1.0, output=2 * 10**7)"
     limit = 3 << 29
     done = subprocess.run(
@@ -92,13 +92,13 @@ def test_a_limit_of_the_process_counts() -> None:
 
 
 def test_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "free_memory", lambda: GB)
+    monkeypatch.setattr(free_space, "free_memory", lambda: GB)
     check_memory(0.89 * GB, "x")
     with pytest.raises(MemoryError, match=r"^4 tables would take 901 MB, and 1 GB are free$"):
         check_memory(0.901 * GB, "4 tables")
-    monkeypatch.setattr(room, "free_memory", lambda: pytest.fail("little is not asked about"))
+    monkeypatch.setattr(free_space, "free_memory", lambda: pytest.fail("little is not asked about"))
     check_memory(1e6, "x")
-    assert [in_bytes(size) for size in (12, 3400, 5.6e6, 7.8e9, 2.5e13)] == [
+    assert [size_text(size) for size in (12, 3400, 5.6e6, 7.8e9, 2.5e13)] == [
         "12 bytes",
         "3.4 kB",
         "5.6 MB",
@@ -110,10 +110,10 @@ def test_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real = os.statvfs(tmp_path)
     assert free_disk(tmp_path / "a/b") == pytest.approx(real.f_bavail * real.f_frsize, rel=0.2)
-    asked: list[Path] = []
+    requested: list[Path] = []
 
     def statvfs(path: Path) -> Disk:
-        asked.append(path)
+        requested.append(path)
         if path != tmp_path:
             raise FileNotFoundError
         return Disk(2)
@@ -122,7 +122,7 @@ def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, mon
     check_disk(tmp_path / "a/b", 8192, "it")
     with pytest.raises(OutputError, match="x: No space left on device: it would take 8.19 kB, and 8.19 kB are free"):
         check_disk(tmp_path / "a/b", 8193, "it", "x")
-    assert asked[:3] == [tmp_path / "a/b", tmp_path / "a", tmp_path]
+    assert requested[:3] == [tmp_path / "a/b", tmp_path / "a", tmp_path]
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(0, f_blocks=0))  # a file system that does not say
     assert math.isinf(free_disk(tmp_path))
 
@@ -146,7 +146,7 @@ def test_bytes_of_a_sample_are_those_of_the_arrays() -> None:
 def test_runs_that_do_not_fit_into_memory(pendulum: Simulation) -> None:
     sets: list[dict[str, float]] = [{}] * 1000
     own = np.linspace(1.0, 2.0, 1000)
-    for told, begin in (
+    for message, begin in (
         ("20000001 samples would take", lambda: pendulum.simulate(1.0, output=20_000_000)),
         ("the times of 100000000 samples", lambda: pendulum.simulate(1.0, output=100_000_000)),
         ("1000 runs of 20001 samples each", lambda: pendulum.simulate_many(sets, 1.0, output=20_000)),
@@ -158,7 +158,7 @@ def test_runs_that_do_not_fit_into_memory(pendulum: Simulation) -> None:
             lambda: gudgeon.study(STUDY | {"output": 4_000_000, "measures": {"top": {"max": "swing"}}}, threads=2),
         ),
     ):
-        with pytest.raises(MemoryError, match=told):
+        with pytest.raises(MemoryError, match=message):
             begin()
 
 
@@ -186,14 +186,16 @@ def test_exports_that_do_not_fit(pendulum: Simulation, tmp_path: Path, monkeypat
         (tmp_path / "x.csv").unlink()
         with monkeypatch.context() as full:
             full.setattr(os, "statvfs", lambda path: Disk(5))
-            with pytest.raises(OutputError, match=r"x\.csv: No space left on device: it would take (\d+) kB") as told:
+            with pytest.raises(
+                OutputError, match=r"x\.csv: No space left on device: it would take (\d+) kB"
+            ) as message:
                 of.to_csv(tmp_path / "x.csv", ["swing"])
-            assert float(re.findall(r"take (\d+) kB", str(told.value))[0]) * 1e3 == pytest.approx(size, rel=0.05)
+            assert float(re.findall(r"take (\d+) kB", str(message.value))[0]) * 1e3 == pytest.approx(size, rel=0.05)
             with pytest.raises(OutputError, match=r"x\.mat: No space left on device: it would take"):
                 of.to_mat(tmp_path / "x.mat", ["swing"])
         assert not [*tmp_path.iterdir()] and size > 16 * rows
-    monkeypatch.setattr(room, "LEAST", 0)
-    monkeypatch.setattr(room, "free_memory", lambda: 1e5)
+    monkeypatch.setattr(free_space, "LEAST", 0)
+    monkeypatch.setattr(free_space, "free_memory", lambda: 1e5)
     for export in (lambda: batch.to_mat(tmp_path / "x.mat", ["swing"]), lambda: batch.to_dataframe(["swing"])):
         with pytest.raises(MemoryError, match="of 3 runs would take"):
             export()
@@ -217,9 +219,9 @@ def test_a_study_that_does_not_fit_on_the_disk(tmp_path: Path) -> None:
         ("100000", "No space left on device: the results, 2 scenes of 100001 samples, would take "),
     ],
 )
-def test_a_command_whose_results_fit_nowhere(call: Gudgeon, output: str, told: str, tmp_path: Path) -> None:
+def test_a_command_whose_results_fit_nowhere(call: Gudgeon, output: str, message: str, tmp_path: Path) -> None:
     done = call("run", "pendulum", "--output", output)
-    assert done.exit_code == 1 and done.stderr.startswith("error: ") and told in done.stderr
+    assert done.exit_code == 1 and done.stderr.startswith("error: ") and message in done.stderr
     assert not [*tmp_path.iterdir()]
 
 
@@ -230,8 +232,8 @@ def test_what_follows_from_samples_and_a_file_that_is_too_large(
     """The run is kept; what cannot be evaluated, or saved, can be where there is room again."""
     run = pendulum.simulate(1.0, output=20_000)
     with monkeypatch.context() as short:
-        short.setattr(room, "LEAST", 0)
-        short.setattr(room, "free_memory", lambda: 1e6)
+        short.setattr(free_space, "LEAST", 0)
+        short.setattr(free_space, "free_memory", lambda: 1e6)
         with pytest.raises(MemoryError, match="what follows from 20001 samples would take"):
             pendulum.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)
     with monkeypatch.context() as short:

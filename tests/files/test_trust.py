@@ -16,7 +16,7 @@ import pytest
 
 from gudgeon.errors import CacheError
 from gudgeon.files import trust
-from gudgeon.files.trust import Untrusted, check_way
+from gudgeon.files.trust import Untrusted, check_path
 from gudgeon.loading.cache import LIST, Cache, is_whole, private_cache
 from tests.loading.test_cache import Writer
 
@@ -73,14 +73,14 @@ def test_what_others_may_write_is_not_used(root: Path, give: Callable[[Path], No
     sums.write_text(f"{hashlib.sha256(b'evil').hexdigest()} text\n{sums.read_text().splitlines()[-1]}\n")
     assert is_whole(root / "models" / "one"), "checksums and all"
     {"group": open_to(0o020), "others": open_to(0o002), "another's": give}[what](root / where)
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as message:
         warnings.simplefilter("always")
         entries = [Cache(root).fetch("models", "one", text("mine")) for _ in range(3)]
     assert {(entry / "text").read_text() for entry in entries} == {"mine"}
-    assert len(told) == 1, [str(t.message) for t in told]
-    assert str(root) in str(told[0].message)
+    assert len(message) == 1, [str(t.message) for t in message]
+    assert str(root) in str(message[0].message)
     if where in (".", "models"):
-        assert "chmod" in str(told[0].message) and "GUDGEON_CACHE" in str(told[0].message)
+        assert "chmod" in str(message[0].message) and "GUDGEON_CACHE" in str(message[0].message)
         assert entries[0].is_relative_to(private_cache().root)
         assert stat.S_IMODE(private_cache().root.stat().st_mode) == 0o700
 
@@ -100,18 +100,18 @@ def test_entries_that_were_swapped_are_noticed(root: Path) -> None:
 def test_a_folder_above_that_others_may_write_lets_them_swap_it(tmp_path: Path, give: Callable[[Path], None]) -> None:
     above = tmp_path / "above"
     (above / "mine").mkdir(parents=True, mode=0o700)
-    check_way(above / "mine")
+    check_path(above / "mine")
     above.chmod(0o777)
     with pytest.raises(Untrusted, match="everybody may write"):
-        check_way(above / "mine")
+        check_path(above / "mine")
     with pytest.raises(Untrusted, match="everybody may write"):
-        check_way(above / "not yet there")
+        check_path(above / "not yet there")
     above.chmod(0o1777)  # as /tmp: names stay their owners'
-    check_way(above / "mine")
+    check_path(above / "mine")
     above.chmod(0o755)
     give(above)
     with pytest.raises(Untrusted, match=f"uid {OTHER}"):
-        check_way(above / "mine")
+        check_path(above / "mine")
 
 
 def test_links_on_the_way_are_followed_as_the_kernel_does(tmp_path: Path, give: Callable[[Path], None]) -> None:
@@ -122,16 +122,16 @@ def test_links_on_the_way_are_followed_as_the_kernel_does(tmp_path: Path, give: 
     (tmp_path / "in").symlink_to("safe/../open/mine")
     (tmp_path / "good").symlink_to(tmp_path / "safe")
     (tmp_path / "open" / "out").symlink_to("../safe")
-    check_way(tmp_path / "good" / "cache")
+    check_path(tmp_path / "good" / "cache")
     for way in ("in", "open/out/cache", "good/../open/mine"):
         with pytest.raises(Untrusted, match="open"):
-            check_way(tmp_path / way)
+            check_path(tmp_path / way)
     (tmp_path / "circle").symlink_to("circle")
     with pytest.raises(OSError):
-        check_way(tmp_path / "circle")
+        check_path(tmp_path / "circle")
     give(tmp_path / "good")
     with pytest.raises(Untrusted, match="good"):
-        check_way(tmp_path / "good" / "cache")
+        check_path(tmp_path / "good" / "cache")
 
 
 def test_a_group_of_the_user_alone_may_write_above(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -139,12 +139,12 @@ def test_a_group_of_the_user_alone_may_write_above(tmp_path: Path, monkeypatch: 
     (tmp_path / "home" / "cache").mkdir(parents=True, mode=0o700)
     (tmp_path / "home").chmod(0o775)
     monkeypatch.setattr(trust, "_own_group", lambda group: True)
-    check_way(tmp_path / "home" / "cache")
+    check_path(tmp_path / "home" / "cache")
     with pytest.raises(Untrusted):
-        check_way(tmp_path / "home")
+        check_path(tmp_path / "home")
     monkeypatch.setattr(trust, "_own_group", lambda group: False)
     with pytest.raises(Untrusted, match="the group"):
-        check_way(tmp_path / "home" / "cache")
+        check_path(tmp_path / "home" / "cache")
 
 
 def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
@@ -154,14 +154,14 @@ def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
     owner = root.stat().st_uid
     if owner == 0:
         monkeypatch.setattr(os, "geteuid", lambda: 1000)
-        check_way(root)
+        check_path(root)
         assert is_whole(root / "models" / "one")
     give(root.parent)
     monkeypatch.setattr(trust, "_nobody", lambda: OTHER)
     with pytest.raises(Untrusted):
-        check_way(root)
+        check_path(root)
     monkeypatch.setattr(trust, "_root_has_no_name", lambda: True)
-    check_way(root)
+    check_path(root)
 
 
 def test_what_we_make_is_ours_alone_whatever_the_umask(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.errors import OutputError
-from gudgeon.files.writing import PART, Aside, check_target, write_bytes, write_text, written
+from gudgeon.files.writing import PART, AtomicFiles, check_target, write_bytes, write_text, written
 
 
 def test_a_file_is_made_with_its_folders(tmp_path: Path) -> None:
@@ -118,12 +118,12 @@ def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:
 
 def test_files_move_in_together_or_not_at_all(tmp_path: Path) -> None:
     write_bytes(tmp_path / "a", b"older")
-    with limited(10), pytest.raises(OutputError), Aside(tmp_path) as aside:
+    with limited(10), pytest.raises(OutputError), AtomicFiles(tmp_path) as aside:
         aside.write("a", b"new")
         aside.write("b", bytes(11))
         aside.move()
     assert (tmp_path / "a").read_bytes() == b"older" and os.listdir(tmp_path) == ["a"]
-    with Aside(tmp_path) as aside:
+    with AtomicFiles(tmp_path) as aside:
         aside.write("a", b"new")
         aside.write("b", b"b")
         aside.move(1)
@@ -158,7 +158,7 @@ def make(path: Path, what: str) -> Path:
         ("below a file", "Not a directory|exists"),
     ],
 )
-def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, told: str) -> None:
+def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, message: str) -> None:
     path = make(tmp_path / "x", what)
     before = [(p.name, p.lstat().st_mode) for p in tmp_path.iterdir()], os.lstat("/dev/null")[:2]
     for refuse in (check_target, lambda path: write_bytes(path, b"new")):
@@ -166,7 +166,7 @@ def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, told: str
             continue  # folders are another question
         if refuse is not check_target and path.is_relative_to("/dev"):
             continue  # a test that fails must not harm the machine
-        with pytest.raises(OutputError, match=told) as caught:
+        with pytest.raises(OutputError, match=message) as caught:
             refuse(path)
         assert caught.value.exit_code == 2
     assert ([(p.name, p.lstat().st_mode) for p in tmp_path.iterdir()], os.lstat("/dev/null")[:2]) == before
@@ -184,11 +184,11 @@ def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, told: str
     ],
 )
 def test_a_folder_or_no_name_is_reported_as_such(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str | Path, told: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str | Path, message: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     for refuse in (check_target, lambda path: write_bytes(path, b"new")):
-        with pytest.raises(OutputError, match=told) as caught:
+        with pytest.raises(OutputError, match=message) as caught:
             refuse(path)
         assert caught.value.exit_code == 2
     assert os.listdir(tmp_path) == []

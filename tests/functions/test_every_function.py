@@ -167,8 +167,8 @@ def test_taylor_series(function: Function) -> None:
     exact = sp.lambdify((X, Y), expression, "mpmath")
     with mpmath.workdps(40):
         x, y = ([mpmath.mpf(c) for c in reversed(some)] for some in MOTION)
-        wanted = mpmath.taylor(lambda t: exact(mpmath.polyval(x, t), mpmath.polyval(y, t)), 0, 8)
-    assert coefficients(expression, 8) == pytest.approx([float(c) for c in wanted], rel=1e-12, abs=1e-13)
+        expected = mpmath.taylor(lambda t: exact(mpmath.polyval(x, t), mpmath.polyval(y, t)), 0, 8)
+    assert coefficients(expression, 8) == pytest.approx([float(c) for c in expected], rel=1e-12, abs=1e-13)
 
 
 @every_function

@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.symbols.corners import Magnitude, Switches
+from gudgeon.generator.symbols.switches import Magnitude, Switches
 from tests.fuzz.through_c import check_syntax, library, try_files
 from tests.slow import slow_but
 

@@ -59,7 +59,7 @@ int fuzz_both(double t, const double *s, const double *rate, const double *memor
     return failed;
 }
 """
-TOLD = BOTH[1 : BOTH.index(")\n{") + 1] + ";\n"
+MESSAGES = BOTH[1 : BOTH.index(")\n{") + 1] + ";\n"
 
 
 class Fault(AssertionError):
@@ -142,26 +142,28 @@ def check_syntax(source: KernelSource, folder: Path) -> None:
 def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     """Compiled with all warnings on, and loaded; what it has no use for is not compiled."""
     write(source, folder)
-    text, told = f'#include "{source.main}"\n#include "engine/engine.c"\n', declarations(source)
+    text, message = f'#include "{source.main}"\n#include "engine/engine.c"\n', declarations(source)
     if source.formulation == "reduced":
         chained = bool(source.chain)
         state = "at.q, at.v" if chained else "s, rate"
-        seat = "TreeState at;\n    if (outside_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
+        seat = (
+            "TreeState at;\n    if (close_tree_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
+        )
         rescue = "reduce_accelerations(t, q, v, all_a, p, rescued);"
-        has_rescue = "gudgeon_reduced_rescue" in told
+        has_rescue = "gudgeon_reduced_rescue" in message
         text += BOTH % (seat, state, state, rescue if has_rescue else "(void)rescued;")
-        told += TOLD
+        message += MESSAGES
     (folder / "library.c").write_text(text, encoding="utf-8")
     file = folder / f"{name}.so"
     _compile([*WARNINGS, "-O1", "-fPIC", "-shared", *include_flags(), "library.c", "-o", file.name, "-lm"], folder)
-    return CompiledModel(source, opened(file, told))
+    return CompiledModel(source, opened(file, message))
 
 
 def _compile(flags: list[str], folder: Path) -> None:
     done = subprocess.run([*find_compiler(), *flags], cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode:
-        told = [line for line in done.stderr.splitlines() if "error" in line]
-        raise Fault("\n".join(told[:6] or done.stderr.splitlines()[:6]))
+        message = [line for line in done.stderr.splitlines() if "error" in line]
+        raise Fault("\n".join(message[:6] or done.stderr.splitlines()[:6]))
 
 
 def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
@@ -174,7 +176,7 @@ def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
     except AssemblyError:
         return False
     s, rate = reduced.reduce(t, start.q, start.v)
-    told = False
+    message = False
     for _ in range(STATES):
         near = s + rng.normal(0.0, 0.05, len(s))
         here = near, rate + rng.normal(0.0, 0.5, len(s))
@@ -187,8 +189,8 @@ def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
         moved = [_both(reduced, t + e, here[0] * (1 + e) + e, here[1] * (1 + e) + e, memory) for e in (1e-10, -1e-10)]
         if found is not None and None not in moved:
             _check(compiled, file, reduced, t, found, cast(Any, moved))
-            told = True
-    return told
+            message = True
+    return message
 
 
 def _closed(reduced: Reduced, t: float, s: Array, rate: Array) -> tuple[Array, Array]:

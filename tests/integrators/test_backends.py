@@ -137,10 +137,10 @@ def test_projection_is_the_nearest_state_in_the_metric_of_the_mass() -> None:
 
 
 def test_an_unknown_name_is_told_what_there_is() -> None:
-    with pytest.raises(BadValueError) as told:
+    with pytest.raises(BadValueError) as message:
         gudgeon.load("pendulum").simulate(1.0, method="scipy:RK7")
     for name in ("rk4", "dop853", *python_driver.NAMES):
-        assert name in str(told.value)
+        assert name in str(message.value)
 
 
 def test_what_the_backends_refuse() -> None:

@@ -95,9 +95,9 @@ def test_random_parallelograms(tmp_path: Path, seed: int) -> None:
 
 def test_forces_at_a_change_point_are_noted(tmp_path: Path) -> None:
     scene = load(tmp_path, mass=MASS)
-    said = [[x for x in scene.simulate(1.0, output=n).diagnostics.notes if "change point" in x] for n in (36, 37)]
-    assert "2 samples" in said[0][0] and "t = 0.388888889 s" in said[0][0]
-    assert not said[1]
+    specified = [[x for x in scene.simulate(1.0, output=n).diagnostics.notes if "change point" in x] for n in (36, 37)]
+    assert "2 samples" in specified[0][0] and "t = 0.388888889 s" in specified[0][0]
+    assert not specified[1]
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

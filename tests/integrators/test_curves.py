@@ -171,10 +171,10 @@ def test_the_jacobian_is_that_of_differences(tmp_path: Path) -> None:
 def test_a_batch_has_the_bits_of_single_runs(tmp_path: Path) -> None:
     sim = loader(tmp_path)(slug("-k * pull(slug.x) + thrust(t)"))
     factors = np.linspace(0.5, 1.5, 9)
-    for asked in ({"method": "rk4", "step": 1e-3}, {"method": "dop853"}):
-        batch = sim.simulate_many({"k": factors}, t_end=1.0, output=20, **asked)
+    for requested in ({"method": "rk4", "step": 1e-3}, {"method": "dop853"}):
+        batch = sim.simulate_many({"k": factors}, t_end=1.0, output=20, **requested)
         for k, factor in enumerate(factors):
-            one = sim.simulate(1.0, output=20, parameters={"k": float(factor)}, **asked)
+            one = sim.simulate(1.0, output=20, parameters={"k": float(factor)}, **requested)
             assert (batch[k]["slug.x"] == one["slug.x"]).all()
 
 

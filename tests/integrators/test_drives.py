@@ -97,8 +97,8 @@ def test_a_drive_that_is_no_number_is_named_with_its_time(value: str, why: str, 
 
 
 def test_at_the_start_too(tmp_path: Path) -> None:
-    told = r"drives\.d\.value .* is not finite at t = 0 s, nan: the power 0\.333\d* of -0\.5"
-    with pytest.raises(AssemblyError, match=told):
+    message = r"drives\.d\.value .* is not finite at t = 0 s, nan: the power 0\.333\d* of -0\.5"
+    with pytest.raises(AssemblyError, match=message):
         driven(ONE, "(t/(1 s)-0.5)**(1/3)", tmp_path).simulate(1.0, output=10)
 
 
@@ -122,12 +122,12 @@ def test_a_batch_tells_of_them_as_a_run_alone(value: str, method: str, tmp_path:
     scene, times, step = gudgeon.load(file), (0.2, 0.5, 5.0), 1e-3 if method == "rk4" else None
     batch = scene.simulate_many({"t0": times}, 0.8, output=40, method=method, step=step)
     for i, t0 in enumerate(times):
-        told = {failure.run: failure.error for failure in batch.failures}.get(i)
+        message = {failure.run: failure.error for failure in batch.failures}.get(i)
         try:
             run = scene.simulate(0.8, output=40, method=method, step=step, parameters={"t0": t0})
-            assert told is None
+            assert message is None
         except SolverError as error:
-            assert str(told) == str(error)
+            assert str(message) == str(error)
             run = error.partial
         if batch.samples[i] > 0:  # a start that has no accelerations is a sample of a run alone only
             np.testing.assert_array_equal(batch.q[i, : len(run.t)], run.q)
@@ -185,8 +185,8 @@ def test_a_drive_that_outruns_the_steps_ends_the_run(method: str, formulation: s
     """A driven crank with a pendulum on it; 10 million steps in 25 s had not ended such a run."""
     driven(PAIR, OUTRUN, tmp_path)
     scene = gudgeon.load(tmp_path / "driven.yaml", formulation=formulation)
-    told = r"no longer advances at t = 0\.2\d+ s: .*; drive d is at \d+.* rad, its rate \d+.* rad/s\n.*cannot be"
-    with pytest.raises(SolverError, match=told) as caught:
+    message = r"no longer advances at t = 0\.2\d+ s: .*; drive d is at \d+.* rad, its rate \d+.* rad/s\n.*cannot be"
+    with pytest.raises(SolverError, match=message) as caught:
         scene.simulate(1.0, output=100, method=method)
     run = caught.value.partial
     assert run.diagnostics.steps < 2**18
@@ -227,10 +227,10 @@ SAMPLED = [(*jump, output) for jump in JUMPS for output in (10, 77)]  # with a s
     slow_rows_but([(*JUMPS[0], 77), (*JUMPS[4], 10), (*JUMPS[4], 77)], SAMPLED),
 )
 def test_without_freedom_too_a_rate_that_is_none_ends_the_run(
-    value: str, told: str, time: float, output: int, tmp_path: Path
+    value: str, message: str, time: float, output: int, tmp_path: Path
 ) -> None:
     """Works were NaN, or 1e296 J, without a word, or the linkage was said to pass a dead centre."""
-    with pytest.raises(SolverError, match=rf"drive d: {told} at t = {time} s") as caught:
+    with pytest.raises(SolverError, match=rf"drive d: {message} at t = {time} s") as caught:
         driven(ONE, value, tmp_path).simulate(1.0, output=output)
     run = caught.value.partial
     assert run.t[-1] >= time - 1.0 / output - 1e-9

@@ -47,17 +47,17 @@ FORCE = '"1e6 N/m * delta + 1e15 N/m^3 * delta**3"'
 
 def values(law: Law) -> dict[str, float]:
     """A number for every parameter that has no default, inside its bounds."""
-    chosen: dict[str, float] = {}
+    selected: dict[str, float] = {}
     for parameter in law.parameters:
         low, high = 0.0, math.inf
         for relation, bound, _ in parameter.bounds:
-            number = chosen[bound] if isinstance(bound, str) else bound
+            number = selected[bound] if isinstance(bound, str) else bound
             low, high = (max(low, number), high) if relation.startswith(">") else (low, min(high, number))
         if parameter.any_dimension:  # a stiffness, in its own unit
             low = 1e8
         inside = low + 0.1 if math.isinf(high) else low + 0.9 * (high - low)
-        chosen[parameter.name] = inside if parameter.default is None else float(parameter.default)
-    return chosen
+        selected[parameter.name] = inside if parameter.default is None else float(parameter.default)
+    return selected
 
 
 def variants(role: str) -> dict[str, bool]:
@@ -69,9 +69,9 @@ def variants(role: str) -> dict[str, bool]:
                 options = {o.name: str(v).lower() for o, v in zip(law.options, choice, strict=True)}
                 numbers = {k: repr(v) for k, v in values(law).items()} | {f.name: FORCE for f in law.expressions}
                 default = {o.name: str(o.choice).lower() for o in law.options}
-                for chosen, number in law.instead.items():  # the number, or a choice other than the default
-                    left_out = options if options[chosen] == default[chosen] else numbers
-                    left_out.pop(chosen if left_out is options else number)
+                for selected, number in law.instead.items():  # the number, or a choice other than the default
+                    left_out = options if options[selected] == default[selected] else numbers
+                    left_out.pop(selected if left_out is options else number)
                 entries = {"law": law.name} | options | numbers
                 text = "{" + ", ".join(f"{k}: {v}" for k, v in entries.items()) + "}"
                 found[text] = any(options[name] != default[name] for name in options)

@@ -99,8 +99,8 @@ def test_stick_slip_of_friction_that_falls(how: dict[str, str | float], stribeck
     assert np.abs(run["rub.F"]).max() <= 5.886 * (1 + 1e-12)
     assert run.diagnostics.energy_residual < 1e-7
     slips = mode != 0
-    wanted = -mode[slips] * np.array([falling(v) for v in run["rub.v"][slips]])
-    assert run["rub.F"][slips] == pytest.approx(wanted, rel=1e-12)
+    expected = -mode[slips] * np.array([falling(v) for v in run["rub.v"][slips]])
+    assert run["rub.F"][slips] == pytest.approx(expected, rel=1e-12)
 
 
 @needs_compiler

@@ -317,8 +317,8 @@ def test_equations_in_numpy_are_those_in_c(folder: Path) -> None:
     assert (run.state > 0).any()
     for t, q, v, latched in zip(run.t, run.q, run.v, run.memory, strict=True):
         found = own.dynamics(t, q, v, p, latched)
-        wanted = compiled.rhs(t, np.concatenate([q, v]), given, latched)[6:12]
-        np.testing.assert_allclose(found.a, wanted, rtol=1e-9, atol=1e-9 * abs(wanted).max())
+        expected = compiled.rhs(t, np.concatenate([q, v]), given, latched)[6:12]
+        np.testing.assert_allclose(found.a, expected, rtol=1e-9, atol=1e-9 * abs(expected).max())
 
 
 def test_many_runs_are_the_single_ones(folder: Path) -> None:
@@ -353,12 +353,12 @@ def test_a_run_goes_on_in_contact(folder: Path) -> None:
         ),
     ],
 )
-def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], told: str, folder: Path) -> None:
+def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], message: str, folder: Path) -> None:
     """Its corners know the wall on their own side alone: it went through the other one without a word."""
     block = made(folder, BLOCK, "soft")
-    with pytest.raises(AssemblyError, match=told):
+    with pytest.raises(AssemblyError, match=message):
         block.simulate(1e-3, parameters=numbers)
-    assert told in str(block.simulate_many([{}, numbers], 1e-3).failures[0].error)
+    assert message in str(block.simulate_many([{}, numbers], 1e-3).failures[0].error)
 
 
 def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
@@ -372,10 +372,10 @@ def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
     assert (force.name, moment.name) == ("way.F", "way.M") and force.peak == run["way.F"].max()
     assert moment.peak == run["way.M"][at] and moment.t == run.t[at] and moment.peak != 0.0
     console = plain_console(200)
-    with console.capture() as told:
+    with console.capture() as message:
         for table in tables("", [report], 200):
             console.print(table)
-    assert "way.M" in told.get() and "N·m" in told.get()
+    assert "way.M" in message.get() and "N·m" in message.get()
     (ax,) = [ax for ax in _axes(figure({"rough": run}, {}, ["block.x"])) if "moment at way" in ax.get_ylabel()]
     np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e3 * run["way.M"], rtol=1e-14)  # mN m
     assert {"way.Fx", "way.Fy", "way.M"} <= {name for name, *_ in outputs(run.source)}  # of an FMU

@@ -95,10 +95,10 @@ def test_damping_factors_are_those_of_their_authors(name: str) -> None:
 
 
 @pytest.mark.parametrize("asked", [0.05, 0.5, 0.93])
-def test_the_exact_damping_delivers_what_is_asked(asked: float) -> None:
+def test_the_exact_damping_delivers_what_is_asked(requested: float) -> None:
     simulation = gudgeon.load("bouncing_ball", "damped", overrides={"contacts.damped.normal.dissipation": "exact"})
-    run = impact(simulation, 3e-3, 1e-7, restitution=asked)
-    assert run["ball.vy"][-1] / SPEED == pytest.approx(asked, abs=1e-6)
+    run = impact(simulation, 3e-3, 1e-7, restitution=requested)
+    assert run["ball.vy"][-1] / SPEED == pytest.approx(requested, abs=1e-6)
 
 
 def identity(a: float, e: float) -> float:

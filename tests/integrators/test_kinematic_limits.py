@@ -70,8 +70,8 @@ def test_an_energy_beyond_all_numbers_is_told(tmp_path: Path) -> None:
     scene = gudgeon.load(file)
     run, many = scene.simulate(1.0, output=4), scene.simulate_many([{}], 1.0, output=4)
     assert math.isnan(run.diagnostics.energy_residual)
-    told = "energy is not balanced: the energy is no finite number at t = 0 s: the residual says nothing"
-    assert told in run.diagnostics.notes and told in many[0].diagnostics.notes
+    message = "energy is not balanced: the energy is no finite number at t = 0 s: the residual says nothing"
+    assert message in run.diagnostics.notes and message in many[0].diagnostics.notes
 
 
 def test_a_drive_that_is_a_number_stands_beside(tmp_path: Path) -> None:

@@ -165,8 +165,8 @@ def test_a_bar_in_a_hole_against_an_oracle(folder: Path, method: str, formulatio
     run = made(folder, BAR, formulation).simulate(output=t, method=method, **settings)
     blows = run.impacts[run.impacts["t_off"] == run.impacts["t_on"]]
     assert len(blows) == len(bar.blows) > 5 and len(bar.contacts) > 0
-    told = np.array([list(blow) for blow in blows[["t_on", "deltadot", "F_peak"]]])
-    np.testing.assert_allclose(told, bar.blows, atol=1e-7)
+    message = np.array([list(blow) for blow in blows[["t_on", "deltadot", "F_peak"]]])
+    np.testing.assert_allclose(message, bar.blows, atol=1e-7)
     for name, column in (("bar.x", 0), ("bar.y", 1), ("bar.theta", 2), ("bar.omega", 5)):
         np.testing.assert_allclose(run[name], expected[:, column], atol=1e-6)
     closed = run["A.state"] > 0
@@ -320,8 +320,8 @@ def test_what_cannot_be_had_is_refused(folder: Path, tmp_path: Path) -> None:
     for part in ("film: {law: ocvirk, viscosity: 0.1 Pa*s}", "velocity_floor: 1e-5 m/s"):
         file = tmp_path / "refused.yaml"
         file.write_text(HEAD + BALL.replace(law, f"{law}, {part}"), encoding="utf-8")
-        told = f":11:.*contact hard has newton_restitution and {part.partition(':')[0]}"
-        with pytest.raises(BadValueError, match=told):
+        message = f":11:.*contact hard has newton_restitution and {part.partition(':')[0]}"
+        with pytest.raises(BadValueError, match=message):
             gudgeon.load(file, "hard")
     with pytest.raises(AssemblyError, match=r"start\.play\.A\.e is 1001 mm long and may be 1000 mm, the clearance"):
         made(folder, BALL).simulate(0.1, parameters={"start.play.A.e.x": 1.001})

@@ -56,8 +56,8 @@ def test_tables_are_those_of_the_method(name: str) -> None:
         inverse = np.array((a**-1).tolist(), float)
         powers = mp.matrix([[nodes[j] ** k for j in range(s)] for k in range(s)])
         gamma = 1 / mp.mpf(float(table["gamma"]))
-        wanted = mp.matrix([mp.mpf(1) / (k + 1) - (gamma if k == 0 else 0) for k in range(s)])
-        embedded = mp.lu_solve(powers, wanted) - b  # ŷ - y = γ h f(y0) + h Σ (b̂ - b) f(Y), of order s
+        expected = mp.matrix([mp.mpf(1) / (k + 1) - (gamma if k == 0 else 0) for k in range(s)])
+        embedded = mp.lu_solve(powers, expected) - b  # ŷ - y = γ h f(y0) + h Σ (b̂ - b) f(Y), of order s
         error = np.array((embedded.T * a**-1).tolist(), float)[0]
     assert table["node"] == pytest.approx(np.array(nodes.tolist(), float).ravel(), abs=1e-16)
     middle = np.zeros((s, s))
@@ -104,10 +104,10 @@ def test_a_film_costs_a_fraction_of_rodas5p() -> None:
         m: max(abs(run[n] - exact[n]).max() for n in ("A.ex", "A.ey", "B.ex", "B.ey")) / LUBRICATED["c"]
         for m, run in runs.items()
     }
-    asked = {m: run.diagnostics.right_hand_sides for m, run in runs.items()}
+    requested = {m: run.diagnostics.right_hand_sides for m, run in runs.items()}
     assert max(errors.values()) < 3e-7
-    assert errors["radau9"] < 2.0 * errors["rodas5p"] and 2 * asked["radau9"] < asked["rodas5p"]
-    assert errors["radau5"] < errors["rodas5p"] and 1.5 * asked["radau5"] < asked["rodas5p"]
+    assert errors["radau9"] < 2.0 * errors["rodas5p"] and 2 * requested["radau9"] < requested["rodas5p"]
+    assert errors["radau5"] < errors["rodas5p"] and 1.5 * requested["radau5"] < requested["rodas5p"]
     assert runs["auto"].diagnostics.method == "radau9" and errors["auto"] < 2.0 * errors["rodas5p"]
     loose = press.simulate(0.4, output=100, rtol=1e-4, parameters=LUBRICATED)
     assert loose.diagnostics.method == "radau5"

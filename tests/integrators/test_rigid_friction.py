@@ -215,11 +215,11 @@ def test_a_report_tells_the_restitution_of_what_meets_and_of_nothing_that_is_pre
     blows = run.impacts[run.impacts["deltadot"] > 0.0]
     assert blows["deltadot"].min() > 1e-10  # of the threshold 1e-4 m/s: slower is at rest
     joints = gudgeon.examine(simulation, run).report().to_dict()["joints"]
-    for k, (joint, asked) in enumerate((("A", 0.6), ("B", 0.3))):
+    for k, (joint, requested) in enumerate((("A", 0.6), ("B", 0.3))):
         met = blows["deltadot"][blows["joint"] == k]
         assert joints[joint]["approach"]["min"] == met.min() and joints[joint]["approach"]["max"] == met.max()
-        assert joints[joint]["restitution"]["median"] == pytest.approx(asked, abs=1e-9)
-        assert joints[joint]["restitution"]["max"] == pytest.approx(asked, abs=1e-9)
+        assert joints[joint]["restitution"]["median"] == pytest.approx(requested, abs=1e-9)
+        assert joints[joint]["restitution"]["max"] == pytest.approx(requested, abs=1e-9)
 
 
 def test_no_blow_gains_energy_whatever_meets(folder: Path) -> None:
@@ -262,14 +262,14 @@ def test_friction_that_jams_a_contact_is_told(folder: Path) -> None:
     """Painlevé's bar: dragged over a wall it is drawn into it where μ > (J/m + x²)/(x y): no force keeps it out."""
     tilt = 0.7
     given = {"contacts.hard.friction.mu": 8.0, "start.play.A.e.y": -5e-3, "start.play.A.rate.x": 0.2}
-    told = []
+    message = []
     for way in (1.0, -1.0):
         given |= {"start.set.bar.theta": way * tilt + math.pi, "start.play.A.rate.x": 0.2}
         try:
             made(folder, BAR).simulate(0.01, parameters=given)
         except SolverError as error:
-            told.append(str(error))
-    assert len(told) == 1 and "friction jams a contact of newton_restitution at t = 0 s" in told[0]
+            message.append(str(error))
+    assert len(message) == 1 and "friction jams a contact of newton_restitution at t = 0 s" in message[0]
 
 
 def wedged(mu: tuple[float, float], tilt: float = 0.1) -> dict[str, float]:

@@ -88,8 +88,8 @@ def test_a_batch_is_that_of_single_runs(step: float, tmp_path: Path) -> None:
     columns = {"w": numbers.uniform(3.0, 200.0, 11), "late": numbers.uniform(0.0, 1.5, 11)}
     batch = simulation.simulate_many(columns, 1.2, output=40, method="rk4", step=step)
     for i in range(11):
-        chosen = {name: float(values[i]) for name, values in columns.items()}
-        run = simulation.simulate(1.2, output=40, method="rk4", step=step, parameters=chosen)
+        selected = {name: float(values[i]) for name, values in columns.items()}
+        run = simulation.simulate(1.2, output=40, method="rk4", step=step, parameters=selected)
         for name in ("q", "v", "work", "events"):
             assert getattr(batch[i], name).tobytes() == getattr(run, name).tobytes()
 

@@ -43,12 +43,12 @@ class Seen:
     """Runs that lanes have taken."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.taken: list[int] = []
+        self.used: list[int] = []
         plain = lanes.numbers_of
 
         def numbers_of(*arguments: Any) -> Any:
             for i in plain(*arguments):
-                self.taken.append(i)
+                self.used.append(i)
                 yield i
 
         monkeypatch.setattr("gudgeon.integrators.threads.numbers_of", numbers_of)
@@ -72,10 +72,10 @@ def assert_same_batches(one: Batch, other: Batch) -> None:
         assert getattr(one, name).tobytes() == getattr(other, name).tobytes(), name
     assert [str(failure) for failure in one.failures] == [str(failure) for failure in other.failures]
     for i in range(len(one)):
-        got, wanted = one.partial(i), other.partial(i)
-        assert (got is None) == (wanted is None)
-        if got is not None and wanted is not None:
-            assert_same(got, wanted)
+        got, expected = one.partial(i), other.partial(i)
+        assert (got is None) == (expected is None)
+        if got is not None and expected is not None:
+            assert_same(got, expected)
 
 
 def without_chain(folder: Path) -> Path:
@@ -125,10 +125,10 @@ def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest
     if mechanism == EVERY_KIND:
         mechanism = without_chain(tmp_path)
     simulation, values = gudgeon.load(mechanism, scene=scene), np.linspace(low, high, COUNT)
-    asked: list[dict[str, Any]] = [{"method": "rk4", "step": step}]
-    chosen = (*CHOSEN, *(STAGED if simulation.source.stages else ()))
-    asked += [{"method": method, "rtol": rtol} for method, rtol in chosen]
-    for options in asked:
+    requested: list[dict[str, Any]] = [{"method": "rk4", "step": step}]
+    selected = (*CHOSEN, *(STAGED if simulation.source.stages else ()))
+    requested += [{"method": method, "rtol": rtol} for method, rtol in selected]
+    for options in requested:
         seen = Seen(monkeypatch)
         batch, singly = both(simulation, {address: values}, t_end, **options)
         assert not batch.failures and len({q.tobytes() for q in batch.q}) > 1
@@ -137,7 +137,7 @@ def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest
             assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
         alone = simulation.simulate(t_end, output=7, **options, parameters={address: values[3]})
         assert_same(batch[3], alone)
-        assert set(seen.taken) == set(range(COUNT))  # twice where a start is left to Python
+        assert set(seen.used) == set(range(COUNT))  # twice where a start is left to Python
 
 
 @pytest.mark.parametrize(("threads", "keep"), [(1, ["S9.y", "S9.ay", "B.Fx"]), (3, ["S9.y", "S9.ay"]), (3, ["A.F"])])
@@ -162,7 +162,7 @@ def test_a_given_step(monkeypatch: pytest.MonkeyPatch) -> None:
     steps = np.linspace(1e-4, 2e-4, COUNT)
     batch, singly = both(press, {"c": np.linspace(3e-4, 8e-4, COUNT)}, 0.01, method="rodas5p", step=steps)
     assert_same_batches(batch, singly)
-    assert len(seen.taken) == COUNT and not batch.failures
+    assert len(seen.used) == COUNT and not batch.failures
 
 
 OTHERS: list[tuple[str, dict[str, float]]] = [("rodas5p", {}), ("rk4", {"step": 1e-6})]
@@ -270,7 +270,7 @@ def test_peaks_of_all_steps_are_those_of_runs_alone(rows: int, monkeypatch: pyte
     monkeypatch.setattr(steps, "ROWS", rows)
     seen, press = Seen(monkeypatch), gudgeon.load("nine_bar_press", "dry")
     beside, alone = both(press, {"omega": np.linspace(6.0, 30.0, COUNT)}, 0.02, rtol=1e-6, peaks=["S9.ay", "A.F"])
-    assert {*seen.taken} == {*range(COUNT)} and len({run[0].max for run in beside.extremes}) > COUNT / 2
+    assert {*seen.used} == {*range(COUNT)} and len({run[0].max for run in beside.extremes}) > COUNT / 2
     assert beside.extremes == alone.extremes
     assert_same_batches(beside, alone)
 

@@ -210,7 +210,7 @@ def assert_same_in_lanes(simulation: Simulation, sets: Any, t_end: Any, seen: Se
     assert_same_batches(batch, singly)
     for name in ("steps", "right_hand_sides", "rejected", "phi_max", "phi_dot_max"):
         assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
-    assert set(seen.taken) == set(range(COUNT)) and not batch.failures
+    assert set(seen.used) == set(range(COUNT)) and not batch.failures
     assert len({q.tobytes() for q in batch.q}) == COUNT
     return batch
 

@@ -148,9 +148,11 @@ def test_a_film_in_a_scene_with_rigid_contacts_says_what_it_costs(tmp_path: Path
         )
         run = loader(tmp_path)(text, "pinkus").simulate(1e-4, output=10, parameters={"bearings.g.clearance": 25e-6})
         steps.append(run.diagnostics.steps)
-        told = [note for note in run.diagnostics.notes if "no implicit method fits" in note]
-        assert len(told) == (law.startswith("newton")), run.diagnostics.notes
-        assert all("film in B" in note and "contact in A" in note and "hertz with a stiffness" in note for note in told)
+        message = [note for note in run.diagnostics.notes if "no implicit method fits" in note]
+        assert len(message) == (law.startswith("newton")), run.diagnostics.notes
+        assert all(
+            "film in B" in note and "contact in A" in note and "hertz with a stiffness" in note for note in message
+        )
     assert steps[0] > 10_000 > 10 * steps[1]
 
 

@@ -83,9 +83,11 @@ def test_a_linkage_follows(value: str, of: Function, formulation: str, tmp_path:
 
 def test_the_sample_at_the_instant_is_noted(tmp_path: Path) -> None:
     scene = gudgeon.load(written(tmp_path, DRIVES[0][0]))
-    said = [[note for note in scene.simulate(1.0, output=n).diagnostics.notes if "unbounded" in note] for n in (10, 11)]
-    assert "drive m" in said[0][0] and "t = 0.5 s" in said[0][0]
-    assert not said[1]
+    specified = [
+        [note for note in scene.simulate(1.0, output=n).diagnostics.notes if "unbounded" in note] for n in (10, 11)
+    ]
+    assert "drive m" in specified[0][0] and "t = 0.5 s" in specified[0][0]
+    assert not specified[1]
     smooth = gudgeon.load(written(tmp_path, "abs(t/(1 s) - 0.5)**2.5"))
     assert not any("unbounded" in note for note in smooth.simulate(1.0, output=10).diagnostics.notes)
 

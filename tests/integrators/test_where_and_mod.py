@@ -9,7 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, SolverError
-from gudgeon.simulation.hidden_jumps import hidden_jumps
+from gudgeon.simulation.hidden_jumps import find_hidden_jumps
 from tests.scenes import loader
 from tests.slow import slow_but
 
@@ -243,7 +243,7 @@ drives: {push: {coordinate: cart.x, value: "%s"}}
     for T, t_end in (*known, *rng.uniform((0.05, 2.0), (0.5, 5.0), (drawn, 2)).tolist()):
         p = scene.p.copy()
         p[period] = T
-        assert bool(hidden_jumps(scene.source, p, 0.0, t_end)) == jumps
+        assert bool(find_hidden_jumps(scene.source, p, 0.0, t_end)) == jumps
 
 
 def test_a_jump_at_the_very_end_and_the_first_of_many(tmp_path: Path) -> None:
@@ -314,17 +314,19 @@ def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method:
     """It was a second rate that grows beyond all bounds, or no step was small enough: rates are 0/0 in binary64."""
     linkage = loader(tmp_path)(ARM % law.replace("U", "(t/(1 s) - 0.3)"))
     step = 1e-2 if method == "rk4" else None
-    with pytest.raises(SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0") as told:
+    with pytest.raises(
+        SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0"
+    ) as message:
         linkage.simulate(0.6, method=method, step=step)
-    assert 0.29 < told.value.partial.t[-1] < 0.3
+    assert 0.29 < message.value.partial.t[-1] < 0.3
     assert linkage.simulate(0.29, method=method, step=step).t[-1] == 0.29
 
 
 def test_a_corner_that_is_not_reached_is_no_matter(tmp_path: Path) -> None:
     """The inner where changes over at 0.3 s, where the outer one does not ask it."""
     law = "where(t < 0.5 s, 1, where(t < 0.3 s, sin(U)/U, 1))".replace("U", "(t/(1 s) - 0.3)")
-    plain, asked = (loader(tmp_path)(ARM % value).simulate(0.6, output=2) for value in ("1", law))
-    np.testing.assert_allclose(asked.q, plain.q, rtol=0, atol=1e-9)
+    plain, requested = (loader(tmp_path)(ARM % value).simulate(0.6, output=2) for value in ("1", law))
+    np.testing.assert_allclose(requested.q, plain.q, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("method", ["dop853", "rodas5p"])
@@ -344,8 +346,8 @@ def test_an_event_where_a_step_begins(method: str, tmp_path: Path) -> None:
 
 def test_a_comparison_with_what_is_no_number_is_told(tmp_path: Path) -> None:
     """The force had one of its branches, without a word; a branch that is not picked may be no number."""
-    told = loader(tmp_path)(SLUG % "where(sqrt(slug.x/(1 m) - 1) < 1, 2 N, 3 N)").simulate(1.5, output=100)
-    assert [note.split(":")[0] for note in told.diagnostics.notes] == [
+    message = loader(tmp_path)(SLUG % "where(sqrt(slug.x/(1 m) - 1) < 1, 2 N, 3 N)").simulate(1.5, output=100)
+    assert [note.split(":")[0] for note in message.diagnostics.notes] == [
         "forces.push.value.x is no number (nan) at t = 0 s"
     ]
     law = "where(slug.x < 1 m, 2 N, where(sqrt(slug.x/(1 m) - 1) < 0.1, 2 N, 3 N))"

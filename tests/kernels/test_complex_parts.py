@@ -13,7 +13,7 @@ import sympy as sp
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Call, Guard, Statement
-from gudgeon.generator.ir.values import Chosen
+from gudgeon.generator.ir.values import Conditional
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.symbols.storage import Key, Place, key_of
@@ -36,7 +36,7 @@ def value_of(value: Any, memory: Memory) -> complex:
     match value:
         case Place():
             return memory[value]
-        case Chosen():
+        case Conditional():
             assert value.test.relation == "!=" and value.test.bound == (0.0,)
             return value_of(value.then if value_of(value.test.value, memory) != 0 else value.otherwise, memory)
     names = {symbol: memory[key_of(symbol)] for symbol in value.free_symbols}

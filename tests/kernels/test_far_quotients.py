@@ -13,7 +13,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.ir.differentiation import partial
-from gudgeon.generator.symbols.wholes import Share
+from gudgeon.generator.symbols.unevaluated import Share
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from tests.programs import needs_compiler
@@ -42,7 +42,7 @@ FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {
 }
 
 
-def wanted(name: str, order: int) -> float:
+def expected(name: str, order: int) -> float:
     with mp.workdps(60):
         return float(mp.diff(FORMS[name][1], mp.mpf(AT), order, h=mp.mpf(10) ** -15))
 
@@ -78,7 +78,7 @@ def test_drives_have_their_rates(case: tuple[str, str, tuple[str, ...]], tmp_pat
     for name in forms:
         for order, quantity in enumerate(("x", "vx", "ax")):
             found = float(run[f"{name}.{quantity}"][-1])
-            assert found == pytest.approx(wanted(name, order), rel=1e-11, abs=1e-13), (name, quantity)
+            assert found == pytest.approx(expected(name, order), rel=1e-11, abs=1e-13), (name, quantity)
 
 
 def test_forces_have_their_slopes(tmp_path: Path) -> None:
@@ -94,7 +94,7 @@ def test_forces_have_their_slopes(tmp_path: Path) -> None:
     y[:n:3] = AT
     slopes, _ = full.compiled.jacobian(0.0, y, full.p)
     for k, name in enumerate(FORMS):
-        assert float(slopes[n + 3 * k, 3 * k]) == pytest.approx(wanted(name, 1), rel=1e-11), name
+        assert float(slopes[n + 3 * k, 3 * k]) == pytest.approx(expected(name, 1), rel=1e-11), name
 
 
 def test_ordinary_quotients_are_differentiated_as_they_were() -> None:

@@ -67,8 +67,8 @@ def test_without_freedom_the_linkage_follows(formulation: str, forms: tuple[str,
     scene = loader(tmp_path, formulation)(text(list(forms)))
     run = scene.simulate(10.0, output=4)
     for name in forms:
-        wanted = [float(FORMS[name][1]((mp.mpf(t) - 5) / mp.mpf(WIDTH))) for t in (0.0, 2.5, 5.0, 7.5, 10.0)]
-        assert run[f"{name}.x"] == pytest.approx(wanted, rel=1e-12, abs=1e-12), name
+        expected = [float(FORMS[name][1]((mp.mpf(t) - 5) / mp.mpf(WIDTH))) for t in (0.0, 2.5, 5.0, 7.5, 10.0)]
+        assert run[f"{name}.x"] == pytest.approx(expected, rel=1e-12, abs=1e-12), name
         assert np.isfinite(run[f"{name}.vx"]).all() and np.isfinite(run[f"{name}.ax"]).all(), name
     assert np.isfinite(run.diagnostics.energy_residual)
 

@@ -72,8 +72,10 @@ def test_slopes_are_those_of_thirty_digits(scene: Simulation, u: float) -> None:
         row = full.compiled.n + 3 * k
         found = by_time[row] if by == "t" else slopes[row, 3 * k]
         with mp.workdps(30):
-            wanted = mp.diff(lambda s, f=form: FORMS[f][1]((s - 5) / mp.mpf(WIDTH)), mp.mpf(place), h=mp.mpf(10) ** -18)
-        assert float(found) == pytest.approx(float(wanted), rel=1e-10, abs=1e-12), name
+            expected = mp.diff(
+                lambda s, f=form: FORMS[f][1]((s - 5) / mp.mpf(WIDTH)), mp.mpf(place), h=mp.mpf(10) ** -18
+            )
+        assert float(found) == pytest.approx(float(expected), rel=1e-10, abs=1e-12), name
 
 
 def test_the_stiff_method_agrees_with_the_explicit_one(scene: Simulation) -> None:
@@ -110,8 +112,8 @@ def test_a_slope_that_is_none_is_told(tmp_path: Path, of: str) -> None:
     """
     simulation = load(block)
     name = of.partition("/")[0].partition("*")[0]
-    told = rf"slope of forces.pull.value.x \(line \d+, column \d+\) by {name} is not"
-    with pytest.raises(NonFiniteError, match=told):
+    message = rf"slope of forces.pull.value.x \(line \d+, column \d+\) by {name} is not"
+    with pytest.raises(NonFiniteError, match=message):
         simulation.simulate(1.0, output=2, method="rodas5p")
     assert f"by {name} is not" in str(simulation.simulate_many([{}], 1.0, output=2, method="rodas5p").failures[0])
     assert simulation.simulate(1.0, output=2, method="dop853")["a.x"][-1] > 0.5

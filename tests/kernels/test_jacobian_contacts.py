@@ -76,8 +76,8 @@ def journal_at(subject: Subject, e: tuple[float, float], rate: tuple[float, floa
     other = next(body.index for body in subject.model.bodies if body.name == "L3")
     y[other : other + 2] += 0.2 * C, -0.1 * C  # joint B too is off its centre, where a film as printed has a kink
     y[n + other : n + other + 2] += 0.01, 0.02
-    for first, wanted, part in ((0, e, slice(0, 2)), (n, rate, slice(2, 4))):
-        y[first + body : first + body + 2] += wanted - subject.eccentricity(0.0, y[:n] + 0j, y[n:] + 0j).real[part]
+    for first, expected, part in ((0, e, slice(0, 2)), (n, rate, slice(2, 4))):
+        y[first + body : first + body + 2] += expected - subject.eccentricity(0.0, y[:n] + 0j, y[n:] + 0j).real[part]
     return y
 
 

@@ -64,8 +64,8 @@ def test_slopes_are_those_of_thirty_digits(scene: Simulation, x: float) -> None:
     slopes, _ = full.compiled.jacobian(0.0, y, full.p)
     for k, (name, (_, form)) in enumerate(FORMS.items()):
         with mp.workdps(40):
-            wanted = mp.diff(form, mp.mpf(x), h=mp.mpf(10) ** -18)
-        assert float(slopes[n + 3 * k, 3 * k]) == pytest.approx(float(wanted), rel=1e-11, abs=1e-12), name
+            expected = mp.diff(form, mp.mpf(x), h=mp.mpf(10) ** -18)
+        assert float(slopes[n + 3 * k, 3 * k]) == pytest.approx(float(expected), rel=1e-11, abs=1e-12), name
 
 
 @pytest.mark.parametrize("method", ["dop853", "rodas5p", "rk4", "auto"])
@@ -148,8 +148,8 @@ def test_a_sample_that_is_no_number_is_told(tmp_path: Path) -> None:
     forces: {f: {force: a.origin, value: ["1e-3 N*sqrt((a.x/(1 m) - c)**2 - w)", 0]}}
     """
     scene = loader(tmp_path)(block)
-    with pytest.raises(NonFiniteError, match=r"no longer finite at t = 0.9 s|not finite at t = 0.9 s") as told:
+    with pytest.raises(NonFiniteError, match=r"no longer finite at t = 0.9 s|not finite at t = 0.9 s") as message:
         scene.simulate(1.0, output=40, method="dop853")
-    assert told.value.partial.t[-1] == pytest.approx(0.875) and np.isfinite(told.value.partial.q).all()
+    assert message.value.partial.t[-1] == pytest.approx(0.875) and np.isfinite(message.value.partial.q).all()
     many = scene.simulate_many([{}, {"c": 2.0}], 1.0, output=40, method="dop853")
-    assert [str(failure) for failure in many.failures] == [f"run 0: {told.value}"]
+    assert [str(failure) for failure in many.failures] == [f"run 0: {message.value}"]

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from gudgeon.generator.kinds.laws.law import OWN
+from gudgeon.generator.kinds.laws.law import USER_LAWS
 from gudgeon.generator.kinds.laws.registered import ORIGINS
 
 PAGE = Path(__file__).parents[2] / "docs/describing.md"
@@ -28,11 +28,11 @@ def example(folder: Path) -> Path:
 @contextmanager
 def forgotten() -> Iterator[None]:
     """Whatever is registered within is forgotten afterwards."""
-    laws, origins = dict(OWN), dict(ORIGINS)
+    laws, origins = dict(USER_LAWS), dict(ORIGINS)
     try:
         yield
     finally:
-        OWN.clear()
-        OWN.update(laws)
+        USER_LAWS.clear()
+        USER_LAWS.update(laws)
         ORIGINS.clear()
         ORIGINS.update(origins)

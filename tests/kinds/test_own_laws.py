@@ -193,12 +193,14 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("old", "new", "told"), WRONG)
-def test_what_it_may_not_be_is_told(old: str, new: str, told: str, disc: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_it_may_not_be_is_told(
+    old: str, new: str, message: str, disc: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(disc.parent)
     file = law_file(disc.parent, old, new)
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace("import POSITIVE, number", "import POSITIVE, Bound, number, word"), encoding="utf-8")
-    with pytest.raises(LawError, match=told) as error:
+    with pytest.raises(LawError, match=message) as error:
         gudgeon.register("dashpot.py")
         derive(disc.read_bytes(), str(disc), "wall")
     assert error.value.exit_code == 2 and "dashpot.py" in str(error.value)

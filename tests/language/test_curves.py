@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from gudgeon.language.curves import ENDS, LEAST, Curve, in_pairs, spline
+from gudgeon.language.curves import ENDS, LEAST, Curve, even_pieces, spline
 from gudgeon.language.tree import CurveCall, Name, evaluate, from_json, functions, to_json
 
 SCIPY = {"natural": "natural", "clamped": "clamped", "periodic": "periodic", "not_a_knot": "not-a-knot"}
@@ -23,7 +23,7 @@ def points(n: int, ends: str) -> tuple[list[float], list[float]]:
 @pytest.mark.parametrize(("n", "ends"), [(n, e) for n in (2, 3, 4, 5, 40, 1000) for e in ENDS if n >= LEAST[e]])
 def test_values_and_derivatives_are_those_of_scipy(n: int, ends: str) -> None:
     x, y = points(n, ends)
-    knots, pieces = in_pairs(x, spline(x, y, ends)) if ends == "periodic" else (tuple(x), spline(x, y, ends))
+    knots, pieces = even_pieces(x, spline(x, y, ends)) if ends == "periodic" else (tuple(x), spline(x, y, ends))
     curve, theirs = Curve("c", knots, pieces, ends), CubicSpline(x, y, bc_type=SCIPY[ends])
     far = 3.0 * (x[-1] - x[0]) if ends == "periodic" else 0.0
     at = np.random.default_rng(1).uniform(x[0] - far, x[-1] + far, 500)

@@ -28,9 +28,11 @@ def test_a_call_is_told_where_it_stands() -> None:
     def old() -> None:
         deprecated(STRESS)
 
-    with pytest.warns(DeprecationWarning, match=r"since gudgeon 0\.1\.0 \(2026-11-26\) and gone from 0\.3\.0") as told:
+    with pytest.warns(
+        DeprecationWarning, match=r"since gudgeon 0\.1\.0 \(2026-11-26\) and gone from 0\.3\.0"
+    ) as message:
         old()
-    assert told[0].filename == __file__
+    assert message[0].filename == __file__
 
 
 def test_an_old_command_tells_the_new_one_and_works() -> None:

@@ -32,8 +32,8 @@ def write(expr: Expr, above: int = 0, right: bool = False) -> str:
             return repr(value)
         case Name(path=path):
             return path
-        case Call(function="where", arguments=(a, b, *chosen)):
-            return f"where({write(a)} < {write(b)}, {', '.join(map(write, chosen))})"
+        case Call(function="where", arguments=(a, b, *selected)):
+            return f"where({write(a)} < {write(b)}, {', '.join(map(write, selected))})"
         case Call(function=function, arguments=arguments):
             return f"{function}({', '.join(write(a) for a in arguments)})"
         case Unary(operand=operand):

@@ -180,12 +180,12 @@ def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
         ("2 kg*m^n", 6, "'n'"),
     ],
 )
-def test_a_power_that_is_none_has_a_remedy(text: str, column: int, told: str) -> None:
+def test_a_power_that_is_none_has_a_remedy(text: str, column: int, message: str) -> None:
     """The message names the place; what its hint proposes is accepted."""
     with pytest.raises(InputError) as caught:
         parse(text, Location("f", 1, 1))
     error, _, hint = str(caught.value).partition("\n")
-    assert caught.value.where == Location("f", 1, column) and told in error
+    assert caught.value.where == Location("f", 1, column) and message in error
     proposed = re.findall(r"\([\w *]+\)\*\*\d|\d [\w*]+\^\d|[a-zA-Z]+\^\(-1/2\)|[a-zA-Z]+[*^]\w+", hint)
     assert proposed or "rad" in hint
     for one in proposed:

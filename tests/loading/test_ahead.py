@@ -16,7 +16,7 @@ import gudgeon
 from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import ahead, build
-from gudgeon.loading.ahead import Ahead, own_lines
+from gudgeon.loading.ahead import BackgroundCompilation, own_command_lines
 from gudgeon.loading.cache import LIST, _seal
 from gudgeon.waiting.programs import Programs
 
@@ -50,26 +50,26 @@ def pendulum() -> KernelSource:
 
 
 def part_1(source: KernelSource) -> Line:
-    return own_lines(source, False)["scene_1.o"]
+    return own_command_lines(source, False)["scene_1.o"]
 
 
 def test_a_derivation_begins_it_and_the_library_takes_it(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    taken: list[str] = []
-    take = Ahead.take
+    used: list[str] = []
+    take = BackgroundCompilation.take
 
-    def noted(early: Ahead, made: Path, line: Line, texts: Mapping[str, str]) -> bool:
+    def noted(early: BackgroundCompilation, made: Path, line: Line, texts: Mapping[str, str]) -> bool:
         found = take(early, made, line, texts)
-        taken.extend([made.name] if found else [])
+        used.extend([made.name] if found else [])
         return found
 
-    monkeypatch.setattr(Ahead, "take", noted)
+    monkeypatch.setattr(BackgroundCompilation, "take", noted)
     (own_folders / "rod.yaml").write_text(ROD)
     run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.5, output=3)
-    assert sorted(taken) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o"]
+    assert sorted(used) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o"]
     assert list((own_folders / "tmp").iterdir()) == []
-    monkeypatch.setattr(Ahead, "begin", lambda *given: None)
+    monkeypatch.setattr(BackgroundCompilation, "begin", lambda *given: None)
     again = gudgeon.load(own_folders / "rod.yaml", regenerate=True).simulate(t_end=0.5, output=3)
-    assert len(taken) == 4 and (run["rod.theta"] == again["rod.theta"]).all()
+    assert len(used) == 4 and (run["rod.theta"] == again["rod.theta"]).all()
 
 
 def test_what_scenes_share_is_compiled_once(own_folders: Path) -> None:
@@ -102,7 +102,7 @@ def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:
     """Another scene's, or another compiler's line, is not."""
     source, made = pendulum(), own_folders / "scene_1.o"
     texts, line = source.files, part_1(source)
-    with Ahead(False) as early:
+    with BackgroundCompilation(False) as early:
         assert not early.is_under_way("scene_1.o", line, texts)
         early.begin(1, texts)
         assert not early.take(made, line, {**texts, "model.h": texts["model.h"] + "\n"})
@@ -114,7 +114,7 @@ def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:
 
 def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     source = pendulum()
-    with Ahead(False) as early:
+    with BackgroundCompilation(False) as early:
         early.begin(ENGINE_PART, source.files)
         assert not early._begun and len(early.shared_objects(source)) == 1
         early.begin(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
@@ -125,13 +125,13 @@ def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
 def test_the_engine_of_a_copy_is_begun_before_it_is_derived(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """That of the shipped scene of the same name, once; another linkage of that name gets its own in its place."""
     begun: list[str] = []
-    begin = Ahead._begin
+    begin = BackgroundCompilation._begin
 
-    def noted(early: Ahead, name: str, line: Line, texts: Mapping[str, str]) -> None:
+    def noted(early: BackgroundCompilation, name: str, line: Line, texts: Mapping[str, str]) -> None:
         begun.append("derive" if name.startswith("scene") else name)
         begin(early, name, line, texts)
 
-    monkeypatch.setattr(Ahead, "_begin", noted)
+    monkeypatch.setattr(BackgroundCompilation, "_begin", noted)
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     shipped, file = gudgeon.load("pendulum"), own_folders / "own.yaml"
     engines = own_folders / "cache" / "engines"
@@ -154,7 +154,7 @@ def test_the_engine_of_a_copy_is_begun_before_it_is_derived(own_folders: Path, m
 
 def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = pendulum()
-    with Ahead(False) as early:
+    with BackgroundCompilation(False) as early:
         broken = {**source.files, "dynamics.c": "#error of a scene\n"}
         early.begin(1, broken)
         assert not early.take(own_folders / "scene_1.o", part_1(source), broken)
@@ -170,15 +170,15 @@ def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monke
 
 
 def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    begun: list[Ahead] = []
-    begin = Ahead.begin
+    begun: list[BackgroundCompilation] = []
+    begin = BackgroundCompilation.begin
 
-    def and_fail(early: Ahead, part: int, texts: Mapping[str, str]) -> None:
+    def and_fail(early: BackgroundCompilation, part: int, texts: Mapping[str, str]) -> None:
         begun.append(early)
         begin(early, part, texts)
         raise InputError("a derivation that fails behind it")
 
-    monkeypatch.setattr(Ahead, "begin", and_fail)
+    monkeypatch.setattr(BackgroundCompilation, "begin", and_fail)
     (own_folders / "rod.yaml").write_text(ROD)
     with pytest.raises(InputError, match="behind it"):
         gudgeon.load(own_folders / "rod.yaml")
@@ -195,7 +195,7 @@ def test_a_second_ctrl_c_leaves_nothing_either(own_folders: Path, monkeypatch: p
         stop(self, *given_up)
 
     monkeypatch.setattr(Programs, "stop", interrupted)
-    with pytest.raises(KeyboardInterrupt), Ahead(False) as early:
+    with pytest.raises(KeyboardInterrupt), BackgroundCompilation(False) as early:
         early.begin(1, {**source.files, "model.h": source.files["model.h"] + "\n"})
     assert early._begun["scene_1.o"][2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []

@@ -13,7 +13,7 @@ import pytest
 import gudgeon
 from gudgeon.integrators import batch as many
 from gudgeon.loading import behind, build
-from gudgeon.loading.behind import Behind, is_allowed
+from gudgeon.loading.behind import OptimizedLibrary, is_allowed
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.cache import Cache, private_cache
 from gudgeon.results.results import Result
@@ -46,7 +46,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
 @pytest.fixture
 def nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     """No other process: what it makes is still to come."""
-    monkeypatch.setattr(Behind, "begin", lambda *given: True)
+    monkeypatch.setattr(OptimizedLibrary, "begin", lambda *given: True)
 
 
 def loaded(file: Path | str = "pendulum", quick: bool = True) -> Simulation:
@@ -111,7 +111,7 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
 def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = loaded()
     other = simulation.compiled.lib._behind
-    assert isinstance(other, Behind) and other._process is not None
+    assert isinstance(other, OptimizedLibrary) and other._process is not None
     monkeypatch.setattr(behind, "MOST", 1)
     assert not is_allowed(cache)  # a second one at the same time
     os.killpg(other._process.pid, signal.SIGKILL)
@@ -123,7 +123,7 @@ def test_where_the_other_process_fails_the_next_start_makes_it(cache: Cache, mon
     monkeypatch.setattr(behind, "OTHER", FAILS)
     simulation = loaded()
     other = simulation.compiled.lib._behind
-    assert isinstance(other, Behind) and other._process is not None and other._process.wait() == 1
+    assert isinstance(other, OptimizedLibrary) and other._process is not None and other._process.wait() == 1
     before = simulation.simulate(0.5, output=5)
     assert simulation.compiled.lib._behind is None and (libraries(simulation), made(cache, "libraries")) == (1, 0)
     again = loaded()
@@ -163,7 +163,7 @@ def test_a_process_is_left_behind_only_where_what_it_makes_is_kept(
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
 def test_a_fork_waits_for_no_thread_that_it_has_not(tmp_path: Path) -> None:
     """A thread of the parent was compiling: its lock, held by nobody there, held the child for good."""
-    behind = Behind(Cache(tmp_path), "key", lambda _: None, lambda _: None)  # type: ignore[arg-type, return-value]
+    behind = OptimizedLibrary(Cache(tmp_path), "key", lambda _: None, lambda _: None)  # type: ignore[arg-type, return-value]
     with behind._own_lock():
         child = os.fork()
         if child == 0:

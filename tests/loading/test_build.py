@@ -114,8 +114,14 @@ def test_a_changed_compiler_is_asked_and_used_again(
 
 
 def key(portable: bool = False, **changes: object) -> str:
-    asked = {"source": tiny(), "command": ("cc",), "flags": compiler.flags(portable), "identity": "gcc 12", **changes}
-    return library_key(**asked, portable=portable)  # type: ignore[arg-type]
+    requested = {
+        "source": tiny(),
+        "command": ("cc",),
+        "flags": compiler.flags(portable),
+        "identity": "gcc 12",
+        **changes,
+    }
+    return library_key(**requested, portable=portable)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -219,8 +225,8 @@ def test_ctrl_c_ends_the_compilers_and_what_they_started(
     try:
         assert select.select([running], [], [], 120)[0], "the compiler was never started"
         process.send_signal(signal.SIGINT)
-        said = process.communicate(timeout=120)[1]
-        assert said.rstrip().endswith("KeyboardInterrupt"), said
+        specified = process.communicate(timeout=120)[1]
+        assert specified.rstrip().endswith("KeyboardInterrupt"), specified
         while select.select([running], [], [], 60)[0]:
             if not os.read(running, 100):
                 break  # the end, which comes when nobody is left who might write
@@ -233,11 +239,13 @@ def test_ctrl_c_ends_the_compilers_and_what_they_started(
 
 
 @pytest.mark.parametrize(("name", "said"), [("", "no C compiler found"), ("no-such-cc -O0", "'no-such-cc'")])
-def test_no_compiler_names_what_to_install(cache: Cache, monkeypatch: pytest.MonkeyPatch, name: str, said: str) -> None:
+def test_no_compiler_names_what_to_install(
+    cache: Cache, monkeypatch: pytest.MonkeyPatch, name: str, specified: str
+) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("CC", name)
     monkeypatch.setitem(sys.modules, "ziglang", None)  # as if it were not installed
-    with pytest.raises(BuildError, match=f"(?s){said}.*apt-get install gcc.*xcode-select.*gudgeon\\[cc\\]"):
+    with pytest.raises(BuildError, match=f"(?s){specified}.*apt-get install gcc.*xcode-select.*gudgeon\\[cc\\]"):
         compile_kernels(tiny())
 
 
@@ -327,7 +335,7 @@ def test_a_folder_that_forbids_running_code(
 ) -> None:
     """As a file system mounted noexec: told once, with what to do, and compiled once for all starts."""
     log = fake()
-    real = build._open
+    real = build._open_entry
 
     def open_elsewhere(entry: Path, cdef: str) -> Library:
         if entry.is_relative_to(cache.root):
@@ -336,14 +344,14 @@ def test_a_folder_that_forbids_running_code(
 
     monkeypatch.setattr(build, "_open", open_elsewhere)
     monkeypatch.setattr(build, "_noexec", lambda folder: folder == cache.root)
-    with pytest.warns(RuntimeWarning, match="(?s)noexec.*GUDGEON_CACHE") as told:
+    with pytest.warns(RuntimeWarning, match="(?s)noexec.*GUDGEON_CACHE") as message:
         for _ in range(2):
             monkeypatch.setattr(build, "_libraries", {})
             library = compile_kernels(tiny(7))
             assert library.lib.scale(1.0) == 7.0
             shutil.rmtree(private_cache().root / "libraries")  # as in a new process
     assert library.file.is_relative_to(private_cache().root)
-    assert len(told) == 1
+    assert len(message) == 1
     assert log.read_text().split() == ["V", "C"]
 
 
@@ -371,9 +379,9 @@ def test_a_compiler_that_writes_junk_is_named(wrote: str, cache: Cache, fake: Ca
     """Not the cache: no warning says so, and a compiler that was mended is asked again."""
     junk = 'for a; do [ "$last" = -o ] && out=$a; last=$a; done; case "$out" in *.so) ' + f"{wrote}; exit 0;; esac"
     fake(junk)
-    told = f"(?s)compiler .*{os.environ['CC']} ended without an error.*set CC"
-    told = "made no kernels.so" if "hello" in wrote else told
-    with warnings.catch_warnings(), pytest.raises(BuildError, match=told):
+    message = f"(?s)compiler .*{os.environ['CC']} ended without an error.*set CC"
+    message = "made no kernels.so" if "hello" in wrote else message
+    with warnings.catch_warnings(), pytest.raises(BuildError, match=message):
         warnings.simplefilter("error")
         compile_kernels(tiny(12))
     fake()

@@ -28,9 +28,9 @@ def test_what_is_kept_is_what_cffi_makes_of_the_engines_declarations() -> None:
         assert path.read_text(encoding="utf-8") == text(), path
     parsed = FFI()
     parsed.cdef(all_declarations())
-    kept, told = declared.ffi.typeof("Batch"), parsed.typeof("Batch")
+    kept, message = declared.ffi.typeof("Batch"), parsed.typeof("Batch")
     assert [(name, field.offset, field.type.cname) for name, field in kept.fields] == [
-        (name, field.offset, field.type.cname) for name, field in told.fields
+        (name, field.offset, field.type.cname) for name, field in message.fields
     ]
 
 
@@ -39,9 +39,9 @@ def test_what_is_kept_is_what_cffi_makes_of_the_engines_declarations() -> None:
 def test_a_library_has_what_is_declared_and_misses_the_rest(scene: str) -> None:
     simulation = gudgeon.load(scene)
     lib = simulation.compiled.lib
-    wanted = set(re.findall(r"\b(gudgeon_\w+)\(", declarations(simulation.source)))
+    expected = set(re.findall(r"\b(gudgeon_\w+)\(", declarations(simulation.source)))
     every = set(re.findall(r"\b(gudgeon_\w+)\(", all_declarations()))
-    assert wanted < every and {name for name in every if hasattr(lib, name)} == wanted
+    assert expected < every and {name for name in every if hasattr(lib, name)} == expected
     with pytest.raises(AttributeError, match="gudgeon_chains"):
         lib.gudgeon_chains  # noqa: B018
 
@@ -63,16 +63,16 @@ def test_declarations_that_are_being_edited_are_parsed(monkeypatch: pytest.Monke
     compiled = gudgeon.load("pendulum").compiled
     file = next(each.file for each in _libraries() if each.lib is compiled.lib)
     monkeypatch.setattr(declared, "OF", "another")
-    library._engines.cache_clear()
+    library._engine_interface.cache_clear()
     try:
         parsed = library.opened(file)
     finally:
         monkeypatch.undo()
-        library._engines.cache_clear()
+        library._engine_interface.cache_clear()
     assert parsed.ffi is not declared.ffi and compiled.ffi is declared.ffi
     for name in ("gudgeon_ensemble", "gudgeon_evaluate"):
-        kept, told = (each.ffi.typeof(getattr(each.lib, name)).cname for each in (compiled, parsed))
-        assert kept == told
+        kept, message = (each.ffi.typeof(getattr(each.lib, name)).cname for each in (compiled, parsed))
+        assert kept == message
 
 
 def _libraries() -> list[library.Library]:

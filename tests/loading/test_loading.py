@@ -35,12 +35,12 @@ READABLE = ("tiny.c",)
 @pytest.fixture
 def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Mapping[str, object]]]:
     """Stands in for the generator: what it was asked for is kept, the answer is tiny()."""
-    asked: list[tuple[bytes, str, str, Mapping[str, object]]] = []
+    requested: list[tuple[bytes, str, str, Mapping[str, object]]] = []
 
     def read_scene(
         data: bytes, file: str, scene: str, overrides: Mapping[str, object], seconds: object
     ) -> tuple[str, str]:
-        asked.append((data, file, scene, overrides))
+        requested.append((data, file, scene, overrides))
         return scene, sha256(data).hexdigest()
 
     def in_c(read: tuple[str, str], formulation: str, seconds: object, begun: object) -> KernelSource:
@@ -54,7 +54,7 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
         module = ModuleType(f"gudgeon.generator.{name}")
         vars(module).update(functions)
         monkeypatch.setitem(sys.modules, module.__name__, module)
-    return asked
+    return requested
 
 
 @pytest.fixture
@@ -250,9 +250,9 @@ def test_committed_kernels_need_no_generator(cache: Cache, generator: list[objec
     ],
 )
 def test_committed_kernels_are_for_exactly_what_they_were_made_from(
-    cache: Cache, generator: list[object], kept: None, data: bytes, scene: str, asked: dict[str, object]
+    cache: Cache, generator: list[object], kept: None, data: bytes, scene: str, requested: dict[str, object]
 ) -> None:
-    _, origin = kernel_source(data, Path("tiny.yaml"), scene, cache=cache, **asked)  # type: ignore[arg-type]
+    _, origin = kernel_source(data, Path("tiny.yaml"), scene, cache=cache, **requested)  # type: ignore[arg-type]
     assert (origin, len(generator)) == ("derived", 1)
 
 

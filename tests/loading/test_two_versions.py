@@ -55,9 +55,9 @@ def together(versions: list[Path], cache: Path) -> list[list[list[str]]]:
         assert each.stdin
         each.stdin.write("\n")
         each.stdin.flush()
-    told = [each.communicate() for each in several]
-    assert [error for _, error in told] == [""] * len(several)
-    return [[line.split() for line in out.splitlines()] for out, _ in told]
+    message = [each.communicate() for each in several]
+    assert [error for _, error in message] == [""] * len(several)
+    return [[line.split() for line in out.splitlines()] for out, _ in message]
 
 
 def contents(cache: Path) -> dict[Path, tuple[int, bytes]]:

@@ -27,19 +27,19 @@ PAGE = (FOLDER / "README.md").read_text(encoding="utf-8")
 @pytest.mark.parametrize("name", slow_but(FAST, cases()))
 def test_nine_digits_to_the_horizon(name: str) -> None:
     """At the tolerance that they were made with; three times the last digit, in which two machines may part."""
-    case, wanted = cases()[name], xr.load_dataset(FOLDER / "data" / f"{name}.nc", engine="h5netcdf")
-    method, samples = "radau9" if case.is_film else "dop853", wanted.sizes["time"] - 1
+    case, expected = cases()[name], xr.load_dataset(FOLDER / "data" / f"{name}.nc", engine="h5netcdf")
+    method, samples = "radau9" if case.is_film else "dop853", expected.sizes["time"] - 1
     simulation = gudgeon.load(case.file, case.scene)
     run = simulation.simulate(case.t_end, output=samples, parameters=case.parameters, method=method, rtol=1e-13)
-    there = wanted.time.values <= wanted.attrs["horizon"]
+    there = expected.time.values <= expected.attrs["horizon"]
     for k, joint in enumerate(case.joints):
         own = np.stack([run[f"{joint}.ex"], run[f"{joint}.ey"]], -1)
-        assert abs(own - wanted.e.values[:, k])[there].max() < 3e-9 * case.clearances[k]
-        began = wanted.onset.values[k][wanted.onset.values[k] <= wanted.attrs["horizon"]]
+        assert abs(own - expected.e.values[:, k])[there].max() < 3e-9 * case.clearances[k]
+        began = expected.onset.values[k][expected.onset.values[k] <= expected.attrs["horizon"]]
         lasting = run.impacts[run.impacts["t_off"] != run.impacts["t_on"]]  # a blow of rigid surfaces takes no time
         contacts = list(lasting["t_on"][lasting["joint"] == k][: len(began)])
         assert contacts == pytest.approx(began, abs=1e-10)
-    assert np.all(wanted.attrs["clearance"] == case.clearances) and there.sum() > 30
+    assert np.all(expected.attrs["clearance"] == case.clearances) and there.sum() > 30
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ import pytest
 
 import tests.benches  # noqa: F401
 from benchmarks.clearance import beside, drawn
-from benchmarks.clearance.beside import COMPARED, Figure, carried, far, film_apart, found, kept, whirling
+from benchmarks.clearance.beside import COMPARED, Figure, carried, far, film_difference, found, kept, whirling
 from tests.programs import needs_compiler
 
 PAGE = (Path(beside.__file__).parent / "README.md").read_text(encoding="utf-8")
@@ -18,7 +18,7 @@ PAGE = (Path(beside.__file__).parent / "README.md").read_text(encoding="utf-8")
 @pytest.mark.parametrize("eps", [0.01, 0.3, 0.95])
 def test_a_film_of_closed_forms_beside_a_quadrature(eps: float) -> None:
     """1e-10 are added to ε there: 3.1e-10/ε where ε is small, and what (1 − ε²)^−5/2 makes of it where it is large."""
-    assert film_apart(eps) < 3.2e-10 / eps + 5e-10 / (1.0 - eps**2)
+    assert film_difference(eps) < 3.2e-10 / eps + 5e-10 / (1.0 - eps**2)
 
 
 def test_a_rigid_rotor_falls_in_its_film() -> None:
@@ -62,4 +62,4 @@ def test_the_page_tells_what_is_found(name: str) -> None:
     figures = list(COMPARED[name]())
     assert [(one.what, one.now_told) for one in figures if not one.holds] == []
     bullets = PAGE[PAGE.index("- **Nowald's rotors.**") : PAGE.index("`python -m benchmarks.clearance.beside`")]
-    assert [one.told for one in figures if one.told not in bullets] == []
+    assert [one.message for one in figures if one.message not in bullets] == []

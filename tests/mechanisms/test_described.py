@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.commands.assembly_story import assemble_scenes
+from gudgeon.commands.assembly_report import assemble_scenes
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.results.results import Result
 from tests.mechanisms.circles import Array, Points, beside, meet, point
@@ -60,8 +60,8 @@ CLOSED: dict[str, tuple[Callable[[Array], dict[str, Points]], float]] = {
 def test_it_moves_as_its_circles_say(name: str) -> None:
     form, t_end = CLOSED[name]
     found = run(name, t_end)
-    for of, wanted in form(found.t).items():
-        np.testing.assert_allclose(point(found, of), wanted, rtol=0, atol=1e-11, err_msg=of)
+    for of, expected in form(found.t).items():
+        np.testing.assert_allclose(point(found, of), expected, rtol=0, atol=1e-11, err_msg=of)
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -101,8 +101,8 @@ def test_what_the_convention_does() -> None:
     runs = {scene: gudgeon.load("flores_slider_crank", scene).simulate(rtol=1e-8) for scene in SIGN}
     soft, stiff = (runs[scene].impacts[0] for scene in SIGN)
     assert stiff["t_on"] == soft["t_on"] and stiff["deltadot"] == soft["deltadot"]
-    wanted = (PRINTED["internal"] / PRINTED["external"]) ** 0.4
-    assert stiff["F_peak"] / soft["F_peak"] == pytest.approx(wanted, rel=0.1)
+    expected = (PRINTED["internal"] / PRINTED["external"]) ** 0.4
+    assert stiff["F_peak"] / soft["F_peak"] == pytest.approx(expected, rel=0.1)
     for run in runs.values():
         assert run["wristpin.F"].max() < 50e3 and run.diagnostics.onsets < 40  # of two turns: it mostly lies on
         assert run.diagnostics.energy_residual < 1e-6 * run.diagnostics.energy_turned_over

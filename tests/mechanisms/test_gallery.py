@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.commands.assembly_story import assemble_scenes
+from gudgeon.commands.assembly_report import assemble_scenes
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.shipped import generated, shipped, shipped_file
 from gudgeon.results.results import Result
@@ -128,8 +128,8 @@ def test_it_moves_as_its_closed_form_says(name: str) -> None:
     """To 1e-12 of a metre: the straight line is straight, the sine a sine, the leg steps where Jansen's table says."""
     form, t_end = CLOSED[name]
     found = run(name, t_end)
-    for of, wanted in form(found.t).items():
-        np.testing.assert_allclose(point(found, of), wanted, rtol=0, atol=1e-12, err_msg=of)
+    for of, expected in form(found.t).items():
+        np.testing.assert_allclose(point(found, of), expected, rtol=0, atol=1e-12, err_msg=of)
 
 
 @pytest.mark.parametrize("name", slow_but(["landing_gear", "scotch_yoke", "cylinder_boom"], GALLERY))

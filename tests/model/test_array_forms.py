@@ -140,7 +140,7 @@ def raw(*found: Any) -> bytes:
     return out
 
 
-def told(call: Callable[[Any], bytes], values: Any) -> bytes:
+def message(call: Callable[[Any], bytes], values: Any) -> bytes:
     """What a call gives, or the error of a state that has no accelerations."""
     try:
         return call(values)
@@ -331,9 +331,9 @@ def test_the_same_numbers_give_the_same_bits(group: str) -> None:
         plain: dict[int, bytes] = {}
         for form, numbers, make in argument.forms():
             if id(numbers) not in plain:
-                plain[id(numbers)] = told(argument.call, numbers)
+                plain[id(numbers)] = message(argument.call, numbers)
             before, sent = numbers.copy(), make(numbers)
-            if told(argument.call, sent) != plain[id(numbers)]:
+            if message(argument.call, sent) != plain[id(numbers)]:
                 wrong.append(f"{argument.name}: {form}")
             assert np.array_equal(numbers, before, equal_nan=True)  # nobody writes into what was handed in
     assert not wrong

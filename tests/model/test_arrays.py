@@ -16,7 +16,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, SolverError
-from gudgeon.model.arrays import CODE, FLAG, taken
+from gudgeon.model.arrays import CODE, FLAG, used
 from gudgeon.model.compiled import CompiledModel
 from tests.programs import needs_compiler
 
@@ -32,8 +32,8 @@ def test_no_other_place_asks_an_array_where_it_lies() -> None:
 
 def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
     plain = np.arange(4.0)
-    assert taken(plain, "x", (4,)) is plain
-    copy = taken(plain, "x", (None,), own=True)
+    assert used(plain, "x", (4,)) is plain
+    copy = used(plain, "x", (None,), own=True)
     assert copy is not plain and not np.shares_memory(copy, plain)
 
 
@@ -59,17 +59,17 @@ def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
         ([Fraction(10**400), 1.0], "x"),
     ],
 )
-def test_what_is_no_array_of_numbers(values: Any, told: str) -> None:
-    with pytest.raises(ArrayError, match=told):
-        taken(values, "x", (2,), finite=True)
+def test_what_is_no_array_of_numbers(values: Any, message: str) -> None:
+    with pytest.raises(ArrayError, match=message):
+        used(values, "x", (2,), finite=True)
 
 
 def test_codes_and_flags_are_whole_numbers_that_fit() -> None:
-    assert taken([0.0, 2.0], "x", dtype=CODE).tolist() == [0, 2]
-    assert taken(np.array([True, False]), "x", dtype=FLAG).tolist() == [1, 0]
+    assert used([0.0, 2.0], "x", dtype=CODE).tolist() == [0, 2]
+    assert used(np.array([True, False]), "x", dtype=FLAG).tolist() == [1, 0]
     for wrong in ([0.5], [300], [np.nan]):
         with pytest.raises(ArrayError, match=r"x\[0\]"), np.errstate(invalid="ignore"):
-            taken(wrong, "x", dtype=CODE)
+            used(wrong, "x", dtype=CODE)
 
 
 @pytest.fixture(scope="module")
@@ -209,9 +209,9 @@ def test_no_other_length_of_a_start(ball: gudgeon.Simulation, method: str) -> No
         (2.0, "output is 2.0: expected a whole number"),
     ],
 )
-def test_output_times_that_are_none(ball: gudgeon.Simulation, output: Any, told: str) -> None:
+def test_output_times_that_are_none(ball: gudgeon.Simulation, output: Any, message: str) -> None:
     for call in (ball.simulate, lambda *given, **named: ball.simulate_many({}, *given, **named)):
-        with pytest.raises(BadValueError, match=told):
+        with pytest.raises(BadValueError, match=message):
             call(0.1, output=output)
 
 

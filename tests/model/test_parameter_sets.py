@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import InputError, UnitError
 from gudgeon.model.compiled import AT_ONCE
-from gudgeon.model.parameter_sets import Columns, each_of, given_each, plain_each, rows_of
+from gudgeon.model.parameter_sets import Columns, each_of, given_each, read_uniform_rows, rows_of
 from gudgeon.model.parameters import GAINS, given_slots, without_baumgarte
 from tests.programs import needs_compiler
 from tests.scenes import loader
@@ -40,7 +40,7 @@ def test_plain_numbers_are_read_at_once() -> None:
 
 @pytest.mark.parametrize("name", ALONE)
 def test_others_are_read_one_by_one(name: str) -> None:
-    assert plain_each(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
+    assert read_uniform_rows(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
 
 
 CLEARANCES = [3e-4, 4e-4, 5e-4]
@@ -62,7 +62,7 @@ COLUMNS: dict[str, tuple[dict[str, Any], bool]] = {  # and whether all runs are 
 }
 
 
-def told(read: Callable[[], tuple[Any, Any]]) -> tuple[Any, ...]:
+def message(read: Callable[[], tuple[Any, Any]]) -> tuple[Any, ...]:
     """Values and mask, or what is said instead."""
     try:
         values, mask = read()
@@ -81,9 +81,9 @@ def test_columns_are_read_as_their_rows_are(name: str) -> None:
     assert isinstance(rows, Columns) and isinstance(plain, list) and len(rows) == 3
     assert [*rows] == plain and rows[-1] == plain[2] and rows[1:] == plain[1:]
     assert [(i, str(error)) for i, error in bad.items()] == [(i, str(error)) for i, error in plain_bad.items()]
-    one_by_one = told(lambda: each_of(plain, lambda _, row: given_slots(source, row)))
-    assert told(lambda: given_each(source, rows)) == one_by_one == told(lambda: given_each(source, plain))
-    assert (plain_each(source, rows) is not None) == at_once
+    one_by_one = message(lambda: each_of(plain, lambda _, row: given_slots(source, row)))
+    assert message(lambda: given_each(source, rows)) == one_by_one == message(lambda: given_each(source, plain))
+    assert (read_uniform_rows(source, rows) is not None) == at_once
 
 
 def test_a_run_of_columns_that_there_is_not() -> None:

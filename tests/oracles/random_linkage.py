@@ -78,10 +78,10 @@ def random_case(seed: int, bodies: int = 4, loops: int = 1, drives: int = 1, sli
     return Case(linkage, q, consistent_velocity(rng, linkage, q), seed, tuple(type(j).__name__ for j in linkage.joints))
 
 
-def _with_drives(rng: np.random.Generator, linkage: Linkage, q: np.ndarray, wanted: int) -> Linkage:
-    """So many drives, up to `wanted`, as stay independent; at t = 0 they prescribe what q has."""
+def _with_drives(rng: np.random.Generator, linkage: Linkage, q: np.ndarray, expected: int) -> Linkage:
+    """So many drives, up to `expected`, as stay independent; at t = 0 they prescribe what q has."""
     for body in rng.permutation(len(linkage.bodies)):
-        if len(linkage.drives) == wanted:
+        if len(linkage.drives) == expected:
             break
         reference = int(rng.integers(-1, len(linkage.bodies)))
         reference = GROUND if reference == body else reference

@@ -21,7 +21,7 @@ Which knob (`draw.py`) makes which kind of fault that was found before (the firs
     change points                                       parallelogram
     follower on a cam's angle, curves                   cam: `curve` over the angle of a driven shaft
     names of files and of generated code                every family: `renamed` by CODE_NAMES
-    symmetric starts, taylor                            swing: `at_rest`, `horizontal`
+    symmetric starts, taylor                            swing: `pause_garbage_collector`, `horizontal`
     lost events of a surface that lets go               slide: `hill`
     unbounded second rates of drives                    graph, crank: `root`
     subnormal forces                                    slide, swing: `pulse`

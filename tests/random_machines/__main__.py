@@ -22,24 +22,24 @@ def main() -> int:
     parser.add_argument("--machines", type=int, default=8, help="sets of numbers of each design")
     parser.add_argument("--family", choices=sorted(FAMILIES))
     parser.add_argument("--out", type=Path, help="a folder for the files that fail")
-    asked = parser.parse_args()
-    designs, begun, told = -(-asked.count // asked.machines), time.time(), [0]
+    requested = parser.parse_args()
+    designs, begun, message = -(-requested.count // requested.machines), time.time(), [0]
 
     def report(tally: Tally) -> None:
-        for failure in tally.failures[told[0] :]:
+        for failure in tally.failures[message[0] :]:
             print(failure, flush=True)
-            if asked.out:
-                asked.out.mkdir(parents=True, exist_ok=True)
+            if requested.out:
+                requested.out.mkdir(parents=True, exist_ok=True)
                 name = f"seed_{failure.seed}_{failure.family}_{failure.what.partition(':')[0].replace(' ', '_')}.yaml"
                 remark = "".join(f"# {line}\n" for line in str(failure).splitlines())
-                (asked.out / name).write_text(remark + failure.text, encoding="utf-8")
-        told[0] = len(tally.failures)
+                (requested.out / name).write_text(remark + failure.text, encoding="utf-8")
+        message[0] = len(tally.failures)
 
     quick.install()
     with tempfile.TemporaryDirectory() as folder, quick.compiled(False, True):
         os.environ["GUDGEON_CACHE"] = f"{folder}/cache"
-        seeds = range(asked.seed, asked.seed + designs)
-        tally = try_seeds(seeds, Path(folder), asked.machines, asked.family, report)
+        seeds = range(requested.seed, requested.seed + designs)
+        tally = try_seeds(seeds, Path(folder), requested.machines, requested.family, report)
     print(f"{tally}; {len(tally.failures)} failures; {time.time() - begun:.0f} s")
     return 1 if tally.failures else 0
 

@@ -95,11 +95,11 @@ class Design:
         file = {"parameters": _shuffled(rng, self.numbers.section())} | file
         things = [*self.bodies(), *(n for part in ("joints", "drives", "forces") for n in self.file.get(part, {}))]
         parameters = list(self.numbers.values)
-        taken = list(names)
-        rng.shuffle(taken)
-        chosen = [*things, *(str(n) for n in rng.permutation(parameters))]
-        rng.shuffle(chosen)
-        others = dict(zip(chosen, taken, strict=False))
+        used = list(names)
+        rng.shuffle(used)
+        selected = [*things, *(str(n) for n in rng.permutation(parameters))]
+        rng.shuffle(selected)
+        others = dict(zip(selected, used, strict=False))
         text = self.text(file).replace("name: random_machine", "name: other_machine")
         pattern = re.compile(rf"(?<![\w.])({'|'.join(map(re.escape, others))})(?!\w)") if others else None
         head, _, body = text.partition("\n")

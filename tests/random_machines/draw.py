@@ -175,7 +175,9 @@ class Crank:
     def play(self, film: bool, rigid: bool) -> str:
         c = _u(self.rng, 5e-5, 5e-4, log=True)
         names = [n for n in ("crankpin", "rockerpin", "wristpin", "linkpin", "P") if n in self.file["joints"]]
-        chosen = [str(n) for n in self.rng.choice(names, min(len(names), int(self.rng.integers(1, 3))), replace=False)]
+        selected = [
+            str(n) for n in self.rng.choice(names, min(len(names), int(self.rng.integers(1, 3))), replace=False)
+        ]
         radius = _u(self.rng, 100.0, 3000.0, log=True) * c if film else _u(self.rng, 0.005, 0.02)
         radius = min(max(radius, 0.004), 0.05)
         c = min(c, radius / 20.0)
@@ -193,7 +195,7 @@ class Crank:
             contact["film"] = {"law": law, "viscosity": self.n.add(0.05, VISCOSITY)}
             contact["transition"] = self.n.add(1e-2 * c, LENGTH)
         self.file["contacts"] = {"touch": contact}
-        self.file["scenes"] = {"worn": {"play": {name: {"bearing": "pin", "contact": "touch"} for name in chosen}}}
+        self.file["scenes"] = {"worn": {"play": {name: {"bearing": "pin", "contact": "touch"} for name in selected}}}
         return "worn"
 
 
@@ -402,8 +404,8 @@ SHARES = {"graph": 0.3, "crank": 0.3, "cam": 0.08, "slide": 0.16, "swing": 0.11,
 def draw(seed: int, family: str | None = None) -> Design:
     """The design of a seed."""
     rng = np.random.default_rng([2026, seed])
-    chosen = str(rng.choice(list(SHARES), p=list(SHARES.values())))
-    return FAMILIES[family or chosen](seed, rng)
+    selected = str(rng.choice(list(SHARES), p=list(SHARES.values())))
+    return FAMILIES[family or selected](seed, rng)
 
 
 def other_numbers(design: Design, rng: np.random.Generator) -> Design:

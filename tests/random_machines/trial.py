@@ -136,8 +136,10 @@ class Trial:
             self.run(simulation, design, design.numbers.plain(), rtol=LOOSE)
 
         def goes_on() -> None:
-            told = [float(t) for t in re.findall(r"t = ([-+.e\d]+\d)", str(error))]
-            times = np.linspace(0.0, min(design.t_end, 1.02 * max([partial.t[-1], *told]) + 0.01 * design.t_end), 200)
+            message = [float(t) for t in re.findall(r"t = ([-+.e\d]+\d)", str(error))]
+            times = np.linspace(
+                0.0, min(design.t_end, 1.02 * max([partial.t[-1], *message]) + 0.01 * design.t_end), 200
+            )
             try:
                 machine, who = oracle.Machine(design.file, design.numbers.plain(), design.scene), "the oracle"
                 goes = oracle.goes_on(machine, times, partial.q[0], partial.v[0])

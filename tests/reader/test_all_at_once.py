@@ -62,14 +62,14 @@ TOGETHER: list[tuple[Patches, tuple[str, ...]]] = [
 
 
 @pytest.mark.parametrize(("patches", "told"), TOGETHER)
-def test_they_are_told_together(patches: Patches, told: tuple[str, ...]) -> None:
+def test_they_are_told_together(patches: Patches, message: tuple[str, ...]) -> None:
     read_mechanism(TEXT.encode(), "m.yaml")
     with pytest.raises(InputErrors) as caught:
         read_mechanism(patched(TEXT, *patches).encode(), "m.yaml")
     errors = caught.value.errors
     places = [(error.where.line, error.where.column) for error in errors if error.where]
     assert places == sorted(places) and len(places) == len(errors)
-    for words in told:
+    for words in message:
         assert any(words in error.message for error in errors), str(caught.value)
 
 
@@ -81,11 +81,11 @@ def test_they_are_told_together(patches: Patches, told: tuple[str, ...]) -> None
         ((("name: m\n", "name: m\nexpressions: {e: foo * 1 N, g: 2*e}\n"), ("1 N, 2 N", "g, 2 N")), "'foo'"),
     ],
 )
-def test_what_follows_from_a_mistake_is_not_told(patches: Patches, told: str) -> None:
+def test_what_follows_from_a_mistake_is_not_told(patches: Patches, message: str) -> None:
     text = TEXT
     for old, new in patches:
         text = text.replace(old, new)
-    with pytest.raises(InputError, match=told) as caught:
+    with pytest.raises(InputError, match=message) as caught:
         read_mechanism(text.encode(), "m.yaml")
     assert not isinstance(caught.value, InputErrors)
 
@@ -93,6 +93,6 @@ def test_what_follows_from_a_mistake_is_not_told(patches: Patches, told: str) ->
 def test_the_way_of_a_mass_is_short() -> None:
     """From the bytes of a file to the mass matrix: 32 functions handed it on."""
     script = ROOT / "tools" / "way_of_a_mass.py"
-    said = subprocess.run([sys.executable, str(script)], check=True, capture_output=True, text=True).stdout
-    functions = said.splitlines()[-1].split()
-    assert int(functions[0]) <= 15, said
+    specified = subprocess.run([sys.executable, str(script)], check=True, capture_output=True, text=True).stdout
+    functions = specified.splitlines()[-1].split()
+    assert int(functions[0]) <= 15, specified

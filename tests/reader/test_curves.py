@@ -79,21 +79,21 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("curve", "value", "told"), REFUSED, ids=[told[:25] for _, _, told in REFUSED])
-def test_what_is_refused(tmp_path: Path, curve: str, value: str, told: str) -> None:
-    with pytest.raises(InputError, match=told):
+@pytest.mark.parametrize(("curve", "value", "told"), REFUSED, ids=[message[:25] for _, _, message in REFUSED])
+def test_what_is_refused(tmp_path: Path, curve: str, value: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
         read(tmp_path, curve, value)
 
 
 def test_a_curve_stands_where_numbers_vary_and_has_a_name_of_its_own(tmp_path: Path) -> None:
     text = TEXT.format(curve=PAIRS, value="lift(t)")
-    for change, told in (
+    for change, message in (
         (("length: 1 m", "length: lift(0)"), "a curve can stand in drives"),
         (("name: n\n", "name: n\nparameters: {lift: 3}\n"), "names this curve and a parameter"),
         (("lift:", "sin:"), "it is a function"),
         (("lift(t)", "lfit(t)"), "did you mean 'lift'"),
     ):
-        with pytest.raises(InputError, match=told):
+        with pytest.raises(InputError, match=message):
             read_mechanism(text.replace(*change).encode(), str(tmp_path / "n.yaml"))
 
 
@@ -140,9 +140,9 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
         (b"0,=1+1\n", r"is no number"),
     ],
 )
-def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: bytes, told: str) -> None:
+def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: bytes, message: str) -> None:
     (tmp_path / "lift.csv").write_bytes(data)
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         read(tmp_path, "table: lift.csv")
 
 

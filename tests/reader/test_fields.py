@@ -64,8 +64,10 @@ def test_declarations_are_whole(path: str) -> None:
     assert len(set(names)) == len(names)
     for field in fields:
         assert field.meaning and not field.meaning.endswith(".")
-        said = field.required + (field.default is not None) + bool(field.otherwise)
-        assert said == 1 if path.endswith(")") else said <= 1  # one says what holds; of joints, forces, laws one does
+        specified = field.required + (field.default is not None) + bool(field.otherwise)
+        assert (
+            specified == 1 if path.endswith(")") else specified <= 1
+        )  # one says what holds; of joints, forces, laws one does
         assert all(bound.limit in names for bound in field.bounds if isinstance(bound.limit, str))
         assert not field.bounds or field.kind in (NUMBER, VECTOR)
         assert (field.kind in (WORD, FLAG)) == bool(field.values) and (field.kind in (KINDS, LAW)) == bool(field.kinds)
@@ -76,10 +78,10 @@ def test_declarations_are_whole(path: str) -> None:
 
 
 def test_what_is_said_to_hold_otherwise_does() -> None:
-    said = {field.name: field.otherwise for field in (*SIMULATE.fields, *CONTACT.fields)}
-    assert number_of_text(said["t_end"], "t_end", (0, 0, 1)) == T_END
-    assert float(said["output"]) == DEFAULT_OUTPUT
-    assert number_of_text(said["velocity_floor"], "velocity_floor", (1, 0, -1)) == VELOCITY_FLOOR
+    specified = {field.name: field.otherwise for field in (*SIMULATE.fields, *CONTACT.fields)}
+    assert number_of_text(specified["t_end"], "t_end", (0, 0, 1)) == T_END
+    assert float(specified["output"]) == DEFAULT_OUTPUT
+    assert number_of_text(specified["velocity_floor"], "velocity_floor", (1, 0, -1)) == VELOCITY_FLOOR
 
 
 def test_the_page_is_current() -> None:
@@ -144,7 +146,7 @@ LAW = Law(
 @pytest.fixture
 def one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A joint, a force element and a law more: a file in the folder of each, and nothing else."""
-    caches = (joint_types, element_types, law.house)
+    caches = (joint_types, element_types, law.bundled_laws)
     for package, name, text in (joints, "strut", JOINT), (forces, "fan", FORCE), (laws, "lossy_spring", LAW_FILE):
         folder = tmp_path / name
         folder.mkdir()

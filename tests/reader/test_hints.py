@@ -73,7 +73,7 @@ KINDS = [
 
 def test_kinds_that_people_call_otherwise_are_known() -> None:
     called = {(other, kind) for _, other, kind in KINDS}
-    wanted = (
+    expected = (
         "pin revolute",
         "hinge revolute",
         "prismatic translational",
@@ -85,7 +85,7 @@ def test_kinds_that_people_call_otherwise_are_known() -> None:
         "moment torque",
         "spring spring_damper",
     )
-    assert {tuple(pair.split()) for pair in wanted} <= called
+    assert {tuple(pair.split()) for pair in expected} <= called
     for section in ("joints", "drives", "forces"):
         names = [other for where, other, _ in KINDS if where == section]
         kinds = {kind for where, _, kind in KINDS if where == section}
@@ -256,9 +256,9 @@ def test_none_is_no_law() -> None:
         ("contact: dry}}}", "contact: dry}}, simulate: {‸method: rk4}}", UnknownKeyError, "gudgeon run, --method"),
     ],
 )
-def test_words_and_signs_of_elsewhere(old: str, new: str, kind: type[InputError], told: str) -> None:
+def test_words_and_signs_of_elsewhere(old: str, new: str, kind: type[InputError], message: str) -> None:
     error = refused(old, new)
-    assert type(error) is kind and told in error.hint
+    assert type(error) is kind and message in error.hint
 
 
 @pytest.mark.parametrize("name", ["lambda", "sin", "None", "1a", "a-b", "é"])

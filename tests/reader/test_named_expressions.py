@@ -22,7 +22,7 @@ from gudgeon.errors import (
     UnknownNameError,
 )
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.reader.expressions import DEEPEST, MOST
+from gudgeon.generator.reader.expressions import MAX_LEVELS, MAX_PARTS
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import names
 from gudgeon.model.parameters import as_parameter
@@ -140,11 +140,11 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
 
 
 @pytest.mark.parametrize(("text", "by", "error", "told", "at"), MISTAKES)
-def test_mistakes_are_told_where_they_are(text: str, by: str, error: type[InputError], told: str, at: str) -> None:
+def test_mistakes_are_told_where_they_are(text: str, by: str, error: type[InputError], message: str, at: str) -> None:
     wrong = patched(LED, (text, by))
     with pytest.raises(InputError) as raised:
         read_mechanism(wrong.encode(), "led.yaml")
-    assert isinstance(raised.value, error) and told in str(raised.value)  # alone: who uses the name is not told
+    assert isinstance(raised.value, error) and message in str(raised.value)  # alone: who uses the name is not told
     where = raised.value.where
     assert where is not None
     if at:
@@ -176,15 +176,15 @@ def test_what_is_no_number_in_a_run_is_told_where_it_stands() -> None:
     source = generate(bad.encode(), "led.yaml", "ideal")
     p, n = np.array([slot.default for slot in source.slots]), np.zeros(len(source.coordinates))
     place = re.escape(f"(line {line_of(bad, 'target:')}, column 11)")
-    told = f"forces.u.value .* is not finite at t = 0.2 s, nan: in expressions.target {place}, sqrt of -0.1$"
-    assert re.match(told, reason(source, p, 0.2, n, n))
+    message = f"forces.u.value .* is not finite at t = 0.2 s, nan: in expressions.target {place}, sqrt of -0.1$"
+    assert re.match(message, reason(source, p, 0.2, n, n))
 
 
 def test_an_expression_is_no_number_that_can_be_set() -> None:
     source = KernelSource.from_json(generate(LED.encode(), "led.yaml", "ideal").to_json())
     for name in ("expressions.rate", "rate"):
-        told, hint = as_parameter(source, name)
-        assert told == "expressions.rate is an expression, compiled as it stands: it is no number that can be set"
+        message, hint = as_parameter(source, name)
+        assert message == "expressions.rate is an expression, compiled as it stands: it is no number that can be set"
         assert hint.startswith("set what it is made of: reach, pace;")
     with pytest.raises(UnknownNameError) as raised:
         check_addresses(["expressions.rate"], "led.yaml", [source])
@@ -201,9 +201,9 @@ def chain(links: list[str]) -> str:
 
 
 def test_what_names_hold_together_is_bounded() -> None:
-    read_mechanism(chain(["sin({0})"] * (DEEPEST - 2)).encode(), "led.yaml")
-    with pytest.raises(LimitError, match=f"expected at most {MOST} in {DEEPEST}"):
-        read_mechanism(chain(["sin({0})"] * (DEEPEST - 1)).encode(), "led.yaml")
+    read_mechanism(chain(["sin({0})"] * (MAX_LEVELS - 2)).encode(), "led.yaml")
+    with pytest.raises(LimitError, match=f"expected at most {MAX_PARTS} in {MAX_LEVELS}"):
+        read_mechanism(chain(["sin({0})"] * (MAX_LEVELS - 1)).encode(), "led.yaml")
     with pytest.raises(LimitError, match=r"a10 has 4095 parts in 12 levels"):
         read_mechanism(chain(["{0}*{0}"] * 12 + ["{0} + {0}*1"]).encode(), "led.yaml")
 
@@ -211,7 +211,7 @@ def test_what_names_hold_together_is_bounded() -> None:
 @pytest.mark.slow
 def test_the_deepest_and_the_largest_are_derived() -> None:
     """With their slopes, which Newton's matrix takes."""
-    text = chain(["sin({0})"] * (DEEPEST - 3)).replace("value: -K*s", "value: -K*s*sin(last)")
+    text = chain(["sin({0})"] * (MAX_LEVELS - 3)).replace("value: -K*s", "value: -K*s*sin(last)")
     large = chain(["({0} + rod.theta)*{0}"] * 9).replace("value: -K*s", "value: -K*s*cos(last)")
     for one in (text, large):
         generate(one.encode(), "led.yaml", "ideal")

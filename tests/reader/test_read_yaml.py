@@ -296,7 +296,7 @@ bodies: {rod: {length: 1 m, MASS, inertia: 0}}
 ground: {O: [0, 0]}
 joints: {pin: {revolute: [ground.O, rod.tail]}}
 """
-    told = r"(?s)m.yaml:3:35: .*a mass is positive\n.*equations divide.*com:.*inertia: 0"
-    with pytest.raises(BadValueError, match=told):
+    message = r"(?s)m.yaml:3:35: .*a mass is positive\n.*equations divide.*com:.*inertia: 0"
+    with pytest.raises(BadValueError, match=message):
         read_mechanism(text.replace("MASS", "mass: 0 kg").encode(), "m.yaml")
     read_mechanism(text.replace("MASS", "mass: 2 kg, com: [1 m, 0]").encode(), "m.yaml")

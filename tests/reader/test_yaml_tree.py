@@ -88,17 +88,17 @@ def test_directives(text: str) -> None:
 
 @pytest.mark.parametrize("text", ["%YAML 1." + "1" * 5000 + "\n---\na: 1", 'a: "\\U00110000"', 'a: "\\Uffffffff"'])
 def test_what_the_library_cannot_convert_is_told_in_our_words(text: str) -> None:
-    with pytest.raises(NotYamlError, match="a directive or an escape cannot be read") as told:
+    with pytest.raises(NotYamlError, match="a directive or an escape cannot be read") as message:
         parse_yaml(text.encode(), "f")
-    assert len(str(told.value)) < 300
+    assert len(str(message.value)) < 300
 
 
 @pytest.mark.parametrize("text", ["a: 1\nb: !" + "a" * 900_000 + " x", "a: 1\nb: !<" + "a" * 900_000 + "> x"])
 def test_a_long_tag_is_refused_before_it_is_read(text: str) -> None:
     """The library's time for one grows with the square of its length: a minute for these."""
-    with pytest.raises(LimitError, match=f"a tag of more than {MAX_TAG} characters") as told:
+    with pytest.raises(LimitError, match=f"a tag of more than {MAX_TAG} characters") as message:
         parse_yaml(text.encode(), "f")
-    assert told.value.where == Location("f", 2, 4)
+    assert message.value.where == Location("f", 2, 4)
 
 
 def test_what_is_told_is_short() -> None:

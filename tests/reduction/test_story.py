@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly.rank import rank
-from gudgeon.contract import ledger as told
+from gudgeon.contract import reduction_log as message
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.ledger import Story
-from gudgeon.contract.ledger_words import outcome
+from gudgeon.contract.reduction_log import ReductionLog
+from gudgeon.contract.reduction_words import outcome
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.reduction.tree import Estimate, choose_tree
 from gudgeon.loading.shipped import shipped_file
@@ -47,7 +47,7 @@ def replay(source: KernelSource) -> tuple[set[str], set[str]]:
         coordinates, rows = coordinates | set(step.come), rows | set(step.rows_come)
         assert (n, m) == (len(coordinates), len(rows))
         takes = len(step.gone) - len(step.come) == len(step.rows_gone) - len(step.rows_come)
-        assert takes != (step.kind in (told.PLAY, told.REDUNDANT))
+        assert takes != (step.kind in (message.PLAY, message.REDUNDANT))
     return coordinates, rows
 
 
@@ -57,7 +57,7 @@ def check_ledger(source: KernelSource) -> None:
     assert rows == set(source.closures)
 
 
-def said(story: Story, kind: str) -> list[str]:
+def specified(story: ReductionLog, kind: str) -> list[str]:
     return [name for step in story.steps if step.kind == kind for name in step.gone]
 
 
@@ -65,7 +65,7 @@ def check_known_angles(source: KernelSource, phi_q: np.ndarray) -> None:
     """No motion that the rows allow turns an angle that is prescribed or constant."""
     _, sizes, vt = np.linalg.svd(phi_q)
     independent = int((sizes > 1e-9 * sizes[0]).sum())
-    names = said(source.story, told.PRESCRIBED) + said(source.story, told.CONSTANT)
+    names = specified(source.story, message.PRESCRIBED) + specified(source.story, message.CONSTANT)
     known = [source.coordinates.index(name) for name in names]
     assert abs(vt[independent:, known]).max(initial=0.0) < 1e-9
 
@@ -115,13 +115,13 @@ def test_non_zeros(name: str, scene: str) -> None:
         check_factor(solve)
 
 
-def check_factor(solve: told.Solve) -> None:
+def check_factor(solve: message.Solve) -> None:
     """L holds at least the matrix's lower half, at most a full one."""
     half = (solve.entries - solve.coordinates) // 2
     assert half <= solve.factor <= solve.size * (solve.size - 1) // 2
 
 
-def check_products(solve: told.Solve) -> None:
+def check_products(solve: message.Solve) -> None:
     """Each column of c entries takes c (c + 3)/2 products, where no row goes together with a coordinate."""
     even = solve.factor / solve.size  # the sum of squares is least where all columns are alike
     assert solve.products >= solve.size * even * (even + 3.0) / 2.0 - 1e-9
@@ -218,7 +218,7 @@ def test_groups_are_solved_one_after_the_other(name: str) -> None:
 def test_full_formulation_opens_what_has_play_and_takes_nothing_else() -> None:
     model = derive(shipped_file("slider_crank").read_bytes(), "slider_crank.yaml", "dry")
     source = in_c(model, "full")
-    assert [step.kind for step in source.story.steps] == [told.PLAY]
+    assert [step.kind for step in source.story.steps] == [message.PLAY]
     coordinates, rows = replay(source)
     assert coordinates == set(source.coordinates) and rows == {row.name for row in source.rows}
     assert source.story.after == source.story.before and not source.story.tree
@@ -233,7 +233,7 @@ def test_redundant_rows_are_told() -> None:
     )
     source = in_c(derive(text.encode(), "twice.yaml", "ideal"))
     check_ledger(source)
-    (step,) = (step for step in source.story.steps if step.kind == told.REDUNDANT)
+    (step,) = (step for step in source.story.steps if step.kind == message.REDUNDANT)
     assert step.rows_gone == ("two.x", "two.y") and step.owners == ("two",)
     assert len(source.tree) - len(source.closures) == 1
 

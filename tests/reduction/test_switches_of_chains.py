@@ -116,9 +116,9 @@ def test_equal_runs_in_fresh_processes(tmp_path: Path, processes: int) -> None:
     """Bit for bit: memory that nobody wrote differs from process to process."""
     file = written(tmp_path, CYLINDER % MOTIONS[0])
     gudgeon.load(file, "worn")
-    said = set()
+    specified = set()
     for k in range(processes):
         environment = os.environ | {"PYTHONHASHSEED": str(k), "MALLOC_PERTURB_": str(17 * k)}
         command = [sys.executable, "-c", SHOW, str(file)]
-        said.add(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
-    assert len(said) == 1 and "" not in said
+        specified.add(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
+    assert len(specified) == 1 and "" not in specified

@@ -203,7 +203,7 @@ def swapped(values: Any) -> None:
         ("given", lambda group: group.move("parameters.w", "parameters.v"), "'parameters.v' was given, and is no"),
     ],
 )
-def test_what_another_program_changed_is_told(what: str, change: Any, told: str, tmp_path: Path) -> None:
+def test_what_another_program_changed_is_told(what: str, change: Any, message: str, tmp_path: Path) -> None:
     """They were loaded as they stood."""
     path = tmp_path / "batch.nc"
     valve(tmp_path).simulate_many({"w": [5.0, 7.0]}, 0.2, output=7).save(path)
@@ -214,5 +214,5 @@ def test_what_another_program_changed_is_told(what: str, change: Any, told: str,
             values = file[what][...]
             change(values)
             file[what][...] = values
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         Batch.load(path)

@@ -14,7 +14,7 @@ import gudgeon
 from gudgeon.errors import UnknownNameError
 from gudgeon.model.evaluation import PARTS
 from gudgeon.results.batch import Batch
-from gudgeon.results.results import Bare, Result
+from gudgeon.results.results import EvaluatedSamples, Result
 from gudgeon.results.series import catalogue
 from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
@@ -56,21 +56,21 @@ def test_every_series_has_the_bits_of_the_run(batch: Batch) -> None:
 def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither a whole result nor, of a position, anything in C; of the rest no other part is touched."""
     monkeypatch.setattr(type(batch.result), "__call__", None)
-    known, asked = catalogue(batch.source), list[frozenset[str]]()
-    plain = Bare.evaluation.func  # type: ignore[attr-defined]
+    known, requested = catalogue(batch.source), list[frozenset[str]]()
+    plain = EvaluatedSamples.evaluation.func  # type: ignore[attr-defined]
 
-    def noted(run: Bare) -> object:
-        asked.append(run.parts)
+    def noted(run: EvaluatedSamples) -> object:
+        requested.append(run.parts)
         return plain(run)
 
-    monkeypatch.setattr(Bare, "evaluation", property(noted))
+    monkeypatch.setattr(EvaluatedSamples, "evaluation", property(noted))
     first = batch.result.bare(0, PARTS)
     stored = set() if first is None or first.accelerations is None else {"a"}  # by a method that Python drives
     for name in known:
-        asked.clear()
+        requested.clear()
         found = batch[name]
-        assert set(asked) <= {known[name].parts} and known[name].parts <= PARTS, name
-        assert bool(asked) == bool(known[name].parts - stored), name
+        assert set(requested) <= {known[name].parts} and known[name].parts <= PARTS, name
+        assert bool(requested) == bool(known[name].parts - stored), name
         assert found.shape == (len(batch), batch.t.shape[-1])
 
 

@@ -133,8 +133,8 @@ def test_matlab_reads_batches_as_runs_by_samples(tmp_path: Path) -> None:
         np.testing.assert_array_equal(found["t"], batch["t"])
         np.testing.assert_allclose(np.nanmax(found["t"], axis=1), lengths)
         np.testing.assert_array_equal(found["parameters_g"], np.array([[9.0], [9.5], [10.0]]))
-        told = [[str(cell[0]) for cell in found[key].ravel()] for key in ("names", "units")]
-        assert told == [["t", "bob.theta", "parameters.g"], ["s", "rad", "m/s^2"]]
+        message = [[str(cell[0]) for cell in found[key].ravel()] for key in ("names", "units")]
+        assert message == [["t", "bob.theta", "parameters.g"], ["s", "rad", "m/s^2"]]
         batch.to_mat(tmp_path / "all.mat")
         assert "bob_x" in loadmat(tmp_path / "all.mat")
 

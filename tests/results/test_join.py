@@ -1,4 +1,4 @@
-"""Several scenes in one Dataset, and the lists of a batch as long tables."""
+"""CombinedObserver scenes in one Dataset, and the lists of a batch as long tables."""
 
 from __future__ import annotations
 

@@ -48,9 +48,9 @@ def assert_same(one: Result, other: Result) -> None:
 
 @pytest.mark.parametrize("asked", ["before", "after"])
 @pytest.mark.parametrize(("name", "scene", "options"), SCENES)
-def test_a_result(name: str, scene: str, options: dict[str, Any], asked: str, tmp_path: Path) -> None:
+def test_a_result(name: str, scene: str, options: dict[str, Any], requested: str, tmp_path: Path) -> None:
     run = gudgeon.load(name, scene=scene).simulate(0.012, output=12, **options)
-    if asked == "before":  # series and what they follow from are stored
+    if requested == "before":  # series and what they follow from are stored
         assert len([run[series] for series in run.names])
     else:
         run.__dict__.pop("evaluation", None)  # as of a run of more samples than are kept at hand

@@ -51,7 +51,7 @@ def test_an_axis_over_time_has_three_ticks_at_least(power: float, middle: float)
     ax: Any = Figure(figsize=(4, 2.5)).add_subplot()
     low, high = (10**power * (middle + part) for part in (-0.02, 0.02))
     ax.plot([0.0, 1.0], [low, high])
-    plots._over_time(ax, "x [m]", [np.array([0.0, 1.0])], True)
+    plots._format_time_axis(ax, "x [m]", [np.array([0.0, 1.0])], True)
     begin, end = ax.get_ylim()
     assert sum(begin <= tick <= end for tick in ax.get_yticks()) > 2
 
@@ -142,11 +142,11 @@ def test_long_labels_stay_beside_their_axes(run: Result, ideal: Result) -> None:
     """Names of bodies are up to their owner: a label is folded until it is no taller than its row."""
     name = "the_rocker_of_the_second_stage.theta"
     picture = plots.figure({"dry": run}, ideal, ["S9.y"])
-    folded = plots._folded(picture.subfigs[0].axes[0], f"error of {name} [mrad]")
+    folded = plots._wrap_label(picture.subfigs[0].axes[0], f"error of {name} [mrad]")
     assert folded.replace("\n", " ").replace(". theta", ".theta") == f"error of {name} [mrad]"
     axes = picture.subfigs[0].axes[:3]
     for ax in axes:
-        ax.set_ylabel(plots._folded(ax, "error of second_rocker.theta [mrad]"))
+        ax.set_ylabel(plots._wrap_label(ax, "error of second_rocker.theta [mrad]"))
     picture.draw_without_rendering()
     spans = sorted((ax.yaxis.label.get_window_extent() for ax in axes), key=lambda box: -box.y1)
     assert all(above.y0 >= below.y1 for above, below in zip(spans, spans[1:], strict=False))
@@ -167,8 +167,8 @@ def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Res
     short = replace(run, diagnostics=replace(run.diagnostics, horizon=0.4), stored={})
     for shown, marked in ((short, True), (run, False)):
         picture = plots.figure({"dry": shown}, ideal, ["S9.y"])
-        told = [text.get_text() for text in picture.legends[0].get_texts()]
-        assert ("not to be trusted" in told) == marked
+        message = [text.get_text() for text in picture.legends[0].get_texts()]
+        assert ("not to be trusted" in message) == marked
         lines: Any = picture.subfigs[1].axes[0].lines
         grey = [line for line in lines if line.get_color() == plots.UNTRUSTED]
         assert len(grey) == marked
@@ -263,6 +263,6 @@ def test_what_turns_by_rounding_alone_is_noise_where_nothing_turns(ideal: Result
 
 def test_signs_without_a_font_are_told_once(ideal: Result, tmp_path: Path) -> None:
     named = replace(ideal, source=replace(ideal.source, title="機構"), stored={})
-    with pytest.warns(UserWarning) as told:
+    with pytest.warns(UserWarning) as message:
         plots.save_figure(plots.figure({"機": named}, named, ["S9.y"]), tmp_path / "x.png")
-    assert len(told) == 1 and "機" in str(told[0].message)
+    assert len(message) == 1 and "機" in str(message[0].message)

@@ -27,20 +27,20 @@ print("sympy" in sys.modules)
 def test_a_run_is_a_drawing_and_a_table() -> None:
     pytest.importorskip("matplotlib")
     run = gudgeon.load("four_bar").simulate(1.0)
-    told = run._repr_mimebundle_()
-    assert set(told) == KINDS and told["text/plain"] == repr(run)
-    cells = TREE.findall(told["text/html"])
+    message = run._repr_mimebundle_()
+    assert set(message) == KINDS and message["text/plain"] == repr(run)
+    cells = TREE.findall(message["text/html"])
     k = cells.index("transmission_angle")
     found = run["transmission_angle"]
     assert [float(x) for x in cells[k + 1 : k + 3]] == pytest.approx([found.min(), found.max()], rel=1e-4)
-    picture = re.search(r"data:image/png;base64,([^\"]+)", told["text/html"])
+    picture = re.search(r"data:image/png;base64,([^\"]+)", message["text/html"])
     assert picture and base64.b64decode(picture[1]).startswith(b"\x89PNG")
-    assert r"\mathrm{transmission\_angle}" in told["text/latex"] and told["text/latex"].count("{") > 10
+    assert r"\mathrm{transmission\_angle}" in message["text/latex"] and message["text/latex"].count("{") > 10
 
 
 def test_a_scene_is_what_it_is_made_of() -> None:
-    told = gudgeon.load("nine_bar_press", "dry")._repr_html_()
-    assert TREE.findall(told)[4:6] == ["joints with play", "2: A, B"] and "<script" not in told
+    message = gudgeon.load("nine_bar_press", "dry")._repr_html_()
+    assert TREE.findall(message)[4:6] == ["joints with play", "2: A, B"] and "<script" not in message
 
 
 def test_text_of_a_file_is_no_markup(tmp_path: Path) -> None:

@@ -96,8 +96,8 @@ def test_a_film_takes_what_the_engine_integrates(press: tuple[Result, Result]) -
     """Two films by F · v at Gauss's points; together the work that the time loop integrates beside the motion."""
     run, ideal = press
     found = run.report().to_dict()
-    taken = sum(joint["work"]["film"] for joint in found["joints"].values())
-    assert taken > 1e-4 and found["energy"]["clearances"] == pytest.approx(-taken, rel=1e-6)
+    used = sum(joint["work"]["film"] for joint in found["joints"].values())
+    assert used > 1e-4 and found["energy"]["clearances"] == pytest.approx(-used, rel=1e-6)
     for name, joint in found["joints"].items():
         assert joint["time"]["film"] == 1.0 and joint["contacts"] == 0 and joint["work"]["taken"] == 0.0
         assert joint["film_least"] == pytest.approx(joint["c"] - run.diagnostics.peak(name).e_max, rel=1e-14)
@@ -142,8 +142,8 @@ def test_a_file_has_the_same_report(
     assert again.to_html() == run.report().to_html() and str(again) == str(run.report())
     assert again.to_dict() == run.report().to_dict()
     json.dumps(again.to_dict(), allow_nan=False)
-    told = run.diagnostics.to_json()
-    assert Diagnostics.from_json(told).to_json() == told
+    message = run.diagnostics.to_json()
+    assert Diagnostics.from_json(message).to_json() == message
 
 
 def test_what_was_not_asked_for_is_named(bounces: dict[str, Result]) -> None:
@@ -162,9 +162,9 @@ def test_titles_are_text_and_a_page_needs_no_other(tmp_path: Path) -> None:
     (tmp_path / "ball.yaml").write_text(re.sub("title: .*", f"title: {title!r}", text), encoding="utf-8")
     out = str(tmp_path / "out")
     arguments = ["run", str(tmp_path / "ball.yaml"), "--scene", "damped", "--t-end", "0.5", "--report", "--out", out]
-    told = CliRunner().invoke(app, [*arguments, "--json"])
-    assert told.exit_code == 0, told.output
-    files: dict[str, Any] = json.loads(told.stdout)["files"]
+    message = CliRunner().invoke(app, [*arguments, "--json"])
+    assert message.exit_code == 0, message.output
+    files: dict[str, Any] = json.loads(message.stdout)["files"]
     page = Path(files["report damped"]).read_text(encoding="utf-8")
     assert "<script" not in page and "&lt;script&gt;" in page and page.count("<svg") == 1
     assert not re.search(r"(src|href)=|url\(|@import|https?:", page)
@@ -178,14 +178,14 @@ def test_films_say_where_they_are_left(press: tuple[Result, Result]) -> None:
     p = {slot.address: x for slot, x in zip(run.source.slots, run.p, strict=False)}
     radius, c, length = (p[f"bearings.pin.{key}"] for key in ("radius", "clearance", "length"))
     files = run.source.files["clearance.c"]
-    told = {}
+    message = {}
     for law in ("pinkus_sternlicht", "ocvirk", "finite_length"):
         text = {**run.source.files, "clearance.c": files.replace("pinkus_sternlicht(", f"{law}(")}
         found = replace(run, source=replace(run.source, files=text)).report().to_dict()["warnings"]
-        told[law] = [note for note in found if note.startswith("A: ")]
+        message[law] = [note for note in found if note.startswith("A: ")]
     ratio = f"A: L/D is {length / (2 * (radius - c)):.3g}: "
-    assert told["pinkus_sternlicht"][0].startswith(ratio) and "ω" in told["pinkus_sternlicht"][1]
-    assert [note.startswith(ratio) for note in told["ocvirk"]] == [True] and not told["finite_length"]
+    assert message["pinkus_sternlicht"][0].startswith(ratio) and "ω" in message["pinkus_sternlicht"][1]
+    assert [note.startswith(ratio) for note in message["ocvirk"]] == [True] and not message["finite_length"]
 
 
 def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -209,10 +209,10 @@ def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch
 def test_a_run_at_the_command_line_tells_what_a_film_is_beyond(tmp_path: Path) -> None:
     """Without a report: the press's films are finite ones, L/D = 40 mm/(2 · 14.7 mm), by a law of long ones."""
     arguments = ["run", "nine_bar_press", "--scene", "lubricated", "--t-end", "1 ms", "--out", str(tmp_path)]
-    told = CliRunner().invoke(app, arguments)
-    assert told.exit_code == 0
+    message = CliRunner().invoke(app, arguments)
+    assert message.exit_code == 0
     for joint in "AB":
-        assert f"note: lubricated: {joint}: L/D is 1.36: pinkus_sternlicht is good for L/D above 4" in told.output
+        assert f"note: lubricated: {joint}: L/D is 1.36: pinkus_sternlicht is good for L/D above 4" in message.output
     document = json.loads(CliRunner().invoke(app, [*arguments, "--json"]).stdout)
     beyond = {name: scene["beyond"] for name, scene in document["scenes"].items()}
     assert len(beyond["lubricated"]) >= 2 and beyond.get("ideal", []) == []
@@ -249,9 +249,9 @@ scenes: {oil: {play: {A: {bearing: b, contact: oil}}}}
 
 def test_every_law_is_told_with_its_conventions() -> None:
     """However long its source and validity are, and that of mixed lubrication, which is no function of C, too."""
-    told = laws_of(generate(LAWS.encode(), "disc.yaml", "oil"))
-    assert [law["title"].split(":")[0] for law in told] == ["ESDU 78035", "Ocvirk", "Greenwood and Tripp"]
-    for law, name in zip(told, ("esdu_78035", "ocvirk", "greenwood_tripp"), strict=True):
+    message = laws_of(generate(LAWS.encode(), "disc.yaml", "oil"))
+    assert [law["title"].split(":")[0] for law in message] == ["ESDU 78035", "Ocvirk", "Greenwood and Tripp"]
+    for law, name in zip(message, ("esdu_78035", "ocvirk", "greenwood_tripp"), strict=True):
         own = laws()[name]
         assert (law["title"], law["source"], law["valid"]) == (own.title, own.source, own.validity)
-    assert "cavitation: full" in told[1]["options"] and "angular_velocity: relative" in told[1]["options"]
+    assert "cavitation: full" in message[1]["options"] and "angular_velocity: relative" in message[1]["options"]

@@ -67,8 +67,8 @@ def test_every_film_law_can_be_held_against_it(law: str) -> None:
         ({"l_over_d": 1e300}, "expected 1e-6 to 1e6"),
     ],
 )
-def test_what_is_no_question(how: dict[str, object], told: str) -> None:
-    with pytest.raises(InputError, match=told):
+def test_what_is_no_question(how: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         deviation(**{"law": "pinkus_sternlicht", "l_over_d": 1.0, **how})  # type: ignore[arg-type]
 
 

@@ -132,8 +132,8 @@ SHAPE = {"radius": 0.01, "length": 0.02, "clearance": 1e-5, "viscosity": 0.1}
         ({"length": np.timedelta64(3, "s")}, "length"),
     ],
 )
-def test_bearings_that_are_none(change: dict[str, Any], told: str) -> None:
-    with pytest.raises(BadValueError, match=told):
+def test_bearings_that_are_none(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(BadValueError, match=message):
         Bearing(**{**SHAPE, **change})
 
 
@@ -159,14 +159,14 @@ def test_bearings_that_are_none(change: dict[str, Any], told: str) -> None:
         ({"omega_journal": 1e308, "cells": CELLS}, "too far from 1 for doubles"),
     ],
 )
-def test_questions_that_are_none(change: dict[str, Any], told: str) -> None:
-    with pytest.raises(BadValueError, match=told):
+def test_questions_that_are_none(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(BadValueError, match=message):
         solve(**{"bearing": BEARING, "eccentricity": (1e-6, 0.0), **change})
 
 
 def test_tables_that_are_none() -> None:
-    for eps, told in ((1.0, "less than 1"), (-0.1, "no less than 0"), (math.nan, "eps")):
-        with pytest.raises(BadValueError, match=told):
+    for eps, message in ((1.0, "less than 1"), (-0.1, "no less than 0"), (math.nan, "eps")):
+        with pytest.raises(BadValueError, match=message):
             table(BEARING, [0.5, eps], omega_s=1.0)
     with pytest.raises(BadValueError, match="do not go together"):
         table(BEARING, [0.5, 0.6], [1.0, 2.0, 3.0])

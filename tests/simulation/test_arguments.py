@@ -37,11 +37,11 @@ pytestmark = needs_compiler
         ({"step": "5 furlongs"}, "furlong"),
     ],
 )
-def test_what_is_refused(options: dict[str, Any], told: str) -> None:
+def test_what_is_refused(options: dict[str, Any], message: str) -> None:
     pendulum = gudgeon.load("pendulum")
     with pytest.raises(BadValueError if "furlongs" not in str(options) else gudgeon.InputError) as caught:
         pendulum.simulate(0.01, **options)
-    assert told in str(caught.value)
+    assert message in str(caught.value)
     if "method" not in options and "step" not in options:
         with pytest.raises(BadValueError):
             pendulum.simulate_many({}, 0.01, **options)

@@ -93,8 +93,8 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     garbage = "    out[0] = out[1] = (Range){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
     stale = "    aside->g[0] = aside->g[1] = -1.0;"
     wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
-    said = reported(wrong, 6.0)  # whichever comes first
-    assert "check branch" in said or "changes its side without end" in said
+    specified = reported(wrong, 6.0)  # whichever comes first
+    assert "check branch" in specified or "changes its side without end" in specified
 
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
@@ -196,7 +196,7 @@ def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, 
     right = gudgeon.load("andrews_squeezer")
     assert not reported(right, 0.03, method=method)
     # the distance from the constraint equations would refuse the worst of these steps
-    also = ("engine/both/distance.h", "#define FAR_FROM_ROWS 10.0", "#define FAR_FROM_ROWS INFINITY")
+    also = ("engine/both/distance.h", "#define MAX_CONSTRAINT_DRIFT 10.0", "#define MAX_CONSTRAINT_DRIFT INFINITY")
     assert "audit: check" in reported(mutant(right, tmp_path, edit, also), 0.03, method=method)
 
 

@@ -242,10 +242,10 @@ def test_ctrl_c_in_a_dense_solve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     file = tmp_path / "bars.yaml"
     file.write_text(n_four_bar(1), encoding="utf-8")
     bars = gudgeon.load(file, formulation="full")
-    complete, asked = bars.simulate(1.0, output=30, rtol=1e-12), []
-    bars.simulate(1.0, output=30, rtol=1e-12, progress=lambda fraction, text: asked.append(fraction))
-    assert len(asked) > complete.diagnostics.right_hand_sides + 20  # rows of dense systems asked too
-    for number in range(40, len(asked), len(asked) // 6):
+    complete, requested = bars.simulate(1.0, output=30, rtol=1e-12), []
+    bars.simulate(1.0, output=30, rtol=1e-12, progress=lambda fraction, text: requested.append(fraction))
+    assert len(requested) > complete.diagnostics.right_hand_sides + 20  # rows of dense systems asked too
+    for number in range(40, len(requested), len(requested) // 6):
         check_kept(bars.simulate(1.0, output=30, rtol=1e-12, progress=signal_at(number)), complete)
 
 
@@ -294,8 +294,8 @@ def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
     given = (MECHANISMS / "nine_bar_press.yaml").read_text(encoding="utf-8")
     file = tmp_path / "printed.yaml"
     file.write_text(given.replace("viscosity: 100 cP}", "viscosity: 100 cP, as_printed: true}"), encoding="utf-8")
-    told = r"no longer advances at t = 0\.212(.|\n)*changes its form \(a corner of a law\)(.|\n)*computed is kept"
-    with pytest.raises(SolverError, match=told) as caught:
+    message = r"no longer advances at t = 0\.212(.|\n)*changes its form \(a corner of a law\)(.|\n)*computed is kept"
+    with pytest.raises(SolverError, match=message) as caught:
         gudgeon.load(file, "lubricated").simulate(0.5, output=500, parameters={"c": "0.6 mm", "omega": 3 * math.pi})
     run = caught.value.partial
     assert isinstance(run, Result) and 0.21 < run.t[-1] < 0.213 and len(run.t) == 214
@@ -311,8 +311,8 @@ OUTRUN = [
 @pytest.mark.parametrize(("value", "least", "most"), slow_rows_but(OUTRUN[:1], OUTRUN))
 def test_a_drive_that_cannot_be_followed(value: str, least: float, most: float) -> None:
     """A pole through which the rate comes back is a jump: it is told where it is, as of what its form does not show."""
-    told = r"no longer advances at t = (.|\n)*drive motor is at .* rad, its rate|drive motor: it jumps by .* at t = "
-    with pytest.raises(SolverError, match=told) as caught:
+    message = r"no longer advances at t = (.|\n)*drive motor is at .* rad, its rate|drive motor: it jumps by .* at t = "
+    with pytest.raises(SolverError, match=message) as caught:
         four_bar(value).simulate(1.0, output=20)
     t = float(str(caught.value).split("t = ")[1].split(" s")[0])
     run = caught.value.partial

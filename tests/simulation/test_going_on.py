@@ -62,8 +62,8 @@ def test_other_numbers_are_taken_and_told(options: dict[str, Any]) -> None:
     state = pendulum.simulate(0.5, output=1, parameters={"g": 1.62}).final
     run = pendulum.simulate(1.0, output=1, start=state, parameters={"parameters.g": "9.81 m/s^2"}, **options)
     assert run.parameters["g"] == 9.81
-    told = "goes on from t = 0.5 s with other numbers: parameters.g 9.81 m/s^2 (before 1.62 m/s^2)"
-    assert told in run.diagnostics.notes
+    message = "goes on from t = 0.5 s with other numbers: parameters.g 9.81 m/s^2 (before 1.62 m/s^2)"
+    assert message in run.diagnostics.notes
     same = pendulum.simulate(1.0, output=1, start=state, parameters={"g": 1.62}, **options)
     assert not same.diagnostics.notes and same.parameters["g"] == 1.62
 
@@ -74,11 +74,11 @@ def test_a_state_off_its_constraints_is_told(part: str) -> None:
     pendulum = gudgeon.load("pendulum")
     final = pendulum.simulate(0.5, output=1).final
     off = replace(final, **{part: getattr(final, part) + 0.01})
-    for simulation, taken in ((pendulum, "closes the others anew"), (pendulum.full, "begins with it as it stands")):
+    for simulation, used in ((pendulum, "closes the others anew"), (pendulum.full, "begins with it as it stands")):
         run = simulation.simulate(0.51, output=1, start=off)
         batch = simulation.simulate_many([{}], 0.51, output=1, start=[off])
         for notes in (run.diagnostics.notes, batch[0].diagnostics.notes):
-            assert notes[0].startswith("the state at t = 0.5 s is off the constraints, rows ") and taken in notes[0]
+            assert notes[0].startswith("the state at t = 0.5 s is off the constraints, rows ") and used in notes[0]
         assert not simulation.simulate(0.51, output=1, start=final).diagnostics.notes
 
 

@@ -93,7 +93,7 @@ def test_run_with_horizon_ends_with_130_and_keeps_the_run(
 @pytest.mark.parametrize("method", ["scipy:Radau", "sundials:cvode"])
 def test_a_cross_check_stores_its_start_first(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C while its package is imported: a partial result, as of any other method."""
-    monkeypatch.setattr(python_driver, "_stepper", ctrl_c_at(1, python_driver._stepper))
+    monkeypatch.setattr(python_driver, "_stepper", ctrl_c_at(1, python_driver._make_stepper))
     dry = press("dry")
     run = dry.simulate(0.01, method=method)
     assert run.diagnostics.interrupted and len(run.t) == 1 and run.t[0] == 0.0
@@ -177,7 +177,7 @@ def test_a_map_keeps_its_shape(one_thread: None, monkeypatch: pytest.MonkeyPatch
 
 def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """The references, then two rows, then Ctrl-C."""
-    monkeypatch.setattr(benches, "_row", ctrl_c_at(3, benches._row))
+    monkeypatch.setattr(benches, "_make_row", ctrl_c_at(3, benches._make_row))
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     found = bench(pendulum, [1e-3, 2e-3, 5e-3], [1e-6], t_end=0.1, quick=True)
     assert [row.setting.value for row in found.rows] == [5e-3, 2e-3]
@@ -185,7 +185,7 @@ def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_bench_says_that_it_is_a_part(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(benches, "_row", ctrl_c_at(3, benches._row))
+    monkeypatch.setattr(benches, "_make_row", ctrl_c_at(3, benches._make_row))
     done = call("bench", PENDULUM, "--scene", "ideal", "--quick")
     assert done.exit_code == 130, done.output
     assert "interrupted: what is shown and written is partial (ideal: 2 of" in done.stderr

@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
-from gudgeon.simulation.horizon import begin_of
-from gudgeon.simulation.lyapunov import no_tangent
+from gudgeon.simulation.horizon import start_of_run
+from gudgeon.simulation.lyapunov import reason_without_tangent
 from gudgeon.simulation.neighbours import Neighbours
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.simulation.tangent import Flow, Tangent
@@ -149,11 +149,11 @@ def ball(scene: str, folder: Path | None = None) -> Simulation:
 def carried(simulation: Simulation, t: float, difference: Any) -> tuple[np.ndarray, np.ndarray]:
     """A difference of y at the start as the tangent has it at t, and ẏ there; `difference` of ẏ at the start."""
     run = simulation.simulate(t, output=4, rtol=1e-12)
-    flow, start = Flow(simulation.compiled, run), begin_of(run)
+    flow, start = Flow(simulation.compiled, run), start_of_run(run)
     pair = Tangent(simulation, Neighbours.of(run, simulation.compiled), {"rtol": 1e-12}, start, False, flow)
     y, chain = flow.reduced(0.0, np.concatenate([start.q, start.v]))
     pair.z = np.append(difference(flow.rates(0.0, y, chain, start.memory)), [0.0, 0.0])
-    pair.distance = scale = pair._apart(start, pair.z)
+    pair.distance = scale = pair._tangent_norm(start, pair.z)
     ended = pair.advance(t, True)
     assert ended is not None
     run, grown = ended
@@ -241,7 +241,7 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
             duffing.lyapunov(1.0, **odd)
     with pytest.raises(BadValueError, match="no section"):
         _ = duffing.lyapunov(1.0).motion
-    assert no_tangent(duffing.source) == ""
+    assert reason_without_tangent(duffing.source) == ""
 
 
 def test_a_scene_that_sticks_is_followed_by_a_twin() -> None:

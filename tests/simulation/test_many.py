@@ -21,7 +21,7 @@ from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.batch import Batch
-from gudgeon.results.peaks import is_blow, peaks_of
+from gudgeon.results.peaks import is_rigid_impact, peaks_of
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 
@@ -137,7 +137,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
     peaks = peaks_of(np.zeros((9, 4, 3)), runs.contacts, np.diff(runs.cuts))
     for i, k in np.ndindex(9, 4):
         first = expected[i][expected[i]["joint"] == k][:1]
-        force = np.where(is_blow(first), np.nan, first["F_peak"])
+        force = np.where(is_rigid_impact(first), np.nan, first["F_peak"])
         np.testing.assert_array_equal(peaks["first_contact"][i, k], first["t_on"][0] if len(first) else np.nan)
         np.testing.assert_array_equal(peaks["first_peak"][i, k], force[0] if len(first) else np.nan)
 

@@ -98,8 +98,8 @@ def test_numbers_that_a_state_does_not_fit_fail_their_run() -> None:
         (lambda: press().simulate(0.001, output=2), "give its `final`"),
     ],
 )
-def test_what_is_no_start_is_refused(starts: Any, told: str) -> None:
-    with pytest.raises(BadValueError, match=told):
+def test_what_is_no_start_is_refused(starts: Any, message: str) -> None:
+    with pytest.raises(BadValueError, match=message):
         press().simulate_many({"c": list(C)}, 0.1, start=starts())
 
 

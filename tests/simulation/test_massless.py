@@ -39,9 +39,9 @@ def stripped(name: str, tmp_path: Path, keys: str = "mass|inertia", body: str = 
 @pytest.mark.parametrize("name", slow_but(KINEMATIC[:3:2], KINEMATIC))
 def test_the_motion_is_the_same_to_the_bit(name: str, tmp_path: Path) -> None:
     """But for the start's rates, which the metric of M rounds another way."""
-    asked: dict[str, Any] = {"t_end": 0.1, "output": 200}
-    with_masses = gudgeon.load(ROOT / name).simulate(**asked)
-    without = gudgeon.load(stripped(name, tmp_path)).simulate(**asked)
+    requested: dict[str, Any] = {"t_end": 0.1, "output": 200}
+    with_masses = gudgeon.load(ROOT / name).simulate(**requested)
+    without = gudgeon.load(stripped(name, tmp_path)).simulate(**requested)
     assert without.source.massless and without.diagnostics.method == "kinematic"
     np.testing.assert_array_equal(without.q, with_masses.q)
     for ours, theirs in ((without.v, with_masses.v), (without.a, with_masses.a)):
@@ -85,8 +85,8 @@ start: {{guess: {{rod.theta: 0, slider.x: {0.17 * scale!r}}}}}
 
 def test_what_follows_from_masses_is_left_out(tmp_path: Path) -> None:
     run = gudgeon.load(stripped(KINEMATIC[0], tmp_path)).simulate(t_end=0.1, output=10)
-    told = [name for name in run.names if re.search(r"\.(F|Fx|Fy|M|torque)$|^(lambda|energy|work)\.", name)]
-    assert not told
+    message = [name for name in run.names if re.search(r"\.(F|Fx|Fy|M|torque)$|^(lambda|energy|work)\.", name)]
+    assert not message
     joint, row = run.source.joints[0].name, run.source.rows[0].name
     for name in ("energy.kinetic", "work.drives", f"{joint}.F", f"lambda.{row}"):
         with pytest.raises(UnknownNameError, match="have no mass or no inertia\n  give every body mass: and inertia:"):
@@ -128,21 +128,26 @@ def test_dynamics_says_which_is_missing(driven: bool, keys: str, lacks: str, tmp
     line = next(i for i, text in enumerate(file.read_text().splitlines(), 1) if text.startswith("  rod: "))
     where = caught.value.where
     assert where is not None and (where.line, where.column) == (line, 3)
-    asked = [key for key in ("mass", "inertia") if f"{key}:" in caught.value.hint.partition(" of rod")[0]]
-    assert asked == lacks.split(" and no ")
+    requested = [key for key in ("mass", "inertia") if f"{key}:" in caught.value.hint.partition(" of rod")[0]]
+    assert requested == lacks.split(" and no ")
 
 
 def test_all_that_is_missing_is_told_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = stripped("mechanisms/slider_crank.yaml", tmp_path)
     text = file.read_text(encoding="utf-8").splitlines()
-    line = {name: k for k, told in enumerate(text, 1) for name in ("rod", "slider") if told.startswith(f"  {name}: {{")}
+    line = {
+        name: k
+        for k, message in enumerate(text, 1)
+        for name in ("rod", "slider")
+        if message.startswith(f"  {name}: {{")
+    }
     listed = rf"bodies crank, rod \(line {line['rod']}\), slider \(line {line['slider']}\) have no mass and no inertia"
     with pytest.raises(MissingKeyError, match=listed):
         gudgeon.load(file, scene="dry")
     assert check_file(str(file), verbose=False, as_json=False) == 2  # as run has it
-    told = " ".join(capsys.readouterr().out.split())
-    assert told.startswith("valid, but scene dry cannot be run: 3 bodies,")
-    assert "masses: scene dry moves by forces and cannot be run: crank has no mass and no inertia" in told
+    message = " ".join(capsys.readouterr().out.split())
+    assert message.startswith("valid, but scene dry cannot be run: 3 bodies,")
+    assert "masses: scene dry moves by forces and cannot be run: crank has no mass and no inertia" in message
 
 
 def test_mass_without_inertia_asks_for_nothing_where_nothing_moves_by_forces(tmp_path: Path) -> None:

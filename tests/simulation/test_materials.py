@@ -122,19 +122,19 @@ def test_two_roles_of_one_material_have_the_bits_of_one_number(tmp_path: Path) -
 
 def test_a_scene_a_run_and_the_file_say_the_same(scenes: Scenes) -> None:
     """And the run tells what it was told to choose, in its record too."""
-    chosen = {JOURNAL: "bronze", SHAPE: "bronze"}
+    selected = {JOURNAL: "bronze", SHAPE: "bronze"}
     runs = [
-        scenes.dry.simulate(parameters=chosen),
+        scenes.dry.simulate(parameters=selected),
         scenes.soft.simulate(),
-        gudgeon.load(scenes.file, "dry", overrides=chosen).simulate(),
+        gudgeon.load(scenes.file, "dry", overrides=selected).simulate(),
     ]
     assert len(runs[0].impacts)
     for run in runs[1:]:
         np.testing.assert_array_equal(run.q, runs[0].q)
         assert run.impacts.tobytes() == runs[0].impacts.tobytes()
     assert f"{JOURNAL} is bronze (the scene's is steel)" in runs[0].diagnostics.notes
-    told = [note.text for note in gathered([(0, (*runs[0].diagnostics.notes, "another"))]).values()]
-    assert "another" in told and JOURNAL not in " ".join(told)  # a study's coordinates say what it chooses
+    message = [note.text for note in gathered([(0, (*runs[0].diagnostics.notes, "another"))]).values()]
+    assert "another" in message and JOURNAL not in " ".join(message)  # a study's coordinates say what it chooses
     assert all(run.parameters[JOURNAL] == "bronze" and run.parameters[HOLE] == "steel" for run in runs)
 
 
@@ -204,8 +204,8 @@ def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
     one = typed(scenes.dry, f"{JOURNAL}=glue, steel")
     assert [one.parameters(x) for x in one.values] == [{JOURNAL: "steel"}, {JOURNAL: "glue"}]
     assert [value(one, x) for x in one.values] == ["steel", "glue"]
-    told = ["map", str(scenes.file), "--scene", "dry", "--quick", "--t-end", "0.2 ms", "--out", str(tmp_path)]
-    ran = CliRunner().invoke(app, [*told, "--axis", f"{JOURNAL}=glue,steel", "--axis", "rtol=1e-6"])
+    message = ["map", str(scenes.file), "--scene", "dry", "--quick", "--t-end", "0.2 ms", "--out", str(tmp_path)]
+    ran = CliRunner().invoke(app, [*message, "--axis", f"{JOURNAL}=glue,steel", "--axis", "rtol=1e-6"])
     assert ran.exit_code == 0, ran.output
     assert "steel" in ran.output and f"{JOURNAL}=glue" in (tmp_path / "drop_map.csv").read_text()
 
@@ -244,22 +244,22 @@ def test_a_stiffness_axis_moves_what_the_run_has(scenes: Scenes) -> None:
 
 def test_on_the_command_line(scenes: Scenes, tmp_path: Path) -> None:
     """The ideal run has the choice of the body too, and nothing of the bearing."""
-    told = ["run", str(scenes.file), "--scene", "dry", "--out", str(tmp_path / "out"), "--t-end", "2ms"]
-    ran = CliRunner().invoke(app, [*told, "--set", f"{JOURNAL}=bronze", "--set", f"{SHAPE}=foam"])
+    message = ["run", str(scenes.file), "--scene", "dry", "--out", str(tmp_path / "out"), "--t-end", "2ms"]
+    ran = CliRunner().invoke(app, [*message, "--set", f"{JOURNAL}=bronze", "--set", f"{SHAPE}=foam"])
     assert ran.exit_code == 0, ran.output
     assert f"{JOURNAL} is bronze" in ran.output
     assert f"{SHAPE} is foam" in ran.output
-    ran = CliRunner().invoke(app, [*told, "--set", f"{JOURNAL}=bronse"])
+    ran = CliRunner().invoke(app, [*message, "--set", f"{JOURNAL}=bronse"])
     assert ran.exit_code == 2
 
 
 def test_errors_against_another_scene_take_what_is_chosen(scenes: Scenes) -> None:
     """The scene beside has the run's materials: against itself the error is none, whatever was chosen."""
     dry = gudgeon.load("nine_bar_press", scene="dry")
-    chosen = {"bearings.pin.bearing_material": "aluminium", "bearings.pin.journal_material": "steel_45"}
-    run = dry.simulate(2e-4, parameters=chosen, output=2, peaks=["S9.y"], against=gudgeon.load("nine_bar_press"))
+    selected = {"bearings.pin.bearing_material": "aluminium", "bearings.pin.journal_material": "steel_45"}
+    run = dry.simulate(2e-4, parameters=selected, output=2, peaks=["S9.y"], against=gudgeon.load("nine_bar_press"))
     assert 0.0 < run.peak_error("S9.y").abs < 1e-6
-    beside = dry.simulate(2e-4, parameters=chosen, output=2, peaks=["S9.y"], against=dry)
+    beside = dry.simulate(2e-4, parameters=selected, output=2, peaks=["S9.y"], against=dry)
     assert beside.peak_error("S9.y").abs < 1e-12
     with pytest.raises(UnknownNameError, match="nothing named 'typo'"):
-        _ = dry.simulate_many([chosen], 1e-4, output=2)["typo"]
+        _ = dry.simulate_many([selected], 1e-4, output=2)["typo"]

@@ -406,10 +406,10 @@ def test_what_is_told(pendulum: Simulation) -> None:
         (lambda: pendulum.simulate_many({"g": [[1], [2, 3]]}), "parameters: g is list [[1], [2, 3]]: expected one"),
         (lambda: pendulum.simulate_many([{}], threads="two"), "threads is 'two': expected a number"),  # type: ignore[arg-type]
     ]
-    for call, told in refused:
+    for call, message in refused:
         with pytest.raises(InputError) as caught:
             call()
-        assert told in str(caught.value)
+        assert message in str(caught.value)
 
 
 def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
@@ -434,12 +434,12 @@ def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
         (0, -np.inf, "remembers -inf"),
     ],
 )
-def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> None:
+def test_a_state_that_contradicts_itself(code: int, rate: float, message: str) -> None:
     crank = gudgeon.load("slider_crank", "dry")
     final = crank.simulate(1e-3, output=1).final
     codes, memory = final.state.copy(), final.memory.copy()
     codes[0], memory[0] = code, rate
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         crank.simulate(2e-3, output=1, start=replace(final, state=codes, memory=memory))
     codes[0], memory[0] = 0, np.nan
     crank.simulate(2e-3, output=1, start=replace(final, state=codes, memory=memory))
@@ -460,10 +460,10 @@ def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> N
         (["bench", "pendulum", "--csv", ""], "'': expected a name"),
     ],
 )
-def test_odd_options(arguments: list[str], told: str) -> None:
+def test_odd_options(arguments: list[str], message: str) -> None:
     shown = CliRunner().invoke(app, arguments)
     assert shown.exit_code == 2
-    assert told in " ".join(shown.output.split())
+    assert message in " ".join(shown.output.split())
     assert not list(Path().iterdir())
 
 

@@ -146,8 +146,8 @@ def test_friction_that_tears_loose() -> None:
     """Right before a block of 1 kg tears loose it is held by Fs, right behind by Fk; then it swings about Fk/k."""
     block = gudgeon.load("belt_block")
     every: list[dict[str, Any]] = [{"rtol": 1e-10}, {"step": 1e-3}]
-    for chosen in every:
-        run = block.simulate(0.8, output=7, peaks=["block.ax", "rub.F"], **chosen)
+    for selected in every:
+        run = block.simulate(0.8, output=7, peaks=["block.ax", "rub.F"], **selected)
         assert run.peak("rub.F").max == pytest.approx(5.886, rel=1e-9)
         assert run.peak("block.ax").min == pytest.approx(-math.hypot(5.886 - 3.924, 0.1 * 10.0), rel=1e-9)
         assert run.peak("block.ax").max == pytest.approx(3.924, rel=1e-12)
@@ -200,9 +200,9 @@ def test_batches(pump: dict[str, Simulation], tmp_path: Path) -> None:
     """Each run as it is alone; as columns, and from a file again."""
     names, many = ["piston.ax", "B.F"], {"c": [1e-4, 2e-4, -1.0]}
     for more in ({}, {"step": 2e-6}):
-        chosen: dict[str, Any] = {"output": 3, "peaks": names, "against": pump["ideal"]} | more
-        batch = pump["worn"].simulate_many(many, 0.005, **chosen)
-        alone = [pump["worn"].simulate(0.005, parameters={"c": c}, **chosen) for c in (1e-4, 2e-4)]
+        selected: dict[str, Any] = {"output": 3, "peaks": names, "against": pump["ideal"]} | more
+        batch = pump["worn"].simulate_many(many, 0.005, **selected)
+        alone = [pump["worn"].simulate(0.005, parameters={"c": c}, **selected) for c in (1e-4, 2e-4)]
         assert [batch[i].diagnostics.extremes for i in (0, 1)] == [run.diagnostics.extremes for run in alone]
         assert batch.peak("piston.ax").abs[:2].tolist() == [run.peak("piston.ax").abs for run in alone]
         assert batch.peak_error("piston.ax").t_min[:2].tolist() == [run.peak_error("piston.ax").t_min for run in alone]
@@ -241,8 +241,8 @@ def test_files(pump: dict[str, Simulation], tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("chosen", [{}, {"step": 2e-6}, {"method": "rodas5p"}], ids=["auto", "rk4", "rodas5p"])
-def test_who_looks_changes_nothing(pump: dict[str, Simulation], chosen: dict[str, Any]) -> None:
-    seen, unseen = (pump["worn"].simulate(0.01, output=50, peaks=peaks, **chosen) for peaks in (["piston.ax"], None))
+def test_who_looks_changes_nothing(pump: dict[str, Simulation], selected: dict[str, Any]) -> None:
+    seen, unseen = (pump["worn"].simulate(0.01, output=50, peaks=peaks, **selected) for peaks in (["piston.ax"], None))
     for name in ("q", "v", "work", "memory", "state", "impacts"):
         assert getattr(seen, name).tobytes() == getattr(unseen, name).tobytes(), name
     assert seen.diagnostics.peaks == unseen.diagnostics.peaks and seen.diagnostics.steps == unseen.diagnostics.steps
@@ -285,10 +285,10 @@ def test_a_parameter_is_no_series_and_a_time_is_a_float(cart: dict[str, Simulati
     """Suggestions were parameters, the name itself among them; t_min a number of NumPy's."""
     path = tmp_path / "cart.yaml"
     wrong = {"k": "'k' is a parameter, no series", "puhs": "unknown series 'puhs'\n  did you mean 'push'"}
-    for name, told in wrong.items():
+    for name, message in wrong.items():
         path.write_text(CART.replace("[cart.ax, motor.force]", f"[{name}]"), encoding="utf-8")
         with pytest.raises(UnknownNameError) as error:
             gudgeon.load(path, "ideal")
-        assert told in str(error.value)
+        assert message in str(error.value)
     found = cart["ideal"].simulate(0.1).diagnostics.extremes[0]
     assert {type(x) for x in (found.max, found.t_max, found.min, found.t_min)} == {float}

@@ -168,11 +168,11 @@ def test_friction_of_a_rigid_contact_is_told(tmp_path: Path) -> None:
     run = simulation.simulate(1.0, output=100)
     examined = gudgeon.examine(simulation, run).diagnostics.examined
     assert examined is not None and len(run.impacts) == 1
-    (told,) = examined.joints
-    assert told.friction == pytest.approx(-run["work.clearances"][-1], rel=1e-6) and told.friction > 0.05
-    assert math.isnan(told.taken) and math.isnan(told.returned)
+    (message,) = examined.joints
+    assert message.friction == pytest.approx(-run["work.clearances"][-1], rel=1e-6) and message.friction > 0.05
+    assert math.isnan(message.used) and math.isnan(message.returned)
     worn = gudgeon.wear(simulation, run, "J", k=1.0, law="reye")
-    assert worn.bearing.volume == pytest.approx(told.friction, rel=1e-6)
+    assert worn.bearing.volume == pytest.approx(message.friction, rel=1e-6)
 
 
 OILED = (
@@ -207,10 +207,10 @@ def test_oil_wears_nothing(tmp_path: Path) -> None:
         assert found.journal.volume == pytest.approx(1e-9 * share * tips * slip, rel=1e-6, abs=0.0)
     examined = gudgeon.examine(simulation, run).diagnostics.examined
     assert examined is not None
-    (told,), total = examined.joints, -run["work.clearances"][-1]
-    assert told.taken - told.returned + told.friction + told.film == pytest.approx(total, rel=1e-6)
+    (message,), total = examined.joints, -run["work.clearances"][-1]
+    assert message.used - message.returned + message.friction + message.film == pytest.approx(total, rel=1e-6)
     rubbed = gudgeon.wear(simulation, run, "J", k=1.0, law="reye").journal.volume
-    assert told.friction == pytest.approx(rubbed, rel=1e-5)
+    assert message.friction == pytest.approx(rubbed, rel=1e-5)
     with pytest.raises(BadValueError, match="what its film bears is known where all laws are gudgeon's own"):
         check_rubs(replace(run.source, laws=(("syrup", "0"),)), "J")
 

@@ -11,7 +11,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.simulation.wear_loop import on_slots, smoothed
+from gudgeon.simulation.wear_loop import means_on_slots, smoothed
 from gudgeon.studies.ensemble.block import run_block
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
@@ -37,8 +37,8 @@ def test_a_pin_sinks_into_its_bearing_as_archard_says(tmp_path: Path) -> None:
     """
     simulation, k, hardness = written(TURNING, tmp_path / "rig.yaml"), 1e-4, 2e9
     numbers: dict[str, Any] = {"of_ring": 0.0, "of_pin": [OMEGA, OMEGA / 2]}
-    asked: dict[str, Any] = {"k": k, "hardness": hardness, "parameters": numbers, "scale": 4000.0}
-    found = gudgeon.wear_loop(simulation, "J", T_END, rounds=3, **asked)
+    requested: dict[str, Any] = {"k": k, "hardness": hardness, "parameters": numbers, "scale": 4000.0}
+    found = gudgeon.wear_loop(simulation, "J", T_END, rounds=3, **requested)
     joint, turns = found.joints["J"], np.array([1.0, 0.5])
     volume = 4000.0 * k / hardness * M * G * OMEGA * turns * (R - C) * T_END
     np.testing.assert_allclose(joint.volume, np.tile(volume, (3, 1)), rtol=2e-3)
@@ -87,12 +87,12 @@ def test_cells_are_laid_on_slots_with_their_sum() -> None:
     rng = np.random.default_rng(8)
     for points, slots in ((3600, 64), (3600, 120), (50, 64), (8, 512)):
         depth = rng.uniform(0.0, 1.0, points)
-        found = on_slots(depth, slots)
+        found = means_on_slots(depth, slots)
         assert found.mean() == pytest.approx(depth.mean(), rel=1e-12)
         assert smoothed(found, 3).mean() == pytest.approx(depth.mean(), rel=1e-12)
     even = np.zeros(3600)
     even[:15], even[-15:] = 1.0, 1.0
-    assert on_slots(even, 120).tolist() == pytest.approx([1.0, *[0.0] * 119], abs=1e-9)
+    assert means_on_slots(even, 120).tolist() == pytest.approx([1.0, *[0.0] * 119], abs=1e-9)
 
 
 @needs_compiler
@@ -144,9 +144,9 @@ def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
         run = simulation.simulate(0.1, output=5, parameters=one, contour={"J": own})
         assert found[k] == run["J.e"][-1]
     assert found[1] > found[0] > C
-    plan, told = plans_of(study).each[""], list[float]()
-    run_block(plan.job(plan.blocks[0], 1), lambda fraction, _: told.append(fraction), simulation)
-    assert told == sorted(told) and {1 / 3, 2 / 3, 1.0} <= {*told}  # a round of wear is told as the runs are
+    plan, message = plans_of(study).each[""], list[float]()
+    run_block(plan.job(plan.blocks[0], 1), lambda fraction, _: message.append(fraction), simulation)
+    assert message == sorted(message) and {1 / 3, 2 / 3, 1.0} <= {*message}  # a round of wear is told as the runs are
     for name, wrong, words in (("joints", "O", "no scene has"), ("k", "1 mm", "wear.k"), ("rounds", 0, "rounds")):
         with pytest.raises(gudgeon.InputError, match=words):
             gudgeon.study(study | {"wear": wear | {name: wrong}})

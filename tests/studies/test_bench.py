@@ -22,7 +22,17 @@ from gudgeon.cli import app
 from gudgeon.contract.methods import STAGED
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.bench import ADAPTIVE, REFERENCES, SECOND, TRUSTED, Row, SceneBench, bench, other_than, references
+from gudgeon.studies.bench import (
+    ADAPTIVE,
+    REFERENCES,
+    SECOND,
+    TRUSTED,
+    Row,
+    SceneBench,
+    bench,
+    reference_by_other_method,
+    references,
+)
 from gudgeon.studies.methods import operations, time_rhs
 from gudgeon.studies.runs import (
     ONSETS,
@@ -124,10 +134,10 @@ def test_a_run_is_compared_with_another_method() -> None:
     first, second = (Attempt(setting, None) for setting in REFERENCES)
     assert references(of("rk4", "dop853", "rodas5p"), [Setting("rk4", 1e-3)]) == REFERENCES
     for method in ("rk4", "rodas5p"):
-        assert other_than([method], [first, second]) is first
-    assert other_than(["dop853"], [first, second]) is second
-    assert other_than(["dop853", "rodas5p"], [first, second]) is second
-    assert other_than(["rk4"], []) is None
+        assert reference_by_other_method([method], [first, second]) is first
+    assert reference_by_other_method(["dop853"], [first, second]) is second
+    assert reference_by_other_method(["dop853", "rodas5p"], [first, second]) is second
+    assert reference_by_other_method(["rk4"], []) is None
     assert references(of("rk4", "dop853"), []) == (REFERENCES[0], Setting("dop853", SECOND))
     shorter = references(of("rk4"), [Setting("rk4", 1e-3), Setting("rk4", 1e-2)])
     assert all(setting.method == "rk4" and setting.value <= 1e-3 / 4 for setting in shorter)
@@ -218,8 +228,8 @@ def test_command_writes_table_and_picture(tmp_path: Path, capsys: pytest.Capture
     assert {row["method"] for row in rows} == {"rk4", *USUAL}
     assert all(float(row["error_coordinates"]) >= 0 for row in rows if not row["failure"])
     assert table.with_suffix(".png").stat().st_size > 10_000
-    told = capsys.readouterr().out
-    assert "observed order" in told and max(map(len, told.splitlines())) <= 100
+    message = capsys.readouterr().out
+    assert "observed order" in message and max(map(len, message.splitlines())) <= 100
     app([*arguments, "--json", "--out", str(tmp_path)], standalone_mode=False)
     document = json.loads(capsys.readouterr().out)
     assert len(document["rows"]) == len(rows) and document["rows"][-1]["step_s"] is None

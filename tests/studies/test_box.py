@@ -15,11 +15,11 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.box import Range, _horizon, corners, judge_point, predictable, sobol
+from gudgeon.studies.box import Range, _count_predictable_samples, corners, judge_point, predictable_times, sobol
 from gudgeon.studies.map import VerdictBox, verdict_box
 from gudgeon.studies.runs import ONSETS, Error, Setting, Work, difference
-from gudgeon.studies.show.box import WORST, count, grouped, kind, worst_cells
-from gudgeon.studies.show.box_figure import box_figure, telling
+from gudgeon.studies.show.box import WORST, count, group_cells, kind, worst_cells
+from gudgeon.studies.show.box_figure import box_figure, rank_ranges
 from gudgeon.studies.show.map import compared
 from gudgeon.studies.show.tables import seconds
 from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, limits_of
@@ -68,8 +68,8 @@ def test_tolerance_is_held_to_what_it_promises() -> None:
 def test_comparison_ends_between_two_contacts_after_the_fourth() -> None:
     run = press("dry").simulate(0.05, output=10)
     onsets = np.sort(run.impacts["t_on"])
-    assert onsets[ONSETS - 1] < predictable(run)[-1] < onsets[ONSETS]
-    assert predictable(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
+    assert onsets[ONSETS - 1] < predictable_times(run)[-1] < onsets[ONSETS]
+    assert predictable_times(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
 
 
 @needs_compiler
@@ -78,7 +78,10 @@ def test_errors_are_told_with_the_time_that_was_compared() -> None:
     dry, loose = press("dry"), Setting("rodas5p", 1e-6)
     cell = judge_point(dry, {}, 0.1, loose)
     times = np.linspace(0.0, cell.compared, 1001)
-    assert times[-1] == predictable(dry.simulate(output=np.linspace(0.0, 0.1, 10_001), method="rodas5p", rtol=1e-6))[-1]
+    assert (
+        times[-1]
+        == predictable_times(dry.simulate(output=np.linspace(0.0, 0.1, 10_001), method="rodas5p", rtol=1e-6))[-1]
+    )
     coarse, fine = (dry.simulate(output=times, method="rodas5p", rtol=rtol) for rtol in (1e-6, 1e-8))
     assert cell.error == difference(coarse, fine)
     found = VerdictBox("dry", loose, (), (), (cell,), 0.1)
@@ -90,10 +93,10 @@ def test_horizon_lies_where_tight_runs_come_apart_by_more_than_their_tolerance_a
     """Dry motion multiplies differences: a late sample says nothing of a run, the first contacts do."""
     work, times = Work(press("dry"), 0.5), np.linspace(0.0, 0.5, 1001)
     fine = work.sampled(Setting("auto", 1e-10), times)
-    known = _horizon(work, fine, STRICT)
+    known = _count_predictable_samples(work, fine, STRICT)
     assert 0.01 < times[known] < 0.45
     work = Work(press("lubricated"), 0.05)
-    assert _horizon(work, work.sampled(Setting("auto", 1e-10), times[:100]), STRICT) > 100
+    assert _count_predictable_samples(work, work.sampled(Setting("auto", 1e-10), times[:100]), STRICT) > 100
 
 
 @needs_compiler
@@ -149,7 +152,7 @@ def test_reasons_are_grouped_without_their_numbers() -> None:
         cell(Status.INACCURATE, "joint force off by 4e-7 of its peak"),
         cell(Status.DIVERGED, "a journal flew through its bearing: δ = 3 mm"),
     ]
-    found = [(status, reason, len(own)) for status, reason, own in grouped(cells)]
+    found = [(status, reason, len(own)) for status, reason, own in group_cells(cells)]
     assert found == [
         (Status.DIVERGED, "no step is small enough", 2),
         (Status.DIVERGED, "a journal flew through its bearing", 1),
@@ -160,8 +163,8 @@ def test_reasons_are_grouped_without_their_numbers() -> None:
     worst = [c.reason for c in worst_cells(cells)]
     assert worst[:3] == [cells[0].reason, cells[5].reason, cells[3].reason] and len(worst) == 5  # one of each first
     assert len(worst_cells(cells * 9)) == WORST
-    told = count([*cells, cell(Status.MISSING)])
-    assert told.startswith("7 points: 1 stable, 2 inaccurate, 3 diverged, 1 not judged")
+    message = count([*cells, cell(Status.MISSING)])
+    assert message.startswith("7 points: 1 stable, 2 inaccurate, 3 diverged, 1 not judged")
 
 
 def test_where_nothing_failed_the_largest_errors_are_the_worst() -> None:
@@ -174,11 +177,11 @@ def test_the_ranges_that_tell_most_are_those_that_decide() -> None:
     edges = (Range("a", 1.0, 10.0), Range("b", 1.0, 100.0), Range("c", 1e-3, 1.0))
     points = (*corners(edges), *sobol(edges, 32))
     failing = made([(Status.DIVERGED if p["b"] > 10 else Status.STABLE, math.nan) for p in points], edges)
-    assert telling(failing)[0] == 1
+    assert rank_ranges(failing)[0] == 1
     stable = made([(Status.STABLE, 1e-9 * p["c"]) for p in points], edges)
-    assert telling(stable)[0] == 2
+    assert rank_ranges(stable)[0] == 2
     lost = made([(Status.MISSING, math.nan)] * len(points), edges)
-    assert telling(lost) == [0, 1, 2]
+    assert rank_ranges(lost) == [0, 1, 2]
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])

@@ -206,8 +206,8 @@ def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() 
     assert (
         hard.parameters == {"parameters.omega": 20.0, "materials.aluminium.E": 4e11} and hard.setting == found.setting
     )
-    told = command("nine_bar_press", "dry", hard, 0.02)
-    assert "--rtol 1e-08" in told and "--set parameters.omega=20.0" in told and told.endswith("--t-end 0.02")
+    message = command("nine_bar_press", "dry", hard, 0.02)
+    assert "--rtol 1e-08" in message and "--set parameters.omega=20.0" in message and message.endswith("--t-end 0.02")
     assert command("x.yaml", "dry", hard, 0.02, laws=["my laws/soft.py"]).count(" --laws 'my laws/soft.py' ") == 1
 
 

@@ -108,10 +108,10 @@ def test_what_a_scene_lacks_is_told_once_and_is_nan(crank: gudgeon.Study) -> Non
 def test_what_runs_say_of_themselves_is_told_once_with_how_many(monkeypatch: pytest.MonkeyPatch) -> None:
     """As their own Results say it; of several blocks, and through their files."""
     monkeypatch.setattr(resolve, "BLOCK", 2)
-    clearances, wanted = [1e-6, 1.5e-6, 2e-6, 3e-4], {"t_end": "pi/omega", "output": 20}
+    clearances, expected = [1e-6, 1.5e-6, 2e-6, 3e-4], {"t_end": "pi/omega", "output": 20}
     measures = {"measures": {"F": {"peak_force": "wristpin"}}}
     found = gudgeon.study(
-        {"mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": clearances}} | wanted | measures
+        {"mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": clearances}} | expected | measures
     )
     own = [
         loaded("slider_crank", "dry").simulate("pi/omega", output=20, parameters={"c": c}).diagnostics.notes
@@ -131,9 +131,9 @@ def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> N
 def test_blocks_and_threads_change_nothing(crank: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(resolve, "BLOCK", 5)
     monkeypatch.setattr(final, "TOGETHER", 0)  # each written to the file by itself
-    told: list[float] = []
-    found = gudgeon.study(CRANK, threads=1, progress=lambda fraction, text: told.append(fraction))
-    assert told == sorted(told) and told[-1] == 1.0
+    message: list[float] = []
+    found = gudgeon.study(CRANK, threads=1, progress=lambda fraction, text: message.append(fraction))
+    assert message == sorted(message) and message[-1] == 1.0
     assert "digest" not in found.dataset.attrs
     xr.testing.assert_identical(found.dataset, crank.dataset)
 
@@ -155,8 +155,8 @@ def drawn(method: str, **more: Any) -> xr.Dataset:
     spreads = {"g": {"mean": "9.81 m/s^2", "std": "0.1 m/s^2"}, "length": {"from": "50 cm", "to": "2 m"}}
     spreads["length"] |= more
     draw = {"count": 6, "seed": 11, "method": method, "parameters": spreads}
-    wanted = {"t_end": "10 ms", "output": 1, "measures": {"y": {"final": "bob.y"}}}
-    return gudgeon.study({"mechanism": "pendulum", "draw": draw} | wanted).dataset
+    expected = {"t_end": "10 ms", "output": 1, "measures": {"y": {"final": "bob.y"}}}
+    return gudgeon.study({"mechanism": "pendulum", "draw": draw} | expected).dataset
 
 
 def test_draws_are_those_of_scipy() -> None:
@@ -291,11 +291,11 @@ def test_perturbed_starts_are_off_by_their_size() -> None:
 
 def test_starts_alone_and_one_run_alone() -> None:
     """Nothing else varies: 200 runs, of which each is off by its own; and a study of the file's numbers."""
-    wanted = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}}}
-    found = gudgeon.study(wanted | {"starts": {"count": 200, "absolute": {"length": "1 mm"}}}).dataset
+    expected = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}}}
+    found = gudgeon.study(expected | {"starts": {"count": 200, "absolute": {"length": "1 mm"}}}).dataset
     np.testing.assert_allclose(found["x"], 1.0 + found["length.absolute"], atol=1e-7)
     assert float(found["length.absolute_size"]) == 1e-3 and len(np.unique(found["x"])) == 200
-    one = gudgeon.study(wanted)
+    one = gudgeon.study(expected)
     assert one.runs == 1 and one.dataset["x"].dims == () and len(one.to_dataframe()) == 1
     assert one.dataset["x"] == loaded("pendulum").simulate(1e-3, output=1)["bob.x"][-1]
 
@@ -314,7 +314,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
     found = gudgeon.study(study)
     failed = found.dataset["failure"].values != ""
     assert failed.tolist() == [[False, True], [True, True], [False, True]] and found.failed == 4
-    assert sorted(found.failures.values()) == [2, 2] and any("radius" in told for told in found.failures)
+    assert sorted(found.failures.values()) == [2, 2] and any("radius" in message for message in found.failures)
     np.testing.assert_array_equal(np.isnan(found.dataset["x"]), failed)
     np.testing.assert_array_equal(found.dataset["slider.x"].isnull().all("time"), failed)
     run = loaded("slider_crank", "dry").simulate(2e-3, output=4, parameters={"c": 3e-4, "omega": 10 * math.pi})
@@ -329,8 +329,8 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
     assert done.exit_code == 0 and "4 of 6 runs failed" in done.output, done.output
     document = json.loads(call("study", "s.yaml", "--json", "--out", "s.study").output)
     assert document["failed"] == 4 and document["measures"]["x"]["nan"] == 4
-    told = dict(zip(found.failures, found.first_failures.values(), strict=True))
-    assert sorted(told.values()) == [1, 2] == [int(np.argmax(found.dataset["failure"].values.ravel() != "")), 2]
+    message = dict(zip(found.failures, found.first_failures.values(), strict=True))
+    assert sorted(message.values()) == [1, 2] == [int(np.argmax(found.dataset["failure"].values.ravel() != "")), 2]
     late = "t_end is -0.002 with this run's numbers: expected a positive time (s)"
     assert f"    the first: c = 0.1 mm, omega = −300 rpm: {late}" in done.output
     assert f"c = 0.1 mm, omega = −300 rpm: {late}" in document["first_failures"].values()
@@ -344,9 +344,9 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
         ("rod12.a = 3.5e+02 m/s^2, -2 1/s^-2 and 11/s", "rod12.a = … m/s^2, … 1/s^-2 and …/s"),
     ],
 )
-def test_runs_that_failed_of_the_same_are_one_kind(told: str, kind: str) -> None:
+def test_runs_that_failed_of_the_same_are_one_kind(message: str, kind: str) -> None:
     """Without the numbers of each; digits of names and units stay."""
-    assert kind_of(told) == kind
+    assert kind_of(message) == kind
 
 
 def test_a_run_that_leaves_its_laws_domain_is_a_row_up_to_there() -> None:
@@ -430,8 +430,8 @@ def test_slabs_are_boxes_that_cover_a_range_once() -> None:
                 for at, rows in slabs(shape, first, last):
                     assert (hit[at] == -1).all()
                     hit[at] = np.arange(rows.start, rows.stop).reshape(np.shape(hit[at]))
-                wanted = np.where((np.arange(size) >= first) & (np.arange(size) < last), np.arange(size), -1)
-                np.testing.assert_array_equal(hit.ravel(), wanted)
+                expected = np.where((np.arange(size) >= first) & (np.arange(size) < last), np.arange(size), -1)
+                np.testing.assert_array_equal(hit.ravel(), expected)
 
 
 def test_a_block_holds_as_many_samples_as_fit(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -119,8 +119,8 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     assert numbers.loc["N3", "deviation"] == pytest.approx(100 * (1.62 / 9.81 - 1), rel=1e-5)
     assert numbers["beside"].tolist() == ["", "", "", "N4", ""]
     off = sorted(abs(numbers.loc["N2", "deviation"]))  # of N2, with two ensembles, the median; N3 is beside another one
-    told = f"2 printed numbers: ours are off by {(50.0 + sum(off) / 2) / 2:.3g} % or less for half of them"
-    assert found.claims.totals()[-1] == told
+    message = f"2 printed numbers: ours are off by {(50.0 + sum(off) / 2) / 2:.3g} % or less for half of them"
+    assert found.claims.totals()[-1] == message
     assert found.claims.source == "somebody, somewhere"
     again = gudgeon.load_study(found.folder).claims
     assert again.trends.equals(found.claims.trends) and again.numbers.equals(found.claims.numbers)
@@ -139,11 +139,11 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
         ([2.0], [math.nan], "1 printed number: of a printed 0 ours is off by no share"),
     ],
 )
-def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off: list[float], told: str) -> None:
+def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off: list[float], message: str) -> None:
     """NaN, of runs that failed, is in no median of deviations."""
     names = [f"N{k}" for k in range(len(off))]
     numbers = pandas.DataFrame({"claim": names, "printed": 1.0, "median": medians, "deviation": off})
-    assert Claimed(numbers, pandas.DataFrame(), "").totals() == [told]
+    assert Claimed(numbers, pandas.DataFrame(), "").totals() == [message]
 
 
 @needs_compiler
@@ -215,9 +215,9 @@ BAD = [  # in place of what, what; line and words of the message
 def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: str, tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
     path.write_text(patched(TEXT, (old, new)))
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as message:
         plans_of(path)
-    assert str(told.value).startswith(f"{path}:{place}") and words in str(told.value), str(told.value)
+    assert str(message.value).startswith(f"{path}:{place}") and words in str(message.value), str(message.value)
 
 
 @needs_compiler
@@ -255,9 +255,9 @@ def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
         .replace("grows_along: g", "grows_along: q")
         .replace("-9.81 m/s^2", "-9.81 m")
     )
-    with pytest.raises(InputErrors) as told:
+    with pytest.raises(InputErrors) as message:
         plans_of(path)
-    assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "25", "30"], str(told.value)
+    assert [str(error).split(":")[1] for error in message.value.errors] == ["19", "25", "30"], str(message.value)
 
 
 def test_the_schema_takes_what_is_read() -> None:

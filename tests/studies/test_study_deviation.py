@@ -126,7 +126,7 @@ def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pyt
         "measures": {"a": {"deviation": "slider.ax", "from": "ideal"}, "x": {"rms": "slider.x", "from": "ideal"}},
     }
     found = []
-    ways: list[Any] = [origins._followed, lambda *arguments: {}]
+    ways: list[Any] = [origins._compute_kinematic, lambda *arguments: {}]
     for follow in ways:
         monkeypatch.setattr(origins, "_recent", origins.Recent())
         monkeypatch.setattr(origins, "_followed", follow)
@@ -138,11 +138,11 @@ def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pyt
 def test_the_other_scene_is_run_once_for_its_own_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two speeds decide the ideal crank; clearances and starts, which it does not read, do not."""
     made: list[Array] = []
-    before = origins._followed
+    before = origins._compute_kinematic
 
-    def count(job: Any, simulation: Any, alike: Any, runs: list[int], wanted: list[str]) -> Any:
+    def count(job: Any, simulation: Any, alike: Any, runs: list[int], expected: list[str]) -> Any:
         made.extend(alike.columns["parameters.omega"][runs])
-        return before(job, simulation, alike, runs, wanted)
+        return before(job, simulation, alike, runs, expected)
 
     monkeypatch.setattr(origins, "_followed", count)
     monkeypatch.setattr(origins, "_recent", origins.Recent())
@@ -168,8 +168,8 @@ def test_what_the_other_scene_cannot_run_is_a_row_with_its_reason() -> None:
             "measures": {"x": {"deviation": "slider.x", "from": "ideal"}, "force": {"peak_force": "wristpin"}},
         }
     )
-    told = found.dataset["failure"].values
-    assert told[0].startswith("scene ideal: ") and told[1] == "" and found.failed == 1
+    message = found.dataset["failure"].values
+    assert message[0].startswith("scene ideal: ") and message[1] == "" and found.failed == 1
     assert any("70.1 mm from its guess" in note for note in found.notes), found.notes
     np.testing.assert_array_equal(found.dataset["x"].isnull(), [True, False])
 
@@ -192,21 +192,25 @@ def test_what_the_other_scene_cannot_run_is_a_row_with_its_reason() -> None:
 def test_mistakes_are_told_at_their_place(measure: str, place: str, words: str, tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
     path.write_text(f"format: gudgeon-study/1\nmechanism: slider_crank\nscenes: dry\nmeasures: {{a: {measure}}}\n")
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as message:
         plans_of(path)
-    assert str(told.value).startswith(f"{path}:{place}: ") and words in str(told.value), str(told.value)
+    assert str(message.value).startswith(f"{path}:{place}: ") and words in str(message.value), str(message.value)
 
 
 def test_what_has_no_number_stands_in_no_legend_and_zeros_have_no_map(crank: gudgeon.Study) -> None:
     """The ideal scene has no force in a pin with play, and deviates from itself by nothing."""
     pytest.importorskip("matplotlib")
     from gudgeon.studies.show.study_data import StudyData
-    from gudgeon.studies.show.study_page import _figures
+    from gudgeon.studies.show.study_page import _measure_figures
 
     plot: Any = crank.plot
-    for ax, told in ((plot.measure("force", "c"), ["loose"]), (plot.measure("x", "c"), ["ideal", "loose"])):
-        assert [word.get_text() for word in ax.get_legend().get_texts()] == told
-    maps = [told for told, _ in _figures(StudyData(crank)) if told.startswith(("x:", "least:")) and "quart" not in told]
+    for ax, message in ((plot.measure("force", "c"), ["loose"]), (plot.measure("x", "c"), ["ideal", "loose"])):
+        assert [word.get_text() for word in ax.get_legend().get_texts()] == message
+    maps = [
+        message
+        for message, _ in _measure_figures(StudyData(crank))
+        if message.startswith(("x:", "least:")) and "quart" not in message
+    ]
     assert sorted(maps) == ["least: median, loose", "x: median, loose"]
     title = plot.heat_map("x", "c", "omega", at={"scene": "dry"}).get_title()
     assert " ".join(title.split()).endswith(": scene = loose")

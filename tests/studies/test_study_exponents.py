@@ -102,7 +102,7 @@ def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
         "ups": {"crossings": "up", "window": "late"},
         "edges": {"crossings": "edge"},
     }
-    wanted = {
+    expected = {
         "mechanism": str(path),
         "t_end": "20 s",
         "output": 10,
@@ -110,7 +110,7 @@ def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
         "measures": measures,
         "windows": {"late": {"from": "10 s"}},
     }
-    stopped, on = gudgeon.study(wanted), gudgeon.study(wanted | {"stop": False}).dataset
+    stopped, on = gudgeon.study(expected), gudgeon.study(expected | {"stop": False}).dataset
     ended = stopped.dataset
     assert float(ended["t_last"]) == pytest.approx(math.acosh(1e6) / 2.0, rel=1e-5) and not stopped.failed
     assert float(ended["rate"]) == pytest.approx(2.0, rel=0.02)
@@ -147,6 +147,6 @@ def test_what_cannot_be_followed_is_told(
     more: dict[str, Any], measure: str, words: str, own: dict[str, Any], tmp_path: Path
 ) -> None:
     statistic, of = measure.strip("{}").split(": ")
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as message:
         plans_of(own | {"t_end": "1 s", "measures": {"m": {statistic: of}}} | more)
-    assert words in str(told.value) and f"measures.m.{statistic}" in str(told.value), str(told.value)
+    assert words in str(message.value) and f"measures.m.{statistic}" in str(message.value), str(message.value)

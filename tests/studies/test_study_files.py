@@ -119,19 +119,19 @@ def test_what_a_choice_varies_is_not_set_for_all_runs(tmp_path: Path) -> None:
 def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: str, tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
     path.write_text(patched(GOOD, (old, new)))
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as message:
         plans_of(path)
-    assert str(told.value).startswith(f"{path}:{place}: "), str(told.value)
-    assert words in str(told.value), str(told.value)
-    assert told.value.hint or "expected" in str(told.value), str(told.value)
+    assert str(message.value).startswith(f"{path}:{place}: "), str(message.value)
+    assert words in str(message.value), str(message.value)
+    assert message.value.hint or "expected" in str(message.value), str(message.value)
 
 
 def test_all_mistakes_of_a_file_at_once(call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "s.yaml").write_text(GOOD.replace("final", "finale").replace("[9.81, 20]", "{}").replace("1 s", "1 z"))
-    with pytest.raises(InputErrors) as told:
+    with pytest.raises(InputErrors) as message:
         plans_of("s.yaml" if Path("s.yaml").exists() else tmp_path / "s.yaml")
-    assert len(told.value.errors) >= 3 and re.findall(r"s.yaml:(\d+):", str(told.value)) == sorted(
-        re.findall(r"s.yaml:(\d+):", str(told.value))
+    assert len(message.value.errors) >= 3 and re.findall(r"s.yaml:(\d+):", str(message.value)) == sorted(
+        re.findall(r"s.yaml:(\d+):", str(message.value))
     )
     done = call("study", "s.yaml")
     assert done.exit_code == 2 and not (tmp_path / "s.study").exists()
@@ -204,8 +204,8 @@ def test_starts_may_be_more_or_others_than_the_file_says() -> None:
     )
     assert own.sizes["start"] == other.sizes["start"] == 3 and more.sizes["start"] == 5
     assert (more["x"][:3] == own["x"]).all() and (other["x"] != own["x"]).all()
-    said = gudgeon.study(none | {"starts": starts | {"seed": 5}}).dataset
-    assert (said["x"] == other["x"]).all()
+    specified = gudgeon.study(none | {"starts": starts | {"seed": 5}}).dataset
+    assert (specified["x"] == other["x"]).all()
     with pytest.raises(InputError, match="no run has perturbed starts, whose count is given"):
         gudgeon.study(none, starts=3)
     with pytest.raises(InputError, match="starts"):

@@ -123,10 +123,10 @@ def test_a_finished_study_is_not_run_again(tmp_path: Path, quiet: xr.Dataset, mo
 def test_another_study_is_refused_with_what_differs(tmp_path: Path) -> None:
     gudgeon.study(STUDY, tmp_path)
     other = STUDY | {"t_end": "30 ms", "measures": {"y": {"max": "bob.y"}}}
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as message:
         gudgeon.study(other, tmp_path)
-    assert "t_end was '20 ms', is '30 ms'" in str(told.value) and "measures.y.max was not said" in str(told.value)
-    assert "--restart" in str(told.value) and (tmp_path / "study.nc").exists()
+    assert "t_end was '20 ms', is '30 ms'" in str(message.value) and "measures.y.max was not said" in str(message.value)
+    assert "--restart" in str(message.value) and (tmp_path / "study.nc").exists()
     found = gudgeon.study(other, tmp_path, restart=True).dataset
     assert float(found["t_last"].max()) == 0.03 and "v" not in found
 
@@ -222,8 +222,8 @@ def test_ctrl_c_leaves_what_is_there(call: Gudgeon, tmp_path: Path, monkeypatch:
 
     with monkeypatch.context() as patch:
         patch.setattr(loop, "run_block", interrupted)
-        told = call("study", "s.yaml", "--threads", "1")
-    assert told.exit_code == 130 and "2 of 3 blocks of runs are in s.study" in told.output
+        message = call("study", "s.yaml", "--threads", "1")
+    assert message.exit_code == 130 and "2 of 3 blocks of runs are in s.study" in message.output
     assert call("study", "s.yaml").exit_code == 0 and call("study", "s.yaml", "--restart").exit_code == 0
 
 

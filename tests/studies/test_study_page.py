@@ -125,8 +125,8 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
     assert ax.get_xlabel() == "ℓ" and ax.get_ylabel().startswith("lowest <place> [")
     with pytest.raises(InputError, match=r"titles.lwo(.|\n)*did you mean 'low'"):
         gudgeon.study(own | {"titles": {"lwo": "x"}})
-    for about, told in (([], "a list"), ({}, "a mapping"), ("x" * 1001, "1001 characters")):
-        with pytest.raises(InputError, match=f"about (is|has) {told}"):
+    for about, message in (([], "a list"), ({}, "a mapping"), ("x" * 1001, "1001 characters")):
+        with pytest.raises(InputError, match=f"about (is|has) {message}"):
             gudgeon.study(own | {"about": about})
 
 
@@ -170,7 +170,7 @@ def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tupl
     plans = plans_of(study)
     assert names_of(plans).values[""].get("omega", ()) == shown
     for text, omega in zip(shown, plans.each[""].numbers[0].columns["omega"], strict=False):
-        told = text.replace("2.4·10²", "240").replace("π", "*pi")
-        number, _, unit = told.partition(" ")
-        value = float(number.removesuffix("*pi") or 1) * (math.pi if "pi" in told else 1.0)
+        message = text.replace("2.4·10²", "240").replace("π", "*pi")
+        number, _, unit = message.partition(" ")
+        value = float(number.removesuffix("*pi") or 1) * (math.pi if "pi" in message else 1.0)
         assert value * {"rpm": math.pi / 30, "rad/s": 1.0}[unit] == pytest.approx(omega, rel=1e-6)

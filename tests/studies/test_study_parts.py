@@ -114,14 +114,14 @@ def test_mistakes_of_all_parts_at_once(tmp_path: Path) -> None:
         .replace("planets:", "1planets:")
         .replace("    keep", "    kept")
     )
-    with pytest.raises(InputErrors) as told:
+    with pytest.raises(InputErrors) as message:
         plans_of(path)
-    places = [str(error).removeprefix(f"{path}:").split(": ")[0] for error in told.value.errors]
+    places = [str(error).removeprefix(f"{path}:").split(": ")[0] for error in message.value.errors]
     assert places == ["8:3", "15:5"], places
     path.write_text(TEXT.replace("bob.y}", "bob.q}").replace("20 ms", "20 kg").replace("g: [1.62", "gg: [1.62"))
-    with pytest.raises(InputErrors) as told:
+    with pytest.raises(InputErrors) as message:
         plans_of(path)
-    assert [str(error).split(":")[1] for error in told.value.errors] == ["9", "13"], str(told.value)
+    assert [str(error).split(":")[1] for error in message.value.errors] == ["9", "13"], str(message.value)
     for text, words in (("parts: {}", "parts is empty"), ("parts: [a]", "a list"), ("parts: {a: 3}", "parts.a is '3'")):
         path.write_text(TEXT.partition("parts:")[0] + text)
         with pytest.raises(InputError, match=words):

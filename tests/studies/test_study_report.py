@@ -223,7 +223,7 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
     assert inside.index("<td>N1</td>") < inside.index("<td>D1</td>") and "<td>28.65°</td>" in inside
     assert "<td>−60.0 %</td>" in inside and ">note</th>" not in inside  # both round to it
     assert "<td>not so</td>" in below and "<td>why</td>" in below and "<td>it holds</td>" in below
-    ((_, draw),) = pictures.wanted
+    ((_, draw),) = pictures.expected
     ax: Any = draw()
     assert [word.get_text() for word in ax.get_xticklabels()] == ["N1\none place", "D1\none place"]
     labels = [word.get_text() for word in ax.get_legend().get_texts()]
@@ -247,7 +247,7 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
     here = shown.filled(places)
     monkeypatch.setattr(pictures, "available_threads", lambda: 2)
     assert shown.filled(places) == here
-    monkeypatch.setattr(pictures, "_draw_all", lambda end, wanted: os._exit(1))  # a process that dies
+    monkeypatch.setattr(pictures, "_draw_all", lambda end, expected: os._exit(1))  # a process that dies
     assert shown.filled(places) == here
     assert here.count("<svg") == pictures.MANY - 1 and "not drawn: nothing to draw" in here
 
@@ -255,11 +255,11 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
 def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     target = str(tmp_path / "page.html")
-    told = CliRunner().invoke(app, ["study", "report", str(folder), "--out", target, "--json"])
-    assert told.exit_code == 0 and json.loads(told.stdout)["files"]["report"] == target
+    message = CliRunner().invoke(app, ["study", "report", str(folder), "--out", target, "--json"])
+    assert message.exit_code == 0 and json.loads(message.stdout)["files"]["report"] == target
     assert Path(target).read_text(encoding="utf-8") == page
-    told = CliRunner().invoke(app, ["study", "report", str(folder)])
-    assert told.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
+    message = CliRunner().invoke(app, ["study", "report", str(folder)])
+    assert message.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
     for wrong, why in (
         (["report"], "of which study"),
         (["report", "none.study"], "no folder of a study"),
@@ -267,5 +267,5 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
         (["mass.yaml", "--out", "x.html"], "a study is a folder"),
         (["report", str(folder), "--out", "page.txt"], "ends in .html"),
     ):
-        told = CliRunner().invoke(app, ["study", *wrong])
-        assert told.exit_code == 2 and why in told.stderr, told.stderr
+        message = CliRunner().invoke(app, ["study", *wrong])
+        assert message.exit_code == 2 and why in message.stderr, message.stderr

@@ -32,11 +32,11 @@ STUDY: dict[str, Any] = {
 
 def killing(victims: Callable[[], list[int]], times: int = 1) -> Callable[[float, str], None]:
     """A progress that kills a worker when the first block is there, and so on."""
-    told: set[str] = set()
+    message: set[str] = set()
 
     def progress(fraction: float, text: str) -> None:
-        if not text.startswith("0 ") and text not in told and len(told) < times:
-            told.add(text)
+        if not text.startswith("0 ") and text not in message and len(message) < times:
+            message.add(text)
             os.kill(victims()[0], signal.SIGKILL)
 
     return progress
@@ -114,16 +114,16 @@ def test_the_command(call: Gudgeon, tmp_path: Path) -> None:
     assert call("study", "s.yaml", "--workers", "1", "--out", "w").exit_code == 0
     found, own = (gudgeon.load_study(tmp_path / name).dataset for name in ("w", "s.study"))
     xr.testing.assert_identical(found, own)
-    told = call("study", "s.yaml", "--workers", "1", "--dask", "tcp://127.0.0.1:1")
-    assert told.exit_code == 2 and "one of them" in told.output
+    message = call("study", "s.yaml", "--workers", "1", "--dask", "tcp://127.0.0.1:1")
+    assert message.exit_code == 2 and "one of them" in message.output
 
 
 def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gudgeon.studies.ensemble.workers.PATIENCE", 1)
     (tmp_path / "s.yaml").write_text("format: gudgeon-study/1\nmechanism: pendulum\nkeep: bob.x\n")
     for address in ("tcp://127.0.0.1:1", "nonsense://x", ""):
-        told = call("study", "s.yaml", "--dask", address)
-        assert told.exit_code == 2 and "no scheduler answers" in told.output
+        message = call("study", "s.yaml", "--dask", address)
+        assert message.exit_code == 2 and "no scheduler answers" in message.output
     gudgeon.study(STUDY).save(tmp_path / "s.nc")  # by no lock of a cluster that does not answer
     with pytest.raises(BadValueError, match="executor"):
         gudgeon.study(STUDY, executor="tcp://127.0.0.1:1")

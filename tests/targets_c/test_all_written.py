@@ -115,10 +115,10 @@ class Emitted:
         joints = {k for a, b in JOINT.findall(self.text) for k in range(int(a), int(b))}
         idle = re.search(r"short idle\[\] = \{([^}]*)\}", self.header)
         joints |= {int(k) for k in idle[1].split(",")} if idle else set()  # NaN in motion()
-        told = joints | {
+        message = joints | {
             int(k) for name in (main, "loop_switches") if name in self.bodies for k in SWITCH.findall(self.body(name))
         }
-        if left := sorted(set(range(count)) - told):
+        if left := sorted(set(range(count)) - message):
             yield f"{main}: rhs->g{left} of N_SWITCHES"
         own = {k - first for k in self.watched if first <= k < first + count} if self.sizes["N_WATCHED"] else set()
         if "watched_functions" in self.bodies:

@@ -68,7 +68,7 @@ static int go(const double *p, const double *y)
 {
     double t[101], q[101 * N_Q], v[101 * N_Q], a[101 * N_Q], work[101 * N_WORK] = {0.0}, phi = 0.0, phi_dot = 0.0;
     long steps = 0, done = 0;
-    static Course course;
+    static KinematicRun course;
     for (int i = 0; i <= 100; i++)
         t[i] = 0.01 * i;
     for (int k = 0; k < N_Q; k++) {
@@ -155,8 +155,8 @@ def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulat
     fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in calls else []
     same = [f'_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), "{f}");' for f in fields]
     same += ['_Static_assert(sizeof(Batch) == sizeof(Told), "Batch");'] * bool(fields)
-    told = f"#define Batch Told\n{calls}#undef Batch\n"
-    (tmp_path / "both.c").write_text(WHOLE + told + "\n".join(same) + "\n", encoding="utf-8")
+    message = f"#define Batch Told\n{calls}#undef Batch\n"
+    (tmp_path / "both.c").write_text(WHOLE + message + "\n".join(same) + "\n", encoding="utf-8")
     compile_c(COMPILERS[0], tmp_path / "both.c", [*FLAGS, "-fsyntax-only"])
 
 

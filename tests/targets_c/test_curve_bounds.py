@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gudgeon.generator.targets.c.curves import curves_code
-from gudgeon.language.curves import Curve, in_pairs, spline
+from gudgeon.language.curves import Curve, even_pieces, spline
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import include_flags
 from tests.slow import slow_but
@@ -50,7 +50,7 @@ def test_values_and_slopes_lie_within(ends: str, tmp_path: Path) -> None:
     x = np.cumsum(rng.uniform(0.3, 2.0, 8)).tolist()
     y = rng.normal(size=8).tolist()
     y[-1] = y[0]
-    knots, pieces = in_pairs(x, spline(x, y, ends)) if ends == "periodic" else (tuple(x), spline(x, y, ends))
+    knots, pieces = even_pieces(x, spline(x, y, ends)) if ends == "periodic" else (tuple(x), spline(x, y, ends))
     curve = Curve("c", knots, pieces, ends)
     library, number = compiled(curve, tmp_path), ctypes.c_double
     length, wide, out = x[-1] - x[0], [], (ctypes.c_double * 4)()

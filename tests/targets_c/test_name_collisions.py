@@ -149,8 +149,8 @@ def test_no_fixed_name_has_the_form_of_those_that_are_made() -> None:
     code = [re.sub(r"/\*.*?\*/|\w+##\w*", " ", text, flags=re.S) for text in (*engine_files().values(), *templates)]
     words = {word for text in code for word in re.findall(r"\b[A-Za-z]\w*", text)}
     assert not [word for word in words if made_name(word) == word]
-    for wanted in ("k", "k_", "A.x", "a__b", "é"):
-        assert re.fullmatch(r"[A-Za-zé0-9]+(_[A-Za-z0-9]+)*_", made_name(wanted))
+    for expected in ("k", "k_", "A.x", "a__b", "é"):
+        assert re.fullmatch(r"[A-Za-zé0-9]+(_[A-Za-z0-9]+)*_", made_name(expected))
 
 
 @pytest.mark.parametrize("seed", slow_but([0], range(40)))

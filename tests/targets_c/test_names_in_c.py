@@ -161,8 +161,8 @@ def test_parameters_named_as_emitted_code_and_macros(of: tuple[str, int], tmp_pa
     scene, every = of
     names = vocabulary() | {name for name in TRIED if accepted(name)}
     assert {"aside", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "LONG_RUN"} <= names
-    told = {name for name in TRIED if accepted(name)} | {*sorted(names)[::every]}
-    check_c(generate(with_parameters(told), "f", scene), tmp_path)
+    message = {name for name in TRIED if accepted(name)} | {*sorted(names)[::every]}
+    check_c(generate(with_parameters(message), "f", scene), tmp_path)
 
 
 @pytest.mark.parametrize("every", slow_but([6], [6, 1]))

@@ -19,7 +19,7 @@ import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.targets import breaks
+from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.model_header import unit_text
 from gudgeon.generator.targets.c.printer import WIDTH, broken, within
@@ -101,8 +101,8 @@ def each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
     lines = [re.fullmatch(r"    double \w+;  /\* (.+) \*/", line) for line in fields.splitlines()]
     assert len(lines) == len(source.slots) + len(source.derived) and all(lines)
     for slot, line in zip(source.slots, lines, strict=False):
-        told = line and re.fullmatch(re.escape(slot.address) + r", (?:[\w ]+, )?([\w^/()*.]+)", line[1])
-        assert told and not re.search(r"kg.*s", told[1]), "units have names"
+        message = line and re.fullmatch(re.escape(slot.address) + r", (?:[\w ]+, )?([\w^/()*.]+)", line[1])
+        assert message and not re.search(r"kg.*s", message[1]), "units have names"
 
 
 @pytest.mark.parametrize(
@@ -260,8 +260,8 @@ def test_laws_of_other_options_are_other_functions() -> None:
 def readme_names_every_file(name: str, scene: str) -> None:
     source = emitted(name, scene)
     text = source.files["README.md"]
-    told = re.findall(r"^- `([\w.]+)`: \S.*$", text, flags=re.M)
-    assert sorted(told) == sorted({*source.files, "kernel.json"} - {"README.md"})
+    message = re.findall(r"^- `([\w.]+)`: \S.*$", text, flags=re.M)
+    assert sorted(message) == sorted({*source.files, "kernel.json"} - {"README.md"})
     assert text.startswith("# ") and "Read `model.h` first" in text
     integrates = "What is integrated: nothing" not in text
     assert integrates == ("accelerations that are integrated" in text)
@@ -288,7 +288,7 @@ def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
 
 def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each break looks at places up to the width, not at all that follows."""
-    looked, places = 0, breaks._places
+    looked, places = 0, line_breaks._possible_breaks
 
     def counted(line: str) -> Iterator[tuple[float, int]]:
         nonlocal looked
@@ -296,7 +296,7 @@ def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.Monke
             looked += 1
             yield place
 
-    monkeypatch.setattr(breaks, "_places", counted)
+    monkeypatch.setattr(line_breaks, "_possible_breaks", counted)
     terms = 100_000
     lines = broken("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
     assert max(map(len, lines)) <= WIDTH and looked < 3 * terms

@@ -86,7 +86,7 @@ class Case:
     found: Trace
     memory: Any
     columns: dict[str, dict[str, Any]]
-    told: list[dict[str, dict[str, float | None | str]]]
+    message: list[dict[str, dict[str, float | None | str]]]
 
 
 def derived(scene: str, folder: Path) -> tuple[Simulation, Trace]:
@@ -128,18 +128,18 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
     return Case(simulation, found, memory, columns, json.loads(done.stdout))
 
 
-def forces(case: Case, joint: str, told: dict[str, Any]) -> tuple[float, float]:
+def forces(case: Case, joint: str, message: dict[str, Any]) -> tuple[float, float]:
     """Along n and t, from the lines that say so last."""
     pin = next(pin for pin in case.found.program.pins if pin.clearance.label == joint)
     along = {role: f"law.{part}_{joint}_.F_{of}" for role, part, of in (("normal", "dry", "n"), ("film", "film", "r"))}
-    blended = told.get(f"law.clearance_{joint}_.F.n")
+    blended = message.get(f"law.clearance_{joint}_.F.n")
     if blended is not None:
-        return blended, told[f"law.clearance_{joint}_.F.t"]
-    if "normal" in pin.laws and told[along["normal"]] is not None:
-        pressed = told.get(f"law.dry_{joint}_.F_N", told[along["normal"]])
-        return -pressed, told[f"law.dry_{joint}_.F_along_t_dry"]
+        return blended, message[f"law.clearance_{joint}_.F.t"]
+    if "normal" in pin.laws and message[along["normal"]] is not None:
+        pressed = message.get(f"law.dry_{joint}_.F_N", message[along["normal"]])
+        return -pressed, message[f"law.dry_{joint}_.F_along_t_dry"]
     if "film" in pin.laws:
-        return told[along["film"]], told[f"law.{pin.laws['film'].kernel.name}.F_t_out"]
+        return message[along["film"]], message[f"law.{pin.laws['film'].kernel.name}.F_t_out"]
     return 0.0, 0.0
 
 
@@ -147,19 +147,19 @@ def test_forces_are_those_of_the_compiled_scene(case: Case) -> None:
     """Free, in contact, latched or not, in the transition: each joint when it is lit."""
     met = set()
     for joint, want in case.columns.items():
-        for k, told in enumerate(row[joint] for row in case.told):
+        for k, message in enumerate(row[joint] for row in case.message):
             front = f"law.clearance_{joint}_."
-            own = {name.rpartition(".")[2]: x for name, x in told.items() if name.startswith(front)}
+            own = {name.rpartition(".")[2]: x for name, x in message.items() if name.startswith(front)}
             scale = float(np.abs(want["Fn"]).max())
-            along_n, along_t = forces(case, joint, told)
+            along_n, along_t = forces(case, joint, message)
             assert along_n == pytest.approx(-want["Fn"][k], rel=1e-11, abs=1e-13 * scale), (joint, k)
             assert along_t == pytest.approx(want["Ft"][k], rel=1e-9, abs=1e-13 * scale), (joint, k)
             assert own["e"] == pytest.approx(want["e"][k], rel=1e-9)
             assert own["deltadot"] == pytest.approx(want["deltadot"][k], rel=1e-9, abs=1e-12)
-            slip = told.get(f"law.dry_{joint}_.v_t")
+            slip = message.get(f"law.dry_{joint}_.v_t")
             assert (slip or 0.0) == pytest.approx(want["vt"][k], rel=1e-9, abs=1e-12)
             closed = bool(np.isfinite(case.memory[k, list(case.columns).index(joint)]))
-            met.add((slip is not None, closed, told.get(f"law.clearance_{joint}_.F.n") is not None))
+            met.add((slip is not None, closed, message.get(f"law.clearance_{joint}_.F.n") is not None))
     has_transition = any(pin.has_transition for pin in case.found.program.pins)
     assert {(False, False, False), (True, True, False), (True, False, False)} <= met
     assert has_transition == any(blended for _, _, blended in met)
@@ -169,24 +169,27 @@ def test_of_a_branch_one_line_has_a_value_where_the_function_is_run(case: Case) 
     values = case.found.values["clearance.c"]
     branches = {one.split("<")[0] for one in values.values() if "<" in one}
     assert branches or case.simulation.source.scene in OWN
-    for row in case.told:
-        for joint, told in row.items():
+    for row in case.message:
+        for joint, message in row.items():
             for name in branches:
-                sides = [told[one] for one in told if one.startswith((f"{name}<", f"{name}>"))]
-                run = told[next(one for one in told if one.startswith(f"{name.rpartition('.')[0]}.side"))] is not None
+                sides = [message[one] for one in message if one.startswith((f"{name}<", f"{name}>"))]
+                run = (
+                    message[next(one for one in message if one.startswith(f"{name.rpartition('.')[0]}.side"))]
+                    is not None
+                )
                 assert len(sides) == 2 and sum(x is not None for x in sides) == run, (joint, name)
 
 
 def test_every_line_that_stores_has_a_value(case: Case) -> None:
     """Read as text: numbers that are assigned, or filled by a call; no whole structs, no switches that do not act."""
-    values, told, within = case.found.values["clearance.c"], "", False
+    values, message, within = case.found.values["clearance.c"], "", False
     for number, line in enumerate(case.found.source.files["clearance.c"].split("\n"), 1):
         code = re.sub(r"/[*].*?[*]/", "", line).strip()
         if line in ("{", "}"):
-            within, told = line == "{", ""
+            within, message = line == "{", ""
             continue
-        told = f"{told} {code}".strip() if within else ""
-        if told.endswith((";", "{", "}", "else")) or told.startswith("if (") and told.endswith(")"):
-            stores = re.fullmatch(r"(?:const double )?[*\w.]+ [+]?= (?!dry_|[(]Clearance).*;|.*[(].*&\w.*[)];", told)
-            assert (number in values) == bool(stores), (number, told)
-            told = ""
+        message = f"{message} {code}".strip() if within else ""
+        if message.endswith((";", "{", "}", "else")) or message.startswith("if (") and message.endswith(")"):
+            stores = re.fullmatch(r"(?:const double )?[*\w.]+ [+]?= (?!dry_|[(]Clearance).*;|.*[(].*&\w.*[)];", message)
+            assert (number in values) == bool(stores), (number, message)
+            message = ""

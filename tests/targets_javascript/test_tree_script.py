@@ -74,8 +74,8 @@ class Asked:
             {"t": t, "q": at, "v": v, "p": run.p.tolist(), "memory": memory, "a": dict(zip(of, a, strict=True))}
             for t, at, v, memory, a in samples
         ]
-        told = json.dumps(states).replace("null", "NaN")
-        script = ASKED % (equations_script(self.found.program), told, json.dumps(names))
+        message = json.dumps(states).replace("null", "NaN")
+        script = ASKED % (equations_script(self.found.program), message, json.dumps(names))
         (self.folder / "ask.js").write_text(script, encoding="utf-8")
         line = [str(node()), str(self.folder / "ask.js"), str(LIVE)]
         done = subprocess.run(line, capture_output=True, text=True, timeout=60)
@@ -83,7 +83,7 @@ class Asked:
         return list(json.loads(done.stdout))
 
 
-def asked(mechanism: str, scene: str | None, t_end: float, folder: Path) -> Asked:
+def requested(mechanism: str, scene: str | None, t_end: float, folder: Path) -> Asked:
     simulation, file = gudgeon.load(mechanism, scene), find_mechanism(mechanism)
     found = trace(derive(file.read_bytes(), str(file), simulation.source.scene))
     return Asked(found, simulation.simulate(t_end, output=40), folder)
@@ -94,41 +94,41 @@ def array(of: str, places: Iterable[int], rows: list[dict[str, float]]) -> Any:
     return np.array([[row[f"tree.{of}[{k}]"] for k in places] for row in rows])
 
 
-def check_every_line(asked: Asked, functions: Iterable[str], told: list[dict[str, float]]) -> None:
-    assert all(isinstance(x, float | int) for row in told for x in row.values())
+def check_every_line(requested: Asked, functions: Iterable[str], message: list[dict[str, float]]) -> None:
+    assert all(isinstance(x, float | int) for row in message for x in row.values())
     for function in functions:
-        for lines, target, _ in statements(asked.found, "reduced.c", function):
-            assert lines[-1] in asked.found.values["reduced.c"] or target in ("pivot", "most"), (function, target)
+        for lines, target, _ in statements(requested.found, "reduced.c", function):
+            assert lines[-1] in requested.found.values["reduced.c"] or target in ("pivot", "most"), (function, target)
 
 
 @pytest.mark.parametrize("case", slow_but(CASES[:2], CASES))
 def test_the_tree_s_lines_at_samples_of_a_run(case: tuple[str, str | None, float], tmp_path: Path) -> None:
     """Coordinates there and back, closed loops, accelerations, the power of what has play; every line has a value."""
-    page = asked(*case, tmp_path)
-    found, run, there, told = page.found, page.run, page.there, page.at(page.run.q)
-    check_every_line(page, FUNCTIONS, told)
+    page = requested(*case, tmp_path)
+    found, run, there, message = page.found, page.run, page.there, page.at(page.run.q)
+    check_every_line(page, FUNCTIONS, message)
     tree, model = found.program.tree, found.model
     assert tree
     n, loops = len(model.q), range(len(tree.system.rows))
-    np.testing.assert_allclose(array("expand.all_q", range(n), told), run.q, atol=1e-9)
-    np.testing.assert_allclose(array("expand.all_v", range(n), told), run.v, atol=1e-9 * np.abs(run.v).max())
-    np.testing.assert_allclose(array("closures.out", loops, told), 0.0, atol=1e-9)
-    np.testing.assert_allclose(array("closure_rates.out", loops, told), 0.0, atol=1e-9 * np.abs(run.v).max())
+    np.testing.assert_allclose(array("expand.all_q", range(n), message), run.q, atol=1e-9)
+    np.testing.assert_allclose(array("expand.all_v", range(n), message), run.v, atol=1e-9 * np.abs(run.v).max())
+    np.testing.assert_allclose(array("closures.out", loops, message), 0.0, atol=1e-9)
+    np.testing.assert_allclose(array("closure_rates.out", loops, message), 0.0, atol=1e-9 * np.abs(run.v).max())
     angles = {body.name: body.index + 2 for body in model.bodies}
     places = [angles.get(name, -1) for name in tree.system.unknowns]
     assert max(places) >= 0
-    a, wanted = array("reduced_dynamics.a", range(len(places)), told), there.a[:, places]
+    a, expected = array("reduced_dynamics.a", range(len(places)), message), there.a[:, places]
     of_angles = np.array(places) >= 0
-    np.testing.assert_allclose(a[:, of_angles], wanted[:, of_angles], rtol=1e-6, atol=1e-8 * np.abs(wanted).max())
-    a = array("reduce_accelerations.a", range(len(places)), told)
-    np.testing.assert_allclose(a[:, of_angles], wanted[:, of_angles], rtol=1e-12, atol=1e-12 * np.abs(wanted).max())
+    np.testing.assert_allclose(a[:, of_angles], expected[:, of_angles], rtol=1e-6, atol=1e-8 * np.abs(expected).max())
+    a = array("reduce_accelerations.a", range(len(places)), message)
+    np.testing.assert_allclose(a[:, of_angles], expected[:, of_angles], rtol=1e-12, atol=1e-12 * np.abs(expected).max())
     moved = run.q.copy()  # a step of Newton's closes the loops again, to second order
     moved[:, places] += 1e-4 * np.cos(np.arange(len(places)))
     apart = page.at(moved)
     moved[:, places] -= array("reduced_project.x", range(len(places)), apart)
     before, after = (np.abs(array("closures.out", loops, rows)) for rows in (apart, page.at(moved)))
     assert of_angles.all() and before.max() > 1e-6 and after.max() < 1e-3 * before.max()
-    power = array("reduced_dynamics.aside.power", [2], told)[:, 0]
+    power = array("reduced_dynamics.aside.power", [2], message)[:, 0]
     np.testing.assert_allclose(power, there.power[:, 2], rtol=1e-6, atol=1e-8 * np.abs(there.power).max())
     if "dry" in case:
         assert (run.state.reshape(len(run.t), -1) > 0).any()
@@ -141,10 +141,10 @@ def test_lines_of_driven_chains_at_samples_of_a_run(mechanism: str, tmp_path: Pa
     Rates and accelerations are those of the absolute formulation, third rates are differences of the second. The step
     is of order 3: what it leaves of a loop that is opened by 1e-3 is of the order of 1e-9.
     """
-    page = asked(str(METHODS / f"{mechanism}.yaml"), None, 0.5, tmp_path)
-    tree, run, there, told = page.found.program.tree, page.run, page.there, page.at(page.run.q)
+    page = requested(str(METHODS / f"{mechanism}.yaml"), None, 0.5, tmp_path)
+    tree, run, there, message = page.found.program.tree, page.run, page.there, page.at(page.run.q)
     assert tree and tree.chains
-    check_every_line(page, [one for one in (*FUNCTIONS, *CHAINS) if one != "reduce_accelerations"], told)
+    check_every_line(page, [one for one in (*FUNCTIONS, *CHAINS) if one != "reduce_accelerations"], message)
     n, names = len(tree.system.unknowns), tree.chains.chain.names
     of = {
         name: k
@@ -154,18 +154,18 @@ def test_lines_of_driven_chains_at_samples_of_a_run(mechanism: str, tmp_path: Pa
     chain, free = [of[name] for name in names], [of[x] for x in tree.system.unknowns if x in of]
     rates, second = range(n, n + len(chain)), range(n + len(chain), n + 2 * len(chain))
     size = np.abs(run.v).max()
-    np.testing.assert_allclose(array("expand.all_q", range(run.q.shape[1]), told), run.q, atol=1e-12)
-    np.testing.assert_allclose(array("expand.all_v", range(run.q.shape[1]), told), run.v, atol=1e-11 * size)
-    np.testing.assert_allclose(array("chain_rates.v", rates, told), run.v[:, chain], atol=1e-11 * size)
-    bends = array("chain_rates.v", second, told)
+    np.testing.assert_allclose(array("expand.all_q", range(run.q.shape[1]), message), run.q, atol=1e-12)
+    np.testing.assert_allclose(array("expand.all_v", range(run.q.shape[1]), message), run.v, atol=1e-11 * size)
+    np.testing.assert_allclose(array("chain_rates.v", rates, message), run.v[:, chain], atol=1e-11 * size)
+    bends = array("chain_rates.v", second, message)
     np.testing.assert_allclose(bends, there.a[:, chain], atol=1e-9 * np.abs(there.a).max())
     at = [k for k, name in enumerate(tree.system.unknowns) if name in of]
     np.testing.assert_allclose(
-        array("reduced_dynamics.a", at, told), there.a[:, free], atol=1e-9 * np.abs(there.a).max()
+        array("reduced_dynamics.a", at, message), there.a[:, free], atol=1e-9 * np.abs(there.a).max()
     )
-    third = array("chain_third.out", range(len(chain)), told)
+    third = array("chain_third.out", range(len(chain)), message)
     np.testing.assert_allclose(third[2:-2], slopes(run.t, bends), atol=1e-2 * np.abs(third).max())
-    np.testing.assert_allclose(array("chain_step.step", range(len(chain)), told), 0.0, atol=1e-12)
+    np.testing.assert_allclose(array("chain_step.step", range(len(chain)), message), 0.0, atol=1e-12)
     moved = run.q.copy()
     moved[:, chain] += 1e-3 * np.cos(np.arange(len(chain)))
     moved[:, chain] -= array("chain_step.step", range(len(chain)), page.at(moved))

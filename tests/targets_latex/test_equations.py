@@ -121,8 +121,8 @@ def test_every_row_is_shown_once_under_its_joint(which: str) -> None:
         kind = "Joint" if owner in model.scene.mechanism.joints else "Drive"
         mechanism = model.scene.mechanism
         line = (mechanism.joints[owner] if kind == "Joint" else mechanism.drives[owner]).where.line
-        told = rf"{kind} {owner}\b[^:]*line {line} of the file[^:]*; rows? {re.escape(', '.join(named))}:"
-        assert re.search(told, text)
+        message = rf"{kind} {owner}\b[^:]*line {line} of the file[^:]*; rows? {re.escape(', '.join(named))}:"
+        assert re.search(message, text)
 
 
 @pytest.mark.parametrize("which", WITH_ROWS)

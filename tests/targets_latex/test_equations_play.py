@@ -239,8 +239,8 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     assert len(equations(lines[title])) >= sum(step != 0 for step in equations_of.steps.values())
     numbers_of = {cells[2] for cells in rows(lines["Joint A: numbers"]) if len(cells) == 5}
     for number in law.parameters:
-        told = not (left_out and may_lack(number))
-        assert (f"contacts.oil.{law.role}.{number.name}" in numbers_of) == told
+        message = not (left_out and may_lack(number))
+        assert (f"contacts.oil.{law.role}.{number.name}" in numbers_of) == message
 
 
 ONE_OF_EACH = [(name, False) for name in ("liu", "brown_mcphee", "ocvirk", "greenwood_tripp")]

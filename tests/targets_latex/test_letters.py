@@ -87,16 +87,16 @@ def test_no_parameter_has_a_letter_of_the_document(scene: str) -> None:
     text = re.sub(r"\b[A-Z]\.(?= )", "", equations_text(clash(scene, twin=True)))  # initials of people
     others = set(NAME.findall(text))
     assert others & set(letters) == set()
-    told = [cells for cells in rows(found["Letters"]) if len(cells) == 4 and cells[1].startswith("parameters.")]
-    assert {letter for letter in letters if "'" in letter} == {cells[0] for cells in told} == PRIMED[scene]
-    assert all(cells[0] == f"{cells[2]}'" and cells[2] in others for cells in told)
+    message = [cells for cells in rows(found["Letters"]) if len(cells) == 4 and cells[1].startswith("parameters.")]
+    assert {letter for letter in letters if "'" in letter} == {cells[0] for cells in message} == PRIMED[scene]
+    assert all(cells[0] == f"{cells[2]}'" and cells[2] in others for cells in message)
 
 
 def test_every_target_tells_of_its_primes() -> None:
-    model, told = clash("dry"), "tells apart what would have the letter of something else"
+    model, message = clash("dry"), "tells apart what would have the letter of something else"
     pytest.importorskip("latex2mathml")
     for text in (equations_tex(model), equations_html(model), notebook(model, "clash.yaml")):
-        assert " ".join(text.split()).count(told) == 1
+        assert " ".join(text.split()).count(message) == 1
     assert "{\\\\gamma}'" in notebook(model, "clash.yaml")
     assert r"${\Phi_{1}}'$ & parameters.Phi\_1" in equations_tex(model)
 

@@ -122,8 +122,8 @@ def test_lit_lines_are_those_that_compute_a_row(scene: str, function: str) -> No
         columns = range(r * n, (r + 1) * n) if function == "jacobian" else range(r, r + 1)
         own = {f"{array}[{k}]" for k in columns} & set(whole)
         tokens = found.lines["constraints.c"]
-        wanted = (f"row-{number}", f"entry-{number}-")
-        lit = {k for k, of in tokens.items() if any(t == wanted[0] or t.startswith(wanted[1]) for t in of)}
+        expected = (f"row-{number}", f"entry-{number}-")
+        lit = {k for k, of in tokens.items() if any(t == expected[0] or t.startswith(expected[1]) for t in of)}
         lit &= {k for lines, _, _ in code for k in lines}
         alone = run(code, lit, state)
         assert own and {name: alone[name] for name in own} == {name: whole[name] for name in own}, row.name
@@ -291,10 +291,10 @@ def test_light_in_a_browser(tmp_path: Path) -> None:
         (tmp_path / "page.html").as_uri(),
     ]
     done = subprocess.run(line, capture_output=True, text=True, timeout=120)
-    told = json.loads(done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0])
+    message = json.loads(done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0])
     listed = carried(text)["texts"]
     for k, row in enumerate(rows, 1):
-        wanted = {
+        expected = {
             f"{file}:{number}"
             for file in listed
             for number, of in found.lines[file].items()
@@ -305,6 +305,12 @@ def test_light_in_a_browser(tmp_path: Path) -> None:
             for line, of in yaml_tokens(found.model, found).items()
             if row in of or any(token.startswith(f"entry-{k}-") for token in of)
         }
-        assert {one for one in told[row] if FILE.name not in one} == wanted and own <= set(told[row])
-    assert told["values"] == ["0.25", "\u22121.3208", "7.5", "\u22121"]  # of guide.angle: 0.25 - pi/2
-    assert (told["keyed"], told["dark"], told["clicked"], told["again"], told["wide"]) == (True, 0, True, 0, 0)
+        assert {one for one in message[row] if FILE.name not in one} == expected and own <= set(message[row])
+    assert message["values"] == ["0.25", "\u22121.3208", "7.5", "\u22121"]  # of guide.angle: 0.25 - pi/2
+    assert (message["keyed"], message["dark"], message["clicked"], message["again"], message["wide"]) == (
+        True,
+        0,
+        True,
+        0,
+        0,
+    )

@@ -178,8 +178,8 @@ def test_the_text_is_a_page(of: tuple[str, str]) -> None:
     text = model.source
     for what, per in (("phi", ""), ("nu", "/s"), ("gamma_rows", "/s^2")):
         for r, row in enumerate(model.model.all_rows):
-            told = re.escape(f"# {row.name}, {row.unit}{per}")
-            assert re.search(rf"^    {what}\[{r}\] = .*  {told}$|^    {told}\n    {what}\[{r}\] = ", text, re.M)
+            message = re.escape(f"# {row.name}, {row.unit}{per}")
+            assert re.search(rf"^    {what}\[{r}\] = .*  {message}$|^    {message}\n    {what}\[{r}\] = ", text, re.M)
     assert "**(-1)" not in text and not re.search(r"> \d[\d.e-]+ \*|1/2\*np\.pi", text)
     assert "a pivot vanished" not in text
 

@@ -69,19 +69,19 @@ def test_a_sheet_and_its_solutions_are_written_together(
     tmp_path: Path, call: Gudgeon, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A disk that takes the one and not the other leaves the older pair."""
-    from gudgeon.files.writing import Aside
+    from gudgeon.files.writing import AtomicFiles
 
     monkeypatch.chdir(tmp_path)
     assert call("exercise", "pendulum", "-o", "s.txt", "--seed", "1").exit_code == 0
     before = {name: (tmp_path / name).read_bytes() for name in ("s.txt", "s-solutions.txt")}
-    whole = Aside.write
+    whole = AtomicFiles.write
 
-    def write(self: Aside, name: str, data: bytes) -> None:
+    def write(self: AtomicFiles, name: str, data: bytes) -> None:
         if "solutions" in name:
             raise OutputError(self.folder / name, "no space left")
         whole(self, name, data)
 
-    monkeypatch.setattr(Aside, "write", write)
+    monkeypatch.setattr(AtomicFiles, "write", write)
     assert call("exercise", "pendulum", "-o", "s.txt", "--seed", "2").exit_code != 0
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
@@ -95,13 +95,13 @@ def test_jacobian_and_gamma_by_sympy_from_phi_alone(name: str, scene: str) -> No
     gamma = -(phi_q * v).jacobian(q) * v - 2 * phi_q.diff(model.t) * v - model.Phi.diff(model.t, 2)
     entries, right = at(of, phi_q), at(of, gamma)
     coordinates = of.simulation.source.coordinates
-    asked = {
+    requested = {
         f"{names[r]} {coordinates[k]}": entries[r, k]
         for r, row in enumerate(model.rows)
         for k in range(len(coordinates))
         if row.owner in of.owners and model.q[k] in row.phi_q
     }
-    assert found["The Jacobian at a position"].numbers == pytest.approx(asked, rel=1e-12, abs=1e-15)
+    assert found["The Jacobian at a position"].numbers == pytest.approx(requested, rel=1e-12, abs=1e-15)
     owned = {row.name: right[r, 0] for r, row in enumerate(model.rows) if row.owner in of.owners}
     assert found["γ"].numbers == pytest.approx(owned, rel=1e-10, abs=1e-10)
 
@@ -119,7 +119,7 @@ def test_forces_and_accelerations_by_the_whole_system(name: str, scene: str) -> 
         assert q_dd[k] == pytest.approx(a, rel=2e-3)
         assert not any(set(row.phi_q) == {of.model.q[k]} for row in of.model.rows)  # no drive says it
     force = found["The force in a joint"]
-    shown = force.asked[-1].text[-1]  # type: ignore[union-attr]
+    shown = force.requested[-1].text[-1]  # type: ignore[union-attr]
     joint, second = re.search(r"what force does (\w+) put on (\w+),", str(shown)).groups()  # type: ignore[union-attr]
     lambdas = np.array([drawn.run[f"lambda.{row.name}"][-1] for row in of.model.rows])
     own = np.array([row.owner == joint for row in of.model.rows])
@@ -271,8 +271,8 @@ def clamp() -> tuple[str, str, Drawn]:
 def test_a_sheet_gives_no_answer_away() -> None:
     """What is asked stands on the solutions alone; equations there are solved by what is said to solve them."""
     sheet, solved, drawn = clamp()
-    asked = "θ\u0308_link = "
-    assert asked in solved and asked not in sheet and "how large is the angular acceleration of link?" in sheet
+    requested = "θ\u0308_link = "
+    assert requested in solved and requested not in sheet and "how large is the angular acceleration of link?" in sheet
     a = drawn.run.a[-1]
     assert not any(f"{abs(x):.5g}" in sheet for x in a if abs(x) > 1e-9)
     letters = [f"{x}\u0308_{body}" for body in ("arm", "handle", "link") for x in "xyθ"]

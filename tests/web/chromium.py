@@ -58,9 +58,9 @@ class Opened:
 
     def __init__(self, page: Any, file: Path) -> None:
         self.page, self.complaints = page, list[str]()
-        page.on("console", lambda told: self.heard(told.text if told.type in ("error", "warning") else ""))
+        page.on("console", lambda message: self.heard(message.text if message.type in ("error", "warning") else ""))
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on("request", lambda asked: self.heard("" if asked.url.startswith("file:") else asked.url))
+        page.on("request", lambda requested: self.heard("" if requested.url.startswith("file:") else requested.url))
         page.goto(file.as_uri())
         self.wait()
 
@@ -90,8 +90,10 @@ class Opened:
 
     def shown(self) -> list[str]:
         """Path data of traces and of what moves in the drawing."""
-        told = "[...document.querySelectorAll('.g-chart .g-line, #g-drawing path')].map((one) => one.getAttribute('d'))"
-        return list(self.page.evaluate(told))
+        message = (
+            "[...document.querySelectorAll('.g-chart .g-line, #g-drawing path')].map((one) => one.getAttribute('d'))"
+        )
+        return list(self.page.evaluate(message))
 
 
 Opening = Callable[..., Opened]

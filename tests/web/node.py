@@ -60,16 +60,16 @@ class Answer:
 NOTHING: dict[str, Any] = {"arrays": {}, "series": {}, "units": {}, "events": [], "impacts": [], "counts": {}}
 
 
-def answer(told: dict[str, Any]) -> Answer:
+def answer(message: dict[str, Any]) -> Answer:
     """What runner.js printed of one run."""
-    error, shares = told.get("error", ""), told.get("shares", ())
-    told = (told["partial"] or NOTHING) if error else told
+    error, shares = message.get("error", ""), message.get("shares", ())
+    message = (message["partial"] or NOTHING) if error else message
     arrays, series = (
-        {name: np.frombuffer(base64.b64decode(bits)) for name, bits in told[part].items()}
+        {name: np.frombuffer(base64.b64decode(bits)) for name, bits in message[part].items()}
         for part in ("arrays", "series")
     )
-    units, events, impacts, counts = (told[part] for part in ("units", "events", "impacts", "counts"))
-    followed = bool(told.get("followed"))
+    units, events, impacts, counts = (message[part] for part in ("units", "events", "impacts", "counts"))
+    followed = bool(message.get("followed"))
     return Answer(arrays, series, units, events, impacts, counts, error, tuple(shares), followed)
 
 
@@ -80,11 +80,11 @@ def in_node(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) ->
     files = {"script": script(simulation.source).encode(), "description": description(simulation.compiled).encode()}
     for name, data in (files | {"module": simulator(simulation.source)}).items():
         (folder / name).write_bytes(data)
-    asked = {name: str(folder / name) for name in (*files, "module")} | {"runs": runs}
+    requested = {name: str(folder / name) for name in (*files, "module")} | {"runs": runs}
     line = [program, str(RUNNER)]
-    done = subprocess.run(line, input=json.dumps(asked), capture_output=True, text=True, timeout=300)
+    done = subprocess.run(line, input=json.dumps(requested), capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
-    return [answer(told) for told in json.loads(done.stdout)]
+    return [answer(message) for message in json.loads(done.stdout)]
 
 
 PAGE = """<!DOCTYPE html><meta charset="utf-8"><pre id="told"></pre>
@@ -110,7 +110,7 @@ def in_browser(simulation: Simulation, folder: Path, runs: list[dict[str, Any]])
     done = subprocess.run([program, *HEADLESS, page.as_uri()], capture_output=True, text=True, timeout=300)
     found = done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0]
     assert found.startswith("["), found or done.stderr
-    return [answer(told) for told in json.loads(html.unescape(found))]
+    return [answer(message) for message in json.loads(html.unescape(found))]
 
 
 def same_bits(found: Answer, run: Result) -> bool:

@@ -103,8 +103,8 @@ def test_what_is_beyond_them_is_the_librarys(values: Values) -> None:
     """Zeros, infinities, negative bases, numbers too small to be normal, results that overflow."""
     x = np.array([0.0, np.inf, -2.0, -2.0, 5e-324, 1e300, 1e-300, np.nan, 1.0, 2.0])
     y = np.array([0.5, -1.0, 3.0, 0.5, 0.5, 2.0, 2.0, 0.0, np.nan, np.inf])
-    wanted = [0.0, 0.0, -8.0, np.nan, 2.2227587494850775e-162, np.inf, 0.0, 1.0, 1.0, np.inf]
-    np.testing.assert_array_equal(values("pow", x, y), wanted)
+    expected = [0.0, 0.0, -8.0, np.nan, 2.2227587494850775e-162, np.inf, 0.0, 1.0, 1.0, np.inf]
+    np.testing.assert_array_equal(values("pow", x, y), expected)
     ends = np.array([-np.inf, np.inf, 1e3, -1e3, np.nan, 0.0])
     np.testing.assert_array_equal(values("exp", ends, ends), [0.0, np.inf, np.inf, 0.0, np.nan, 1.0])
     ends = np.array([0.0, -1.0, np.inf, 5e-324, 1.0])
@@ -120,10 +120,10 @@ def test_bits_are_those_of_a_page(values: Values, tmp_path: Path) -> None:
     """A hundred thousand arguments each, what Node computes beside what this machine's compiler made."""
     ziglang = pytest.importorskip("ziglang", reason="the extra web is not installed: no compiler for pages")
     zig, module = Path(ziglang.__file__).with_name("zig"), tmp_path / "functions.wasm"
-    asked = ["-Wl,--export=values", *include_flags(), str(HERE / "functions.c"), "-o", str(module)]
+    requested = ["-Wl,--export=values", *include_flags(), str(HERE / "functions.c"), "-o", str(module)]
     kept = {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), "ZIG_LOCAL_CACHE_DIR": str(tmp_path)}
     # from the test's folder, as of a scene: from one that zig lies in it takes its C library for another, a minute more
-    line, env = [str(zig), "cc", *FLAGS, *asked], {**compiler.plain(), **kept}
+    line, env = [str(zig), "cc", *FLAGS, *requested], {**compiler.plain(), **kept}
     subprocess.run(line, cwd=tmp_path, check=True, capture_output=True, env=env)
     for name, pairs in ranges(100_000).items():
         x, y = (np.concatenate(arrays) for arrays in zip(*pairs, strict=True))

@@ -38,22 +38,22 @@ def test_sliders_reach_nothing_that_is_refused() -> None:
 
 def test_units_that_a_field_takes_are_those_of_its_dimension() -> None:
     source = gudgeon.load("nine_bar_press", "lubricated").source
-    taken = units(source)
-    assert taken["m"]["mm"] == 1e-3 and taken["s"]["ms"] == 1e-3 and taken["1/s"]["rpm"] == pytest.approx(np.pi / 30)
+    used = units(source)
+    assert used["m"]["mm"] == 1e-3 and used["s"]["ms"] == 1e-3 and used["1/s"]["rpm"] == pytest.approx(np.pi / 30)
     for slot in source.slots:
-        for name in taken[slot.unit] if not slot.words else ():
+        for name in used[slot.unit] if not slot.words else ():
             assert UNITS[name][1] == dimension(*slot.dimension)
 
 
 def test_python_for_a_drift_runs(capsys: pytest.CaptureFixture[str]) -> None:
     """As the page of a driven mechanism shows it, and that of a scene whose full formulation it does not carry."""
     four_bar, pendulum = gudgeon.load("four_bar"), gudgeon.load("pendulum")
-    assert drift.told(pendulum, pendulum.simulate(), 10, 10) is None
+    assert drift.message(pendulum, pendulum.simulate(), 10, 10) is None
     opens = []
     for scene in (four_bar, pendulum):
-        told = drift.told(scene, scene.simulate(), 70_000, 62_000)
-        assert told is not None and ("70 kB" in told["note"]) == (scene is pendulum)
-        exec(told["code"], {})
+        message = drift.message(scene, scene.simulate(), 70_000, 62_000)
+        assert message is not None and ("70 kB" in message["note"]) == (scene is pendulum)
+        exec(message["code"], {})
         opens.append([float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()])
     (free, held, pushed), (of_pendulum, _, projected) = opens
     assert 1e-5 < free < 1e-3 and held < 0.1 * free and pushed > 10 * held  # over five turns
@@ -108,8 +108,10 @@ def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, page_of_
     assert page.evaluate(f"{BOX}.hidden") and page.evaluate(worst) < 1e-14 and shown.same_bits(four_bar.simulate())
     page.select_option("#g-run-method", "rk4")
     shown.wait()
-    said = page.inner_text("#g-counts"), page.inner_text("#g-numbers")  # the gains of the file, 50 1/s
-    assert "steps of 16.67 ms" in said[0] and "2αh = 1.7 is too much" in said[1] and "Some 6 1/s" in said[1]
+    specified = page.inner_text("#g-counts"), page.inner_text("#g-numbers")  # the gains of the file, 50 1/s
+    assert (
+        "steps of 16.67 ms" in specified[0] and "2αh = 1.7 is too much" in specified[1] and "Some 6 1/s" in specified[1]
+    )
     first = [page.evaluate(worst)]
     for gain in ("6", "0"):
         for name in ("alpha", "beta"):
@@ -139,8 +141,8 @@ def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, page_of_
         native = four_bar.simulate(parameters={"start.guess.coupler.theta": "120 deg"})
     assert np.abs(shown.array("q")[:9] - native.q[0]).max() < 1e-9
     shown.type_into(place["bodies.coupler.length"], "1000")
-    told, call = shown.error().split(" Python searches on and runs from what it finds: ")
-    assert "What makes it: bodies.coupler.length = 1000 mm" in told
+    message, call = shown.error().split(" Python searches on and runs from what it finds: ")
+    assert "What makes it: bodies.coupler.length = 1000 mm" in message
     with pytest.raises(AssemblyError, match="cannot be assembled"):
         eval(call.partition(". What is shown")[0], {"gudgeon": gudgeon})
     page.click(".g-reset")

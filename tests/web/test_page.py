@@ -46,16 +46,16 @@ def test_what_cannot_be_run_is_told(opened: Any, press: Path) -> None:
     shown = opened(press)
     before = shown.array("q")
     field = shown.page.locator(f"{C} + input")
-    for text, told in (("-1", "expected > 0"), ("one", "one is no number"), ("90 deg/s", "a unit may stand behind")):
+    for text, message in (("-1", "expected > 0"), ("one", "one is no number"), ("90 deg/s", "a unit may stand behind")):
         shown.type_into(3, text)
-        assert told in shown.error() and field.get_attribute("aria-invalid") == "true"
+        assert message in shown.error() and field.get_attribute("aria-invalid") == "true"
         assert np.array_equal(shown.array("q"), before)
     shown.type_into(3, "0.3")
     assert shown.error() == "" and field.get_attribute("aria-invalid") is None
     shown.type_into(21, "20")  # L2 does not reach
     address = shown.page.evaluate("gudgeonApp.about.slots[21].address")
-    told = rf"closes beyond {address} = ([\d.]+) mm: the largest gap, ([\d.]+) mm, is in a row of \w+\. Python"
-    gap = re.search(told, shown.error())
+    message = rf"closes beyond {address} = ([\d.]+) mm: the largest gap, ([\d.]+) mm, is in a row of \w+\. Python"
+    gap = re.search(message, shown.error())
     assert gap and 20.0 < float(gap[1]) < 200.0 and 1.0 < float(gap[2]) < 300.0
     shown.type_into(3, "0.31")  # which moves no start: the blame stays where it is
     assert f"What makes it: {address} = 20 mm." in shown.error()
@@ -196,9 +196,9 @@ def test_numbers_beyond_all_prefixes_have_none(opened: Any, press: Path) -> None
         run.unit = (one) => one === name ? "N*m" : unit(one);
         run.found.set(name, run.t.map((t, k) => [-1.555e299, 1.2e7, 1e-25][k] ?? 0));
         gudgeonApp.scales["N*m"] = 0; }""")
-    for k, told in enumerate(("−1.555·10²⁹⁹ N·m", "12 MN·m", "1·10⁻²⁵ N·m")):
+    for k, message in enumerate(("−1.555·10²⁹⁹ N·m", "12 MN·m", "1·10⁻²⁵ N·m")):
         page.evaluate("(k) => { gudgeonApp.seek(gudgeonApp.run.t[k]); gudgeonApp.show(); }", k)
-        assert page.locator("#g-values tr").first.locator("td").all_inner_texts() == told.split(" ")
+        assert page.locator("#g-values tr").first.locator("td").all_inner_texts() == message.split(" ")
 
 
 def test_constraints_drift_where_nothing_holds_them(opened: Any, pendulum: Path) -> None:

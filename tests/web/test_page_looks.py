@@ -57,16 +57,16 @@ NAMES = """() => [...Array(200).keys()].map((i) => {
 
 def test_names_follow_and_lie_on_no_other(seen: Opened) -> None:
     """A turn of the press: each keeps its place beside what it names until another one is there."""
-    told = np.array(seen.page.evaluate(NAMES))
+    message = np.array(seen.page.evaluate(NAMES))
     rounded = 0.2 * np.array([1.0, 1.0, -1.0, -1.0])  # places are written to a tenth
-    middles = (told[..., :2] + told[..., 2:4]) / 2
+    middles = (message[..., :2] + message[..., 2:4]) / 2
     fixed = 0
-    for names, middle in zip(told, middles, strict=True):
+    for names, middle in zip(message, middles, strict=True):
         assert overlapping(names[:, :4] + rounded, names[:, :4] + rounded).sum() == len(names)
         off = names[:, 4:6] + names[:, 6:] - middle
         planned = names[:, :4] + np.hstack([off, off]) + rounded
         fixed += int(overlapping(planned, planned).sum() > len(names))
-    beside = middles - told[..., 4:6]
+    beside = middles - message[..., 4:6]
     moves = (np.abs(np.diff(beside, axis=0)).max(axis=-1) > 0.3).sum()
     assert fixed > 0 and 0 < moves < 0.02 * beside[..., 0].size  # without following some would lie on others
 
@@ -99,13 +99,13 @@ def test_keys_reach_everything(seen: Opened) -> None:
     reached = set()
     for _ in range(60):
         page.keyboard.press("Tab")
-        told = page.evaluate("""() => { const one = document.activeElement, look = getComputedStyle(one);
+        message = page.evaluate("""() => { const one = document.activeElement, look = getComputedStyle(one);
             return [one.id || one.textContent.slice(0, 20), look.outlineStyle, look.outlineWidth,
                 one.closest("#gudgeon-app") !== null]; }""")
-        if not told[3]:
+        if not message[3]:
             break
-        assert told[1] == "solid" and told[2] == "2px", told
-        reached.add(told[0])
+        assert message[1] == "solid" and message[2] == "2px", message
+        reached.add(message[0])
     assert {"g-speed", "g-named", "g-forces", "g-run-method", "g-number-3", "g-add"} <= reached
 
 
@@ -170,8 +170,8 @@ def test_the_panel_s_foot_is_seen_and_traces_stand_below_the_drawing(seen: Opene
 def test_print_has_no_controls(seen: Opened) -> None:
     page = seen.page
     page.emulate_media(media="print", color_scheme="dark")
-    told = """[...document.querySelectorAll("#gudgeon-app :is(button, input, select, details)")]
+    message = """[...document.querySelectorAll("#gudgeon-app :is(button, input, select, details)")]
         .filter((one) => one.getClientRects().length).map((one) => one.outerHTML)"""
-    assert page.evaluate(told) == []
+    assert page.evaluate(message) == []
     assert page.evaluate("document.querySelector('.g-chart .g-print').getClientRects().length") > 0
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"

@@ -45,11 +45,11 @@ def test_pages_fit_and_ask_for_nothing(chromium: Any, pages: list[Path], device:
     size, scheme = device
     context = chromium.new_context(viewport=size, color_scheme=scheme)
     for file in pages:
-        page, asked, told = context.new_page(), list[str](), list[str]()
-        page.on("request", lambda request, asked=asked: asked.append(request.url))
-        page.on("console", lambda message, told=told: told.append(message.text))
+        page, requested, messages = context.new_page(), list[str](), list[str]()
+        page.on("request", lambda request, requested=requested: requested.append(request.url))
+        page.on("console", lambda line, messages=messages: messages.append(line.text))
         page.goto(file.as_uri())
-        assert [url for url in asked if not url.startswith("data:")] == [file.as_uri()] and not told
+        assert [url for url in requested if not url.startswith("data:")] == [file.as_uri()] and not messages
         assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
         paper = page.evaluate("getComputedStyle(document.querySelector('.g-report')).backgroundColor")
         assert (paper == "rgb(255, 255, 255)") == (scheme == "light")

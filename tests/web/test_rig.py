@@ -127,9 +127,9 @@ def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     file.write_text(file_text("drawing.js") + PLACES, encoding="utf-8")
     rows, about = [0, 40, 99], json.loads(description(gudgeon.load(name).compiled))
     postures = [replace(posture_at(run, float(run.t[k])), v=run.v[0]) for k in rows]
-    told = [{"q": one.q.tolist(), "p": one.p.tolist(), "loads": dict(one.loads)} for one in postures]
-    asked = {"rig": rig.json(), "points": about["points"], "postures": told}
-    done = subprocess.run([program, str(file)], input=json.dumps(asked), capture_output=True, text=True, timeout=60)
+    message = [{"q": one.q.tolist(), "p": one.p.tolist(), "loads": dict(one.loads)} for one in postures]
+    requested = {"rig": rig.json(), "points": about["points"], "postures": message}
+    done = subprocess.run([program, str(file)], input=json.dumps(requested), capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
     for posture, placed in zip(postures, json.loads(done.stdout), strict=True):
         for carried, found in zip(rig.shapes, placed, strict=True):

@@ -8,7 +8,7 @@ import pytest
 
 import gudgeon.generator.targets.latex
 import gudgeon.web
-from gudgeon.generator.targets.javascript.module import carried_script
+from gudgeon.generator.targets.javascript.module import embedded_script
 
 FOLDERS = (gudgeon.web, gudgeon.generator.targets.latex)
 FILES = [file for folder in FOLDERS for file in sorted(Path(str(folder.__file__)).parent.glob("*.js"))]
@@ -19,15 +19,15 @@ def test_comments_and_indents_alone_are_left_out(file: Path) -> None:
     """By the words of another reader of JavaScript; lines that end statements are the same."""
     lexers, tokens = pytest.importorskip("pygments.lexers"), pytest.importorskip("pygments.token")
     text = file.read_text(encoding="utf-8")
-    carried = carried_script(text)
+    carried = embedded_script(text)
 
     def words(of: str) -> list[tuple[object, str]]:
         every = lexers.JavascriptLexer().get_tokens(of)
         return [(kind, word) for kind, word in every if kind not in tokens.Comment and word.strip()]
 
     def ends(of: str) -> list[str]:
-        told = "".join(word for kind, word in lexers.JavascriptLexer().get_tokens(of) if kind not in tokens.Comment)
-        return [line.strip() for line in told.split("\n") if line.strip()]
+        message = "".join(word for kind, word in lexers.JavascriptLexer().get_tokens(of) if kind not in tokens.Comment)
+        return [line.strip() for line in message.split("\n") if line.strip()]
 
     assert words(carried) == words(text) and ends(carried) == ends(text)
     assert len(carried) < 0.85 * len(text) and "/*" not in carried

@@ -140,8 +140,8 @@ def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
         ("options is 5", {"options": 5}),
         ("options is 1: expected an object", {"options": [1]}),
         *(
-            (f"parameters is {told}: expected an object", {"parameters": one, "options": options})
-            for told, one in (("null", None), ("5", 5), ("omega", "omega"), ("", []))
+            (f"parameters is {message}: expected an object", {"parameters": one, "options": options})
+            for message, one in (("null", None), ("5", 5), ("omega", "omega"), ("", []))
         ),
         ("omega is [object Object]: expected a number", {"parameters": {"omega": {}}, "options": options}),
     ]
@@ -163,8 +163,8 @@ def test_a_journal_that_is_too_deep_is_named(tmp_path: Path) -> None:
     with pytest.raises(SolverError) as caught:
         crank.simulate(**options)
     (found,) = in_node(crank, tmp_path, [{"options": options}])
-    told = str(caught.value).partition(", at t = ")[0]
-    assert "the journal of wristpin lies 3.52 mm deep" in told and found.error.startswith(f"{told}: t = 0.002")
+    message = str(caught.value).partition(", at t = ")[0]
+    assert "the journal of wristpin lies 3.52 mm deep" in message and found.error.startswith(f"{message}: t = 0.002")
 
 
 FREE: dict[str, float] = {"baumgarte.alpha": 0.0, "baumgarte.beta": 0.0}
@@ -196,9 +196,9 @@ def kept_rows(simulation: Simulation, t: Any, parts: int, gain: float) -> Any:
 @needs_node
 def test_rows_of_a_driven_scene_drift_with_the_square_of_time(tmp_path: Path) -> None:
     """Φ̈ = 0 is all that holds them: an error of Φ̇ in each turn adds up once, one of Φ twice. Baumgarte's bound it."""
-    four_bar, asked = gudgeon.load("four_bar"), {"t_end": 40.0, "output": 2000, "method": "rk4"}
+    four_bar, requested = gudgeon.load("four_bar"), {"t_end": 40.0, "output": 2000, "method": "rk4"}
     runs: list[dict[str, Any]] = [
-        {"parameters": free, "options": asked | {"step": step}, "names": ["Phi.max"]}
+        {"parameters": free, "options": requested | {"step": step}, "names": ["Phi.max"]}
         for free, step in ((FREE, 0.02), (FREE, 0.01), (dict.fromkeys(FREE, 5.0), 0.02))
     ]
     coarse, fine, held = in_node(four_bar, tmp_path, runs)
@@ -270,10 +270,10 @@ LONG: dict[str, Any] = {"t_end": 2000.0, "output": 2}
 @pytest.mark.parametrize("scene", slow_but(["stopped"], ["ideal", "stopped"]))
 def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -> None:
     """A page freezes between two pieces: none of 50,000 steps to two samples has more than some thousand of them."""
-    simulation, asked = loader(tmp_path)(CRANK, scene), LONG
+    simulation, requested = loader(tmp_path)(CRANK, scene), LONG
     moved = {"rod": 0.2, "half": 1000.5}
-    native = simulation.simulate(parameters=moved, **asked)
-    (found,) = in_node(simulation, tmp_path, [{"parameters": moved, "options": asked, "slices": True}])
+    native = simulation.simulate(parameters=moved, **requested)
+    (found,) = in_node(simulation, tmp_path, [{"parameters": moved, "options": requested, "slices": True}])
     assert found.error == "" and found.arrays["t"] == pytest.approx(native.t, rel=1e-13)
     assert (native.t[-1] < 501.0) == (scene == "stopped")
     assert found.counts["steps"] / len(found.shares) < 3000 and list(found.shares) == sorted(found.shares)
@@ -289,8 +289,8 @@ def test_a_run_that_fails_gives_what_it_has(tmp_path: Path) -> None:
     with pytest.raises(SolverError) as caught:
         simulation.simulate(parameters=never, **WHILE)
     (found,) = in_node(simulation, tmp_path, [{"parameters": never, "options": WHILE}])
-    told, _, t = found.error.removesuffix(" s").partition(": t = ")
-    assert "singular" in told or "cannot follow" in told
+    message, _, t = found.error.removesuffix(" s").partition(": t = ")
+    assert "singular" in message or "cannot follow" in message
     assert float(t) == pytest.approx(caught.value.time, rel=1e-8) and len(t) <= 11  # as it is written, 9 digits
     assert same_bits(found, caught.value.partial)
 
@@ -312,5 +312,5 @@ def test_without_its_compiler_it_says_what_to_install(monkeypatch: pytest.Monkey
 
 
 def test_nothing_of_a_file_ends_the_element_that_carries_it(tmp_path: Path) -> None:
-    told = carried(loader(tmp_path)(SWING).compiled)
-    assert told.count("</script>") == 3 and "alert(1)<" not in told
+    message = carried(loader(tmp_path)(SWING).compiled)
+    assert message.count("</script>") == 3 and "alert(1)<" not in message

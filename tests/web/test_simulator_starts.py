@@ -85,8 +85,8 @@ def test_a_start_that_only_python_finds_is_followed(name: str, tmp_path: Path) -
         gudgeon.load("mechanisms/gallery/jansen_leg.yaml") if name == "jansen_leg" else loader(tmp_path)(FAR_GUESS)
     )
     assert '"start":null' not in description(simulation.compiled)
-    asked: list[dict[str, Any]] = [{"parameters": one, "options": BRIEF} for one in MOVED[name]]
-    found = in_node(simulation, tmp_path, asked)
+    requested: list[dict[str, Any]] = [{"parameters": one, "options": BRIEF} for one in MOVED[name]]
+    found = in_node(simulation, tmp_path, requested)
     for one, parameters in zip(found, MOVED[name], strict=True):
         assert_near(one, simulation.simulate(parameters=parameters, **BRIEF))
     assert not any(one.followed for one in found[:2]) and any(one.followed for one in found)
@@ -98,9 +98,9 @@ def test_the_other_assembly_is_not_taken_and_the_end_of_one_is_told(tmp_path: Pa
     four_bar = loader(tmp_path)(FAR_GUESS)
     name, options = "bodies.coupler.length", BRIEF
     lengths = (0.16, 0.1, 0.03, 0.3, 0.001)
-    asked: list[dict[str, Any]] = [{"parameters": {name: one}, "options": options} for one in lengths]
+    requested: list[dict[str, Any]] = [{"parameters": {name: one}, "options": options} for one in lengths]
     both: dict[str, Any] = {"parameters": {name: 0.001, "bodies.rocker.mass": 1.0}, "options": options}
-    *found, long, short, part = in_node(four_bar, tmp_path, [*asked, both])
+    *found, long, short, part = in_node(four_bar, tmp_path, [*requested, both])
     pin = 0.04 * np.exp(1j * np.pi / 3)
     apart = abs(0.1 + 0.01j - pin)
     at = four_bar.source.coordinates.index("coupler.theta")
@@ -115,10 +115,10 @@ def test_the_other_assembly_is_not_taken_and_the_end_of_one_is_told(tmp_path: Pa
         cosine = (length**2 + apart**2 - 0.08**2) / (2.0 * length * apart)
         assert turned(one.arrays["q"]) == pytest.approx(side * np.arccos(cosine), abs=1e-9)
     for one, end in ((long, apart + 0.08), (short, apart - 0.08)):
-        told = re.search(rf"no longer closes beyond {name} = ([\d.]+) mm", one.error)
-        assert told and float(told[1]) == pytest.approx(1e3 * end, rel=1e-3)
-    told = re.search(r"beyond ([\d.]+) % of the way", part.error)
-    assert told and float(told[1]) == pytest.approx(100 * (0.2 - apart) / 0.119, rel=1e-2)
+        message = re.search(rf"no longer closes beyond {name} = ([\d.]+) mm", one.error)
+        assert message and float(message[1]) == pytest.approx(1e3 * end, rel=1e-3)
+    message = re.search(r"beyond ([\d.]+) % of the way", part.error)
+    assert message and float(message[1]) == pytest.approx(100 * (0.2 - apart) / 0.119, rel=1e-2)
 
 
 @needs_node

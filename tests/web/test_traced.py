@@ -89,8 +89,8 @@ def test_a_law_s_lines_are_of_the_joint_that_is_lit(typed: tuple[Opened, Result]
         assert of["*F_t_out"] == pytest.approx(run[f"{joint}.Ft"][SAMPLE], rel=1e-4), token
         assert all(value for text, value in lines if STORES.match(text.replace("*", "")))
         assert [value for text, value in lines if text.strip().startswith("*F_n_out")] == [NOT_RUN]
-    told = shown.page.evaluate("document.querySelector('#gudgeon-lines p').textContent")
-    assert f"{NOT_RUN}: not run" in told and shown.complaints == []
+    message = shown.page.evaluate("document.querySelector('#gudgeon-lines p').textContent")
+    assert f"{NOT_RUN}: not run" in message and shown.complaints == []
 
 
 def test_a_joint_s_state_is_marked_on_each_curve(typed: tuple[Opened, Result]) -> None:
@@ -112,8 +112,8 @@ def test_lines_of_parameters_have_the_numbers_that_were_typed(typed: tuple[Opene
     shown, _ = typed
     lines = shown.page.evaluate(LINES, "joint-A")
     stored = [(text.split(" = ")[0], value) for _, text, value in lines if text.startswith("    p->") and " = " in text]
-    told = {name.strip(): value for name, value in stored}
-    assert number(told["p->c_"]) == number(told["p->pin_clearance_"]) == 4e-4
+    message = {name.strip(): value for name, value in stored}
+    assert number(message["p->c_"]) == number(message["p->pin_clearance_"]) == 4e-4
     row = shown.page.locator(".equation[role=button]").first
     row.focus()
     shown.page.keyboard.press("Enter")

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import gudgeon
-from gudgeon.language.defined import DIVIDING, undefined_part
+from gudgeon.language.defined import DIVIDING, find_undefined_part
 from gudgeon.language.tree import from_json
 from gudgeon.web.page import file_text
 from tests.scenes import loader
@@ -52,10 +52,10 @@ def test_undefined_parts_are_those_of_python(tmp_path: Path) -> None:
     )
     (tmp_path / "cases.js").write_text(program, encoding="utf-8")
     run = subprocess.run([node() or "", str(tmp_path / "cases.js")], capture_output=True, text=True, check=True)
-    said = {"defined": None, "NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
-    found = [said[one] for one in json.loads(run.stdout)]
+    specified = {"defined": None, "NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
+    found = [specified[one] for one in json.loads(run.stdout)]
     with np.errstate(all="ignore"):
-        expected = [undefined_part(from_json(tree), known) for tree, known in cases]
+        expected = [find_undefined_part(from_json(tree), known) for tree, known in cases]
     wrong = [case for case, a, b in zip(cases, found, expected, strict=True) if str(a) != str(b)]
     assert wrong == [] and 0 < sum(one is None for one in expected) < len(cases)
 

@@ -57,7 +57,7 @@ double deepest(const Parameters *p, int i)
 }
 
 /* The least velocity that counts as that of an impact, m/s. */
-double slowest_impact(const Parameters *p, int i)
+double min_approach_speed(const Parameters *p, int i)
 {
     (void)p;
     switch (i) {

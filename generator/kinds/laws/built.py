@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
-from gudgeon.generator.kinds.laws.registered import ORIGINS, place_in, prefix, told
+from gudgeon.generator.kinds.laws.registered import ORIGINS, message, place_in, prefix
 from gudgeon.language.functions import IN_SYMPY
 
 PAIR = tuple(PairSymbols.__annotations__)
@@ -64,13 +64,13 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     except BaseException as error:
         place = place_in(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
         hint = f"it is given {_offered(law)}" if isinstance(error, KeyError) else ""
-        raise _error(law, f"build raised {told(error)}", hint, place) from error
+        raise _error(law, f"build raised {message(error)}", hint, place) from error
     results = _checked_names(law, steps)
     found, known = {}, given | {symbol for x in inputs.variables.values() for symbol in _symbols(x)}
-    taken = {*law.variables, *(own.name for own in law.parameters)}
+    used = {*law.variables, *(own.name for own in law.parameters)}
     for name, step in steps.items():
         _need_name(law, name)
-        if name in taken:
+        if name in used:
             raise _error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
         found[name] = value = _value(law, name, step)
         _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before", written)

@@ -4,7 +4,8 @@
 
 never negative unless it `pulls`. What the factor a delivers hangs on no form of F_e: m δ̈ = −F_e (1 + a δ̇/δ̇⁻) is
 m v dv/(1 + a v/δ̇⁻) = −F_e dδ, whose right side is the same on the way in and on the way out. So every factor of
-dissipation.py may go with it, `exact` too. How the expression is read, and what is looked at: equations/own_laws.py.
+dissipation.py may go with it, `exact` too. How the expression is read, and what is looked at:
+equations/user_defined_laws.py.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ class LawInputs:
     """Contain the arguments of a law's `build`: its parameters, the pair, and the variables of its role.
 
     `derive(name, expression, meaning)` returns the symbol of a constant that is computed once a run; `whole(x)` keeps
-    SymPy from expanding x (symbols/wholes.py).
+    SymPy from expanding x (symbols/unevaluated.py).
     """
 
     parameters: Mapping[str, Any]
@@ -172,24 +172,24 @@ class Law:
         )
 
 
-OWN: dict[str, Law] = {}  # user-defined laws (registered.py)
+USER_LAWS: dict[str, Law] = {}  # user-defined laws (registered.py)
 
 
 @cache
-def house() -> Mapping[str, Law]:
+def bundled_laws() -> Mapping[str, Law]:
     """Return the laws in this folder by name."""
     return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
 
 
 def laws() -> Mapping[str, Law]:
     """Return all laws by name: those in this folder and user-defined ones."""
-    return {**house(), **OWN}
+    return {**bundled_laws(), **USER_LAWS}
 
 
 def called(role: str) -> Mapping[str, Law]:
     """Return the laws of a role by each of their names: those of this folder first, user-defined ones last."""
     found: dict[str, Law] = {}
-    for some in (house(), OWN):
+    for some in (bundled_laws(), USER_LAWS):
         fitting = {law.name: law for law in some.values() if law.role == role}
         found |= fitting | {name: law for law in fitting.values() for name in law.also}
     return found

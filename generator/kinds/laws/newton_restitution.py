@@ -4,7 +4,8 @@
     contact:  δ̈ ≤ 0,   λ ≥ 0,   λ δ̈ = 0   at δ = δ̇ = 0
 
 with the impulse Λ (N s) and the force λ (N) along the normal. A bounce slower than the threshold v_0 ends at rest: the
-contact is closed. Several contacts at one time go by one linear complementarity problem: what is closed, or closes,
+contact is closed. CombinedObserver contacts at one time go by one linear complementarity problem: what is closed, or
+closes,
 takes part with all others. Friction beside it, F_t = −μ(v_t) F_n by its own law, acts with λ while a contact is closed.
 In a blow it has impulses P along t (engine/run/frictional_impact.c): with v the slip behind the blow without friction,
 

@@ -22,10 +22,10 @@ from typing import Any, TypeGuard
 from gudgeon.errors import BadNameError, InputError, LawError, Location, shortened
 from gudgeon.files.reading import MAX_BYTES, read_named
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
-from gudgeon.generator.kinds.laws.law import OWN, RESULTS, Law, State, house
+from gudgeon.generator.kinds.laws.law import RESULTS, USER_LAWS, Law, State, bundled_laws
+from gudgeon.language.argument_checks import path
 from gudgeon.language.names import check_label, known_hint
 from gudgeon.language.units import Dimension
-from gudgeon.language.wanted import path
 
 WHOLE = "docs/describing.md has one whole"
 
@@ -61,8 +61,8 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
     except Exception as error:  # a field of a type that nobody thought of
         hint = f"what each of its fields may be: {WHOLE}"
         name = getattr(own, "name", None)
-        raise LawError(f"{prefix(name, origin)}its declaration is none: {told(error)}", hint=hint) from error
-    OWN[own.name], ORIGINS[own.name] = own, origin
+        raise LawError(f"{prefix(name, origin)}its declaration is none: {message(error)}", hint=hint) from error
+    USER_LAWS[own.name], ORIGINS[own.name] = own, origin
     return own
 
 
@@ -74,12 +74,12 @@ def prefix(name: object, origin: Origin | None) -> str:
 
 def key_of(name: str) -> str:
     """Return the key of a user-defined law, a SHA-256 of its content; "" if there is none of that name."""
-    if name not in OWN:
+    if name not in USER_LAWS:
         return ""
     if not ORIGINS[name].key:
         from gudgeon.generator.kinds.laws.built import key_of_law
 
-        ORIGINS[name] = replace(ORIGINS[name], key=key_of_law(OWN[name]))
+        ORIGINS[name] = replace(ORIGINS[name], key=key_of_law(USER_LAWS[name]))
     return ORIGINS[name].key
 
 
@@ -112,7 +112,7 @@ def _load_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     except BaseException as error:
         sys.modules.pop(module.__name__, None)
         place = place_in(error, shown) or Location(shown, 1, 1)
-        raise LawError(f"the law cannot be read: {told(error)}", place) from error
+        raise LawError(f"the law cannot be read: {message(error)}", place) from error
     law = getattr(module, "LAW", None)
     if not isinstance(law, Law):
         what = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
@@ -122,7 +122,7 @@ def _load_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     return law, Origin(shown, str(module.__file__), digest.hexdigest())
 
 
-def told(error: BaseException) -> str:
+def message(error: BaseException) -> str:
     """Return a Python error as one line."""
     try:
         text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
@@ -151,9 +151,9 @@ def _check_declaration(law: Law, origin: Origin) -> None:
         _need(isinstance(getattr(law, name), str), f"its {name} is no text")
     check_name(law.name, "law")
     for what in (law.name, *law.also):
-        used = {name for other in house().values() for name in (other.name, *other.also)}
+        used = {name for other in bundled_laws().values() for name in (other.name, *other.also)}
         _need(what not in used, f"{what} is a law of gudgeon's", "give yours another name")
-        others = [other for other in OWN.values() if other.name != law.name]
+        others = [other for other in USER_LAWS.values() if other.name != law.name]
         _need(all(what not in (o.name, *o.also) for o in others), f"{what} is another registered law's name")
     known = ORIGINS.get(law.name)
     if known is not None and known.file != origin.file:

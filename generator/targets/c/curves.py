@@ -31,7 +31,7 @@ def curves_code(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
 
 def _table(curve: Curve) -> str:
     """Return the C tables of one curve: knots, and the coefficients of the pieces between them."""
-    description = comment_text(f"{curve.name}: {curve.told()}")
+    description = comment_text(f"{curve.name}: {curve.message()}")
     if curve.is_long:
         tables = _byte_table("knots", curve.name, curve.x) + _byte_table("pieces", curve.name, curve.coefficients)
         return "\n".join([f"/* {description} */", _LITTLE_ENDIAN, *tables, ""])

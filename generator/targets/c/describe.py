@@ -23,20 +23,20 @@ from gudgeon.contract.kernel_source import (
     Slot,
     WrittenInfo,
 )
-from gudgeon.contract.ledger import Story
+from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.contract.stored import base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
-from gudgeon.generator.equations.model import Model, apart_rows
+from gudgeon.generator.equations.model import Model, eccentricity_rows
 from gudgeon.generator.equations.notes import scene_notes
-from gudgeon.generator.kernels.outputs import element_series, kept_joints
+from gudgeon.generator.kernels.outputs import constraining_joints, element_series
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, quantities
 from gudgeon.generator.reduction.driven_chains import Chain
-from gudgeon.language.defined import is_defined_everywhere
+from gudgeon.language.defined import is_total_expression
 from gudgeon.language.tree import Expr, names, to_json
 from gudgeon.language.units import Dimension
 
-EMPTY_STORY = Story()
+EMPTY_STORY = ReductionLog()
 
 
 def describe(
@@ -52,7 +52,7 @@ def describe(
     closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (),
     formulation: str = "full",
-    story: Story = EMPTY_STORY,
+    story: ReductionLog = EMPTY_STORY,
     lanes: str = "",
     chain: Chain | None = None,
     stages: bool = False,
@@ -109,7 +109,7 @@ def describe(
         massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
-        start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
+        start_apart=tuple(model.all_rows[k].name for k, _, _ in eccentricity_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)),
         written=tuple(_written_expressions(model)),
         expressions=tuple(_written_info(one, one.written) for one in mechanism.expressions.values()),
@@ -127,7 +127,7 @@ def _parameter_slots(model: Model) -> Iterator[Slot]:
     """Yield the run-time parameters with address, unit, default and their expression if it may be undefined."""
     for e in model.slots.entries.values():
         exponents = _exponents(e.dimension)
-        tree = "" if e.written is None or is_defined_everywhere(e.written) else json.dumps(to_json(e.written))
+        tree = "" if e.written is None or is_total_expression(e.written) else json.dumps(to_json(e.written))
         yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words, tree)
 
 
@@ -174,7 +174,7 @@ def _joint_infos(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, 
             _point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
             tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
         )
-        for joint in kept_joints(model)
+        for joint in constraining_joints(model)
     )
 
 

@@ -16,8 +16,8 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.kernels.driven_chains import ChainKernels
-from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Program, TreeFunctions
+from gudgeon.generator.kernels.reduction_log import build_reduction_log
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.symbols.storage import PARAMETERS, Place
 from gudgeon.generator.targets.c import functions, ranges_printer, readme, taylor
@@ -81,7 +81,7 @@ def describe_program(program: Program, files: Mapping[str, str], units: tuple[in
         chain=integrated.chain,
         closures=tuple(row.name for row in tree.system.rows) if tree else (),
         formulation=program.formulation,
-        story=tell(
+        story=build_reduction_log(
             model,
             program.kkt,
             course.solved if course else integrated.kkt,

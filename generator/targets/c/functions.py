@@ -14,18 +14,18 @@ from gudgeon.generator.ir.series_rules import Gathered
 from gudgeon.generator.ir.signatures import Access, Argument, Number, Type
 from gudgeon.generator.ir.split import cut
 from gudgeon.generator.ir.statements import (
+    AssignStatus,
     Branches,
     Call,
     Declare,
-    Ended,
     Guard,
     Jump,
     Largest,
     LargestRow,
     Line,
-    Passed,
     Rescue,
     Return,
+    ReturnIfFailed,
     RunNumbers,
     Sines,
     Statement,
@@ -34,7 +34,7 @@ from gudgeon.generator.ir.statements import (
     When,
 )
 from gudgeon.generator.ir.values import NONE
-from gudgeon.generator.kernels.shared import CORNER, SharedCall
+from gudgeon.generator.kernels.shared import CORNER, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.storage import Place, key_of
 from gudgeon.generator.targets.c.printer import WIDTH, CPrinter, Text, broken, comment_text, expression
@@ -117,9 +117,9 @@ class Lines(Text):
                 return ["if (!a)", "    return 0;"]
             case Return():
                 return ["return pivot;" if item.pivot else "return 0;"]
-            case Passed():
+            case AssignStatus():
                 return [f"{'' if item.status == 'pivot' else 'const int '}{item.status} = {self._call(item.call)};"]
-            case Ended():
+            case ReturnIfFailed():
                 return [f"if ({item.status})", f"    {'goto dependent' if item.jumps else f'return {item.status}'};"]
             case Branches():
                 return _branch_arrays(item)
@@ -243,8 +243,8 @@ def _branch_arrays(item: Branches) -> list[str]:
         if item.held
         else "NULL; /* of corners within corners: as they are */"
     )
-    told = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[item.told]
-    return [f"const double *const branch = {held}", *told]
+    message = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[item.message]
+    return [f"const double *const branch = {held}", *message]
 
 
 def statements(items: Sequence[Statement]) -> str:
@@ -259,14 +259,14 @@ def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
     return [(writer.line(line), line) for section in own.sections for line in section.statements]
 
 
-def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str]) -> str:
+def shared_call(call: SharedFunctionCall, given: Sequence[str], results: Sequence[str]) -> str:
     """Return a joint's call of a function that several joints share."""
     held = ["branch", "g", str(call.corner)] if call.corner is not None else []
     numbers = map(expression, call.numbers)
     return f"{call.kernel.name}({', '.join([*given, *numbers, *held, *results])});"
 
 
-def unread_branches(calls: Iterable[SharedCall], statements: Iterable[Statement] = ()) -> list[str]:
+def unread_branches(calls: Iterable[SharedFunctionCall], statements: Iterable[Statement] = ()) -> list[str]:
     """Return which of the arguments `branch` and `g` neither the calls nor the statements read."""
     read = NONE.union(*(line.reads for line in statements))
     corners = any(call.corner is not None for call in calls)

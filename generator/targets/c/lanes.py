@@ -8,7 +8,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods, Program
-from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.kernels.shared import SharedFunctionCall
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import curves_code
@@ -101,7 +101,7 @@ def _linearized_code(pins: Sequence[Pin], methods: Methods, render: Render, stat
 
 
 def _tangent_code(
-    model: Model, clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int
+    model: Model, clearance: Clearance, parts: Mapping[str, SharedFunctionCall], render: Render, states: int
 ) -> str:
     """Return the linearized force of a joint with play for lanes."""
     given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}

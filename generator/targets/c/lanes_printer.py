@@ -16,7 +16,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.readable import lines, readable
 from gudgeon.generator.ir.series_rules import WIDE, Gathered
 from gudgeon.generator.ir.signatures import Number, Type, result
-from gudgeon.generator.ir.sine_pairs import lane_by_lane
+from gudgeon.generator.ir.sine_pairs import call_sines_by_lane
 from gudgeon.generator.ir.statements import (
     Branches,
     Call,
@@ -32,7 +32,7 @@ from gudgeon.generator.ir.statements import (
     Statement,
     Status,
 )
-from gudgeon.generator.ir.values import Chosen, Test, Value
+from gudgeon.generator.ir.values import Conditional, Test, Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
@@ -126,7 +126,7 @@ class LaneLines(functions.Lines):
         match value:
             case sp.Basic():
                 return self.printer._vector(value)
-            case Chosen():
+            case Conditional():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"pick({self.test(value.test)}, {then}, {otherwise})"
             case _:
@@ -167,8 +167,8 @@ class LaneLines(functions.Lines):
                 return ["const LaneParameters *const p = lin->p;"]
             case Branches():
                 held, own = "held_branches(discrete)" if item.held else "NULL", "Lanes g[N_SWITCHES + 1];"
-                told = {"": [], "nobody": [own], "rhs": ["Lanes *const g = reported_branches(rhs);"]}
-                return [f"const Lanes *const branch = {held};", *told[item.told]]
+                message = {"": [], "nobody": [own], "rhs": ["Lanes *const g = reported_branches(rhs);"]}
+                return [f"const Lanes *const branch = {held};", *message[item.message]]
             case Largest():
                 name = f"*{item.target}"
                 before = ["all_of(0.0)", *[name] * len(item.values)]
@@ -213,7 +213,7 @@ def kernel(item: Kernel) -> str:
 
 def motion_kernel(item: Kernel) -> str:
     """Return a kernel for vectors whose sines a single run computes in vectors, too, with the argument `rare`."""
-    return kernel_with_rare(lane_by_lane(item))
+    return kernel_with_rare(call_sines_by_lane(item))
 
 
 def kernel_with_rare(item: Kernel) -> str:

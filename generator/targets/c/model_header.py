@@ -10,23 +10,23 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
-from gudgeon.generator.equations.model import SIGNS, Model, apart_rows
-from gudgeon.generator.equations.notes import has_jumps, jumping_drives
+from gudgeon.generator.equations.model import SIGNS, Model, eccentricity_rows
+from gudgeon.generator.equations.notes import drives_with_jumps, has_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.field import Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
-from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
+from gudgeon.generator.kernels.event_functions import depends_on_state, ranges_kernel
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import BREAKAWAY, DEEPEST
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
-from gudgeon.generator.symbols.corners import PeriodsOf
 from gudgeon.generator.symbols.curves import KnotsOf
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
+from gudgeon.generator.symbols.switches import PeriodsOf
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.printer import broken, comment_text
 from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
@@ -34,7 +34,7 @@ from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Di
 _NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
 
 
-def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
+def parameter_fields(slots: ParameterTable) -> list[tuple[str, str]]:
     """Return name and comment of each field of Parameters, in the order of the struct."""
     known: dict[sp.Symbol, Dimension | None] = {}
     fields = []
@@ -52,8 +52,8 @@ def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
     for symbol, value in slots.derived.items():
         known[symbol] = _dimension(value, known)
         own = known[symbol]
-        told = (slots.symbols.info[symbol].meaning, unit_text(own) if own else "")
-        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, told)))))
+        message = (slots.symbols.info[symbol].meaning, unit_text(own) if own else "")
+        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, message)))))
     return fields
 
 
@@ -111,7 +111,7 @@ _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # coordinate of which each
 _OF_JOINTS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
     "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
-    "slowest_impact": "The least velocity that counts as that of an impact, m/s.",
+    "min_approach_speed": "The least velocity that counts as that of an impact, m/s.",
     "breakaway": "The deflection at which friction with an inner state slides, m; 0: not known.",
     "restitution_of": "Where surfaces do not give, speed of parting by speed of approach.",
     "threshold_of": "Where surfaces do not give, the speed of parting below which a contact closes, m/s.",
@@ -163,7 +163,7 @@ def _linkage_sizes(program: Program) -> Sizes:
         "N_Q": (len(model.q), "coordinates of all bodies"),
         "N_ROWS": (len(model.rows), "constraint rows of the motion"),
         "N_ALL_ROWS": (len(model.all_rows), "rows of the closed linkage"),
-        "N_JOINTS": (len(outputs.kept_joints(model)), "joints without play"),
+        "N_JOINTS": (len(outputs.constraining_joints(model)), "joints without play"),
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
         "LAW_STATES": (model.law_states, "inner states of the laws of a joint with play, at most"),
@@ -201,11 +201,14 @@ def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     """Return the sizes of what is monitored within a step: event functions, terms of time, jumps."""
     model = program.model
     sizes: Sizes = {
-        "DRIVE_IMPULSES": (int(bool(jumping_drives(model))), "drives' rates may jump, and something is free to move"),
+        "DRIVE_IMPULSES": (
+            int(bool(drives_with_jumps(model))),
+            "drives' rates may jump, and something is free to move",
+        ),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
         "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
-        "WATCHES_STATE": (int(bounds is not None and reads_state(bounds)), "they hang on more than time"),
+        "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they hang on more than time"),
         "N_TERMS": (program.terms.count, "terms of time alone, which may hide within a step"),
         "N_PULSES": (program.terms.pulses, "of these, the first: those that may in a step of any motion"),
     }
@@ -213,8 +216,8 @@ def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     switches = [switch.g for some in systems for switch in some.symbols.switches.found.values()]
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
-    if model.rubbed:
-        sizes["N_RUBBED"] = (len(model.rubbed), "of them, with friction")
+    if model.rigid_with_friction:
+        sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of them, with friction")
     if idle := idle_switches(program):
         sizes["N_IDLE"] = (len(idle), "of N_SWITCHES that what is integrated does not have")
     if any(g.has(PeriodsOf) for g in switches):
@@ -232,7 +235,7 @@ def _monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
 def _start_sizes(program: Program) -> Sizes:
     """Return the sizes of the start."""
     start, guess = _start_indices(program.model), program.model.scene.mechanism.start.guess
-    apart = apart_rows(program.model)
+    apart = eccentricity_rows(program.model)
     sizes: Sizes = {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
         "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
@@ -307,7 +310,7 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         ("unsigned char", "is_angle"): program.integrated.angles,
         ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
     }
-    if apart := [k for k, _, _ in apart_rows(model)]:
+    if apart := [k for k, _, _ in eccentricity_rows(model)]:
         tables |= {("int", "apart_row"): apart}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
@@ -371,7 +374,7 @@ def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],
         "deepest": [deepest(c) for c in model.clearances],
-        "slowest_impact": [c.velocity_floor for c in model.clearances],
+        "min_approach_speed": [c.velocity_floor for c in model.clearances],
     }
     if model.law_states:
         values["breakaway"] = [c.constants.get(BREAKAWAY, 0) for c in model.clearances]
@@ -380,13 +383,13 @@ def joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
             f"{name}_of": [c.normal.numbers[name] if c.rigid and c.normal else 0 for c in model.clearances]
             for name in ("restitution", "threshold")
         }
-    told = dict(_OF_JOINTS)
+    message = dict(_OF_JOINTS)
     if any(DEEPEST in c.constants for c in model.clearances):
-        told["deepest"] = told["deepest"].replace("radius.", "radius, or a law's own.")
+        message["deepest"] = message["deepest"].replace("radius.", "radius, or a law's own.")
     if any(c.wall for c in model.clearances):
-        told["deepest"] = told["deepest"].replace("radius", "radius, of half a guide's width", 1)
+        message["deepest"] = message["deepest"].replace("radius", "radius, of half a guide's width", 1)
     return [
-        (told[name], name, [printer.expression(model.symbols.in_place(sp.sympify(x))) for x in some])
+        (message[name], name, [printer.expression(model.symbols.in_place(sp.sympify(x))) for x in some])
         for name, some in values.items()
     ]
 

@@ -9,7 +9,7 @@ from gudgeon.generator.equations.contact_steps import beta_i
 from gudgeon.generator.equations.play import Clearance, Contour
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods
-from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.kernels.shared import SharedFunctionCall
 from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR, in_place
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
@@ -73,7 +73,7 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: 
     return "\n".join(parts)
 
 
-def _contour_tangent(clearance: Clearance, contour: Contour, dry: SharedCall, render: Render) -> str:
+def _contour_tangent(clearance: Clearance, contour: Contour, dry: SharedFunctionCall, render: Render) -> str:
     """Return the tangent function of a bearing with a contour."""
     given = [symbol.name for symbol in OF_CONTOUR]
     return render(
@@ -95,7 +95,7 @@ def shared_slopes_code(pins: Sequence[Pin], render: Render, number: str, type_: 
     return render("play/pin_slopes.c.jinja", blending=shown, **given) + of_walls
 
 
-def _select_slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:
+def _select_slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedFunctionCall]) -> str:
     """Return the code that selects dry contact, film or both, as in the joint's force (clearance_*.c.jinja)."""
 
     def call(part: str, result: str, *given: str) -> str:

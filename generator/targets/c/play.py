@@ -81,7 +81,7 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         rigid=clearance.rigid,
         closed="contact->closed" if clearance.rigid else CLOSED,
         store=_store_code(clearance, states),
-        told=_transition_comment(clearance),
+        message=_transition_comment(clearance),
         law=_mixed_law_comment(clearance),
         first=pin.corners.start,
         last=pin.corners.stop,
@@ -185,8 +185,8 @@ def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     found += [(code.strip(), step.defines) for (code, _), step in pressing]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
-        given, told = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
-        results = ("&F_along_t_dry", *told)
+        given, message = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
+        results = ("&F_along_t_dry", *message)
         friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results)
         found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         found.append((friction, "F_along_t_dry"))

@@ -11,17 +11,17 @@ import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, share_of_pi
-from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Value
+from gudgeon.generator.ir.values import Conditional, Defaulted, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, key_of
-from gudgeon.generator.targets import breaks
-from gudgeon.generator.targets.quick import Quick
+from gudgeon.generator.targets import line_breaks
+from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 _PLAIN = Readable(())
 
 
-class CPrinter(Quick, C99CodePrinter):
+class CPrinter(CachedPrinter, C99CodePrinter):
     """Print expressions as C: doubles that round-trip, small powers as products, min and max that propagate NaN.
 
     `of`: the function that is written, with the names of its symbols and branches.
@@ -135,7 +135,7 @@ class CPrinter(Quick, C99CodePrinter):
         return self._call("fabs", expr.args[0])
 
     def _print_Whole(self, expr: sp.Expr) -> str:
-        """Print an unevaluated operand (symbols/wholes.py) in brackets."""
+        """Print an unevaluated operand (symbols/unevaluated.py) in brackets."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
@@ -145,7 +145,7 @@ class CPrinter(Quick, C99CodePrinter):
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
-        """Print the active branch of a switching function (symbols/corners.py)."""
+        """Print the active branch of a switching function (symbols/switches.py)."""
         return f"branch_of(branch, g, {self.corner(int(expr.args[0]))}, {self._print(expr.args[1])})"
 
     def corner(self, index: int) -> str:
@@ -156,7 +156,7 @@ class CPrinter(Quick, C99CodePrinter):
         return f"corner + {further}" if further else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
-        """Print an absolute value that is never 0 (symbols/corners.py)."""
+        """Print an absolute value that is never 0 (symbols/switches.py)."""
         return f"(fabs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
@@ -185,7 +185,7 @@ class CPrinter(Quick, C99CodePrinter):
         return f"contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
-        """Print a remainder (symbols/corners.py)."""
+        """Print a remainder (symbols/switches.py)."""
         return self._call("mod_of", *expr.args)
 
     def _print_ModOn(self, expr: sp.Expr) -> str:
@@ -242,12 +242,12 @@ class Text:
         match value:
             case Place():
                 return self.printer.called(value)
-            case Chosen():
+            case Conditional():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"{self.test(value.test)} ? {then} : {otherwise}"
             case Sum():
                 return " + ".join(map(self.printer.called, value.places))
-            case Given():
+            case Defaulted():
                 return f"is_given[{value.k}] ? given[{value.k}] : {self.expression(value.default)}"
             case _:
                 return self.printer.doprint(value)
@@ -288,7 +288,7 @@ WIDTH = 120
 
 def broken(line: str) -> list[str]:
     """Break a line of code into lines of at most WIDTH characters."""
-    return breaks.broken(line, WIDTH)
+    return line_breaks.broken(line, WIDTH)
 
 
 def within(text: str) -> str:

@@ -16,7 +16,7 @@ from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
-from gudgeon.generator.targets.quick import ordered_terms
+from gudgeon.generator.targets.cached_printer import order_terms
 
 _TYPES: dict[Type, Type] = {Number.REAL: "Range", "RhsOutputs": "Range"}
 _NAMES = {"rhs": "out"}
@@ -53,7 +53,7 @@ class RangesPrinter(printer.CPrinter):
         """Print a sum of ranges."""
         if not expr.free_symbols:
             return str(super()._print_Add(expr))
-        return self._chained("add", ordered_terms(expr))
+        return self._chained("add", order_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         """Print a product of ranges."""

@@ -50,7 +50,7 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
     equations = [name for name in _EQUATIONS if name in names]
     rest = [name for name in _NUMERICS if name in names]
     rest = [*(name for name in names if name not in (*equations, *rest)), *rest]
-    told = purposes(program)
+    message = purposes(program)
     return "\n".join(
         [
             f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}",
@@ -61,11 +61,11 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
             "",
             "## The equations, in the order in which they are to be read",
             "",
-            *(f"- `{name}`: {told[name]}" for name in equations),
+            *(f"- `{name}`: {message[name]}" for name in equations),
             "",
             "## How they are solved",
             "",
-            *(f"- `{name}`: {told.get(name) or _comment(files.get(name, ''))}" for name in rest),
+            *(f"- `{name}`: {message.get(name) or _comment(files.get(name, ''))}" for name in rest),
             "",
             *_calls(program, names),
         ]
@@ -139,6 +139,6 @@ def _plain(text: str) -> str:
 
 def _comment(text: str) -> str:
     """Return the first sentence of a file's first comment."""
-    _, _, told = text.partition("/*")
-    lines = [line.strip().removeprefix("*").strip() for line in told.partition("*/")[0].splitlines()]
+    _, _, message = text.partition("/*")
+    lines = [line.strip().removeprefix("*").strip() for line in message.partition("*/")[0].splitlines()]
     return " ".join(filter(None, lines)).partition(". ")[0] or "more of it"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.series_rules import WIDE
-from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.sine_pairs import pair_sines
 from gudgeon.generator.targets.c import functions, lanes_printer
 
 FILE = "taylor.c"
@@ -20,7 +20,7 @@ typedef double Wide __attribute__((vector_size({8 * WIDE}), aligned(16)));
 
 def taylor_code(series: Series) -> str:
     """Return the text of taylor.c."""
-    kernels = (functions.kernel(side_by_side(series.values)), functions.kernel(series.terms))
+    kernels = (functions.kernel(pair_sines(series.values)), functions.kernel(series.terms))
     return "\n".join([_HEAD, _structs(series, "double"), *kernels])
 
 

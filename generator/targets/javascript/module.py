@@ -63,7 +63,7 @@ def equations_script(program: Program) -> str:
     text = ",\n".join(texts)
     members = map(model.slots.field, model.slots.members())
     place = {row.name: k for k, row in enumerate(model.all_rows)}
-    told = {
+    message = {
         "numbers": {one: k for k, one in enumerate(members) if one in read},
         "rows": [place[row.name] for row in model.rows],
         "names": [row.name for row in model.rows],
@@ -77,9 +77,9 @@ def equations_script(program: Program) -> str:
     if model.slots.tables:
         place_of = {symbol: k for k, symbol in enumerate(model.slots.members())}
         first = {name: place_of[own[0]] for name, own in model.slots.tables.items()}
-        told["tables"] = {name: [first[name], first[name] + len(own)] for name, own in model.slots.tables.items()}
+        message["tables"] = {name: [first[name], first[name] + len(own)] for name, own in model.slots.tables.items()}
     prelude = PRELUDE + CONTOUR * bool(model.slots.tables)
-    parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
+    parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in message.items())
     return (
         f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{text},\n}};\n"
         f"return {{{parts}, functions}};\n}})();\n"
@@ -132,8 +132,8 @@ def _joints_of_functions(program: Program) -> dict[str, list[str]]:
 
 def _motion_locals(model: Model, index: int) -> list[str]:
     """Return the locals of `play` that contain the motion in a joint."""
-    taken = {symbol.name for symbol in model.symbols.info}
-    first = next(word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in taken))
+    used = {symbol.name for symbol in model.symbols.info}
+    first = next(word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in used))
     return [f"{first}_{index + 1}_{symbol.name}" for symbol in motion(model.clearances[index])]
 
 
@@ -150,7 +150,7 @@ def play_kernel(model: Model) -> Kernel:
     return build.build((*STATE, PARAMETERS))
 
 
-def carried_script(text: str) -> str:
+def embedded_script(text: str) -> str:
     """Return a JavaScript file without comments and indents, for embedding in a page.
 
     Lines are kept, since they end statements.

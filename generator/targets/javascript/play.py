@@ -14,7 +14,7 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.readable import Readable, lines
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.play import Pin
-from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.kernels.shared import SharedFunctionCall
 from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, Lines, results
 
 MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
@@ -124,12 +124,12 @@ class _Part:
         self.text, self.locals = writer.all(), writer.locals
 
 
-def _call(call: SharedCall, given: Iterable[str], stored: Sequence[str], read: set[str]) -> list[str]:
+def _call(call: SharedFunctionCall, given: Iterable[str], stored: Sequence[str], read: set[str]) -> list[str]:
     """Return the call of a law, with its first results as locals."""
     function, numbers = call.kernel.name, map(JavaScriptPrinter(Readable(()), read).called, call.numbers)
-    told = ", ".join(f"{of}: {name}" for of, name in zip(results(call.kernel), stored, strict=False))
+    message = ", ".join(f"{of}: {name}" for of, name in zip(results(call.kernel), stored, strict=False))
     called = f"functions.{function}({', '.join([*given, *numbers])})"
-    return [f"const {{{told}}} = of.{function} = {called};"]
+    return [f"const {{{message}}} = of.{function} = {called};"]
 
 
 def _store(function: str, names: Iterable[str]) -> str:

@@ -111,8 +111,8 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
     if rhs := _outputs_literal(kernel) if only is None else "":
         arrays, outs = [*arrays, f"    const rhs = {rhs};"], [*outs, "rhs"]
     given = ", ".join(arguments(kernel))
-    told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
-    lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{told}}};"]
+    message = ", ".join(dict.fromkeys([*writer.locals, *outs]))
+    lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{message}}};"]
     return "\n".join([f"{kernel.name}({given}) {{", *lines, "}"])
 
 
@@ -139,8 +139,8 @@ def _outputs_literal(kernel: Kernel) -> str:
             case Place(RHS.name, (str() as array, int() as k, *member)):
                 structs = 1 + k if member or array == "clearance" else 0
                 parts[array] = max(structs, parts.get(array, 0))
-    told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
-    return f"{{{told}}}" if parts else ""
+    message = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
+    return f"{{{message}}}" if parts else ""
 
 
 class _JavaScript(Text):
@@ -161,8 +161,8 @@ class Lines:
     def all(self, only: Collection[str] | None = None) -> list[str]:
         """Return every line, or those that store to one of `only`."""
         every = (line for section in self.own.sections for line in section.statements)
-        wanted = (line for line in every if only is None or getattr(line, "target", "") in only)
-        return [text for line in wanted for text in self.lines(line)]
+        expected = (line for line in every if only is None or getattr(line, "target", "") in only)
+        return [text for line in expected for text in self.lines(line)]
 
     def lines(self, item: Line) -> list[str]:
         """Return one statement or branch as lines of JavaScript."""
@@ -195,7 +195,7 @@ class Lines:
         """Return the sines and cosines of angles as arrays: one of all, or groups of four."""
         angles, found = [self.text.expression(angle) for angle in item.angles], []
         for function, array in zip(("sin", "cos"), item.arrays, strict=True):
-            told = [f"{function}({angle})" for angle in angles]
-            groups = ", ".join(f"[{', '.join(told[k : k + 4])}]" for k in range(0, len(told), 4))
+            message = [f"{function}({angle})" for angle in angles]
+            groups = ", ".join(f"[{', '.join(message[k : k + 4])}]" for k in range(0, len(message), 4))
             found.append(f"const {array} = {f'[{groups}]' if item.count else groups};")
         return found

@@ -112,14 +112,14 @@ class Listing:
 
 
 @dataclass(frozen=True)
-class Carried:
+class EmbeddedHtml:
     """Represent HTML that only a page has."""
 
     html: str
     kind: str = "carried"
 
 
-Block: TypeAlias = Paragraph | Equation | Table | Sketch | Picture | Listing | Carried
+Block: TypeAlias = Paragraph | Equation | Table | Sketch | Picture | Listing | EmbeddedHtml
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.play import as_word, told_states
+from gudgeon.generator.targets.latex.play import as_word, describe_states
 from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, sign_of, step_name
 from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.plot_units import pretty
@@ -68,7 +68,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
 class Form:
     """Represent a law for one choice of its options: the choice, and its equations, constants of a run first."""
 
-    chosen: Mapping[str, str | bool]
+    selected: Mapping[str, str | bool]
     constants: tuple[Equation, ...]
     steps: tuple[Equation, ...]
     used: tuple[tuple[str, Name], ...]  # what it is given and gives, by the name in Python
@@ -91,10 +91,10 @@ def forms(law: Law, name: str) -> list[Form]:
     first = _form(law, {}, defaults, (), nothing)
     known = {in_a_line(one) for one in first.equations}
     found = [first]
-    chosen: list[tuple[str, str | bool]] = [
+    selected: list[tuple[str, str | bool]] = [
         (own.name, value) for own in law.options if own.name not in made for value in own.values if value != own.choice
     ]
-    for key, value in (*chosen, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
+    for key, value in (*selected, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
         number = key not in defaults
         options, given = defaults if number else {**defaults, key: value}, (key,) if number else ()
         form = _form(law, {key: value}, options, given, nothing)
@@ -144,7 +144,7 @@ def _equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
     used = {name: called for some in (*reversed(others), form) for name, called in some.used}
     rows = [cells(used[name], *_MEANINGS[name]) for name in _MEANINGS if name in used]
     yield from table(cells("letter", "meaning", "unit"), rows)
-    yield from told_states(law)
+    yield from describe_states(law)
     if form.constants:
         yield paragraph("Once a run:")
         yield from form.constants
@@ -156,8 +156,8 @@ def _choices(others: Sequence[Form]) -> Iterator[Block]:
     """Yield the blocks with the equations of other choices."""
     for form in others:
         if form.equations:
-            told = ", ".join(f"{key}: {as_word(value)}" for key, value in form.chosen.items())
-            yield paragraph(f"With {told}:")
+            message = ", ".join(f"{key}: {as_word(value)}" for key, value in form.selected.items())
+            yield paragraph(f"With {message}:")
             yield from form.equations
 
 
@@ -192,7 +192,7 @@ def _may_lack(own: Field) -> bool:
 
 def _form(
     law: Law,
-    chosen: Mapping[str, str | bool],
+    selected: Mapping[str, str | bool],
     options: Mapping[str, str | bool],
     given: Sequence[str],
     nothing: Set[str],
@@ -228,7 +228,7 @@ def _form(
         """Return definitions as equations."""
         return tuple(equation(left, right, notation) for left, right in some.items())
 
-    return Form(chosen, written(constants), written(steps), used)
+    return Form(selected, written(constants), written(steps), used)
 
 
 def _names(

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, EXACT, FACTORS, SOURCES, delivered
-from gudgeon.generator.kinds.laws.law import RESULTS, Law, house
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, bundled_laws
 from gudgeon.generator.targets.format_tables import condition
 from gudgeon.generator.targets.latex.document import Equation, sentence
 from gudgeon.generator.targets.latex.law import GIVEN, Form, forms, in_a_line
@@ -34,7 +34,7 @@ _FIRST = (
 
 def laws_in_order(role: str) -> list[Law]:
     """Return the laws of a role, those that most scenes use first."""
-    laws = [law for law in house().values() if law.role == role]
+    laws = [law for law in bundled_laws().values() if law.role == role]
     return sorted(laws, key=lambda law: (_FIRST.index(law.name) if law.name in _FIRST else len(_FIRST), law.name))
 
 
@@ -56,15 +56,15 @@ def _damping() -> Iterator[str]:
         "The factor a of 1 + a δ̇/δ̇⁻ in `esdu_78035`, `expression`, `hertz`, `johnson` and `liu`, by `dissipation`,"
         " and the restitution that a free impact then has, by a (1 + e) = ln[(1 + a)/(1 − a e)], for what c_e asks."
     )
-    asked = " | ".join(f"c_e = {c_e:g}" for c_e in ASKED)
-    yield from ("", f"| `dissipation` | a | {asked} | source |", "|" + "---|" * 6)
-    first, *others = forms(house()["hertz"], "hertz")
-    written = {DISSIPATION.default: first} | {one.chosen.get(DISSIPATION.name): one for one in others}
+    requested = " | ".join(f"c_e = {c_e:g}" for c_e in ASKED)
+    yield from ("", f"| `dissipation` | a | {requested} | source |", "|" + "---|" * 6)
+    first, *others = forms(bundled_laws()["hertz"], "hertz")
+    written = {DISSIPATION.default: first} | {one.selected.get(DISSIPATION.name): one for one in others}
     for name in DISSIPATION.values:
         a = next(in_a_line(one) for one in written[name].equations if one.left.text in ("a", "a_0"))
-        told = "what delivers c_e, by Newton's method from Hu and Guo's" if name == EXACT else f"`{a[4:]}`"
+        message = "what delivers c_e, by Newton's method from Hu and Guo's" if name == EXACT else f"`{a[4:]}`"
         e = (f"{c_e if name == EXACT else delivered(float(FACTORS[str(name)](c_e))):.4f}" for c_e in ASKED)
-        yield f"| `{name}` | {told} | {' | '.join(e)} | {SOURCES.get(str(name), '')} |"
+        yield f"| `{name}` | {message} | {' | '.join(e)} | {SOURCES.get(str(name), '')} |"
     yield from ("", "`exact`, written out:", "", *_block(written[EXACT].equations))
 
 
@@ -76,24 +76,26 @@ def _of_law(law: Law) -> Iterator[str]:
     first, *others = forms(law, law.name)
     yield from _typeset(law) if law.equation else _block(first.equations)
     for form in others:
-        if DISSIPATION.name not in form.chosen:
+        if DISSIPATION.name not in form.selected:
             yield from _choice(form)
     if DISSIPATION in law.fields:
         yield from ("With another `dissipation`: [below](#the-dissipation-of-a-normal-force).", "")
     if law.states:
-        told = "; ".join(f"{of_latex(state.name).text} is the {state.meaning}, 0 at each onset" for state in law.states)
-        yield from (f"{told}.", "")
+        message = "; ".join(
+            f"{of_latex(state.name).text} is the {state.meaning}, 0 at each onset" for state in law.states
+        )
+        yield from (f"{message}.", "")
     yield from _table(law.fields)
     yield from (f"**Valid**: {sentence(law.validity)}", "", f"**Source**: {law.reference or law.source}.", "")
 
 
 def _choice(form: Form) -> Iterator[str]:
     """Yield the equations that a choice changes: one in a line, several as a block."""
-    told = ", ".join(key if value == GIVEN else f"{key}: {as_word(value)}" for key, value in form.chosen.items())
+    message = ", ".join(key if value == GIVEN else f"{key}: {as_word(value)}" for key, value in form.selected.items())
     if len(form.equations) == 1:
-        yield from (f"With `{told}`: `{in_a_line(form.equations[0])}`.", "")
+        yield from (f"With `{message}`: `{in_a_line(form.equations[0])}`.", "")
     elif form.equations:
-        yield from (f"With `{told}`:", "", *_block(form.equations))
+        yield from (f"With `{message}`:", "", *_block(form.equations))
 
 
 def _typeset(law: Law) -> Iterator[str]:

@@ -105,18 +105,18 @@ def of_latex(latex: str) -> Name:
     return Name(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
 
 
-def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
+def distinct(expected: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
     """Return a unique name for each symbol.
 
     The first symbol gets the letter, others the name of their symbol in C if that is a word ("T0"), else primes.
     """
     names: dict[sp.Symbol, Name] = {}
     used: set[str] = set()
-    for symbol, name in wanted:
+    for symbol, name in expected:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        taken = name.text in used and "_" not in plain_name(symbol)
-        name = primed(letter(plain_name(symbol)) if taken else name, used)
+        is_taken = name.text in used and "_" not in plain_name(symbol)
+        name = primed(letter(plain_name(symbol)) if is_taken else name, used)
         used.add(name.text)
         names[symbol] = name
     return names
@@ -134,14 +134,14 @@ _FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}
 
 def _subscripted(parts: Sequence[str]) -> str:
     """Return subscripts after commas: Greek letters, axes and numbers as they are, names upright."""
-    told = list[str]()
+    message = list[str]()
     for upright, group in groupby(parts, key=lambda text: text not in GREEK and text not in _AXES):
         own = list(group)
         if upright and not all(text.isdigit() for text in own):
-            told.append(rf"\text{{{','.join(map(_escaped, own))}}}")
+            message.append(rf"\text{{{','.join(map(_escaped, own))}}}")
         else:
-            told += own if upright else [greek(text) if text in GREEK else text for text in own]
-    return ",".join(told)
+            message += own if upright else [greek(text) if text in GREEK else text for text in own]
+    return ",".join(message)
 
 
 def _escaped(name: str) -> str:

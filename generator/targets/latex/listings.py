@@ -11,8 +11,8 @@ from functools import cache
 from pathlib import Path
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.targets.javascript.module import carried_script, equations_script
-from gudgeon.generator.targets.latex.document import Block, Carried, Listing, Section, paragraph
+from gudgeon.generator.targets.javascript.module import embedded_script, equations_script
+from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listing, Section, paragraph
 from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
 
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
@@ -24,11 +24,11 @@ _CARRIED = "gudgeon-c"  # id of what is not shown
 def listing_sections(model: Model, found: Trace) -> list[Section]:
     """Return the sections with the mechanism's file, if it is unchanged, and the C."""
     blocks: list[Block] = []
-    told = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
+    message = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
     if (text := _own_text(model)) is not None:
         name = Path(model.scene.mechanism.file).name
         blocks.append(Listing(name, tuple(text.splitlines()), yaml_tokens(model, found)))
-    return [Section("From the file to the C", (told, *blocks, Carried(_c(found))))]
+    return [Section("From the file to the C", (message, *blocks, EmbeddedHtml(_c(found))))]
 
 
 def _own_text(model: Model) -> str | None:
@@ -53,7 +53,7 @@ def _c(found: Trace) -> str:
             continue
         left -= len(text)
         texts[name] = text
-    told = json.dumps(
+    message = json.dumps(
         {
             "of": {
                 name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
@@ -68,7 +68,7 @@ def _c(found: Trace) -> str:
         ensure_ascii=False,
         separators=(",", ":"),
     )
-    packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
+    packed = base64.b64encode(gzip.compress(message.encode(), 9, mtime=0)).decode("ascii")
     others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in texts)
     rest = f" Not listed here: {', '.join(others)}." if others else ""
     return (
@@ -79,9 +79,9 @@ def _c(found: Trace) -> str:
     )
 
 
-def _by_line(text: str, told: Mapping[int, str]) -> list[str]:
+def _by_line(text: str, message: Mapping[int, str]) -> list[str]:
     """Return texts by line number as one text a line, which is smaller than line numbers."""
-    return [told.get(k, "") for k in range(1, text.count("\n") + 2)]
+    return [message.get(k, "") for k in range(1, text.count("\n") + 2)]
 
 
 def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
@@ -97,7 +97,7 @@ def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
 @cache
 def _script(name: str) -> str:
     """Return a script of this folder for embedding."""
-    return carried_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
+    return embedded_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
 def _equations(found: Trace) -> str:

@@ -122,7 +122,7 @@ def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
 
 def _curves(model: Model) -> list[Block]:
     """Return the definitions of curves; f' and f'' are their derivatives."""
-    rows = [cells(name, f"{curve.told()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
+    rows = [cells(name, f"{curve.message()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
     return table(cells("curve", "what it is"), rows, (1,))
 
 

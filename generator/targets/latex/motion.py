@@ -51,9 +51,11 @@ def _masses(model: Model, notation: Notation) -> list[Block]:
     of = [[f"body-{body.name}"] for body in model.bodies]
     lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
     lacking = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
-    told = f"The file gives no mass or no inertia of {', '.join(lacking)}: M only measures how far Newton's steps go."
+    message = (
+        f"The file gives no mass or no inertia of {', '.join(lacking)}: M only measures how far Newton's steps go."
+    )
     shown = table(cells("body", "x", "y", "angle"), rows, of=of)
-    return [paragraph(lead), *shown, *([paragraph(told)] if lacking else [])]
+    return [paragraph(lead), *shown, *([paragraph(message)] if lacking else [])]
 
 
 def _elements(model: Model, notation: Notation) -> list[Block]:
@@ -190,12 +192,12 @@ def _freedoms(model: Model) -> list[Block]:
     counted = m + len(dropped)
     by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
     lead = "Degrees of freedom, counted as Grübler does: "
-    told_of = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
+    message_of = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
     if dropped:
-        told = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
-        return [paragraph(lead, by_count, told_of, ". By the rank of ", PHI_Q, " they are ", by_rank, told)]
+        message = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
+        return [paragraph(lead, by_count, message_of, ". By the rank of ", PHI_Q, " they are ", by_rank, message)]
     same = f" The rank of the rows is {m} as well: each says something new." if m else ""
-    return [paragraph(lead, by_count, f"{told_of}.{same}")]
+    return [paragraph(lead, by_count, f"{message_of}.{same}")]
 
 
 def _default(model: Model, symbol: sp.Symbol) -> str:

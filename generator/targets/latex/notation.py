@@ -53,7 +53,7 @@ _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 
 
 @dataclass(frozen=True)
-class GaveWay:
+class PrimedSymbol:
     """Represent a symbol that has a prime because its letter is used for another one."""
 
     name: Name
@@ -70,7 +70,7 @@ class Notation:
     names: Mapping[sp.Symbol, Name]
     kept: frozenset[sp.Symbol]
     order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
-    gave_way: tuple[GaveWay, ...] = ()  # in the order of the file
+    gave_way: tuple[PrimedSymbol, ...] = ()  # in the order of the file
 
     def called(self, names: Mapping[sp.Symbol, Name]) -> Notation:
         """Return the notation with other names for some symbols, for example inside the section of a joint."""
@@ -117,15 +117,15 @@ def make_notation(model: Model) -> Notation:
     return Notation(model.symbols, names, frozenset(_kept(model)), order, gave_way)
 
 
-def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[GaveWay, ...]]:
+def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[PrimedSymbol, ...]]:
     """Return a unique name for each symbol: those after another, or after the theory, have primes."""
     names: dict[sp.Symbol, Name] = {}
-    used, gave_way = theory(model), list[GaveWay]()
-    for symbol, wanted in _names(model):
+    used, gave_way = theory(model), list[PrimedSymbol]()
+    for symbol, expected in _names(model):
         if isinstance(symbol, sp.Symbol) and symbol not in names:
-            names[symbol], what = primed(wanted, used), _what(model, symbol)
-            if names[symbol] != wanted:
-                gave_way.append(GaveWay(names[symbol], what, wanted, used[wanted.text]))
+            names[symbol], what = primed(expected, used), _what(model, symbol)
+            if names[symbol] != expected:
+                gave_way.append(PrimedSymbol(names[symbol], what, expected, used[expected.text]))
             used[names[symbol].text] = what
     return names, tuple(gave_way)
 

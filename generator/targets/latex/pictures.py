@@ -6,7 +6,7 @@ import html
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from gudgeon.contract.ledger import Story
+from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.targets.latex.document import Block, Picture, entry_token, row_token
 
@@ -24,7 +24,7 @@ class Dot:
     row: int
     column: int
     of: str = ""
-    told: str = ""
+    message: str = ""
 
 
 def svg(width: float, height: float, label: str, parts: Sequence[str]) -> str:
@@ -119,7 +119,7 @@ def _grid(rows: int, columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
     return tuple(f"{r:>3}  {''.join(line)}" for r, line in enumerate(grid, 1))
 
 
-def tree(story: Story, joints: Collection[str]) -> list[Block]:
+def tree(story: ReductionLog, joints: Collection[str]) -> list[Block]:
     """Return the picture of the tree of bodies, with the joints along it; `joints` are those of the file."""
     carried: dict[str, list[tuple[str, str]]] = {}
     for placed in story.tree:
@@ -157,7 +157,9 @@ def _place(
 STEP_X, STEP_Y = 120, 34
 
 
-def _tree_svg(story: Story, joints: Collection[str], places: Mapping[str, tuple[float, int]], caption: str) -> str:
+def _tree_svg(
+    story: ReductionLog, joints: Collection[str], places: Mapping[str, tuple[float, int]], caption: str
+) -> str:
     """Return the tree as SVG."""
     at = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in places.items()}
     parts = []

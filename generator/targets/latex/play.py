@@ -102,11 +102,11 @@ def onset(joint: JointWithPlay, stored: Name) -> Block:
     )
 
 
-def told_states(law: Law) -> Iterator[Block]:
+def describe_states(law: Law) -> Iterator[Block]:
     """Yield the paragraphs on inner states of laws."""
     for state in law.states:
-        told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
-        yield paragraph(letter(state.name), told)
+        message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
+        yield paragraph(letter(state.name), message)
 
 
 def as_word(value: str | bool) -> str:
@@ -297,7 +297,7 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
         if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
         and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
     ]
-    blocks += told_states(law)
+    blocks += describe_states(law)
     plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
     return [*blocks, *joint.shown(joint.steps(equations)), *plot]
 

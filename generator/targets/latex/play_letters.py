@@ -52,7 +52,7 @@ from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import HELD, RESULTS, Law
 from gudgeon.generator.mechanism import LawUse, Quantity
-from gudgeon.generator.symbols.numbers import SlotEntry
+from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 
 # Parts of a joint with film and dry contact are told apart by d and f.
@@ -175,7 +175,7 @@ def _named_symbols(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr
             yield result(equations, name), step_name(equations.law, name)
 
 
-def _slot(model: Model, quantity: Quantity | None) -> SlotEntry | None:
+def _slot(model: Model, quantity: Quantity | None) -> ParameterEntry | None:
     """Return the run-time parameter of a quantity; None if it has none."""
     return None if quantity is None else model.slots.entries.get(quantity.address)
 

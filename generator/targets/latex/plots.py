@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels.play import Pin
-from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.kernels.shared import SharedFunctionCall
 from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.targets.c.play import function_name
 from gudgeon.generator.targets.latex.document import Block, Picture
@@ -34,7 +34,7 @@ class Curve:
     """Represent y over the plot's x, with a label."""
 
     y: Any
-    told: str
+    message: str
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ def _callable(found: Functions, kernel: Kernel) -> Any:
     return names[kernel.name]
 
 
-def _called(found: Functions, call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
+def _called(found: Functions, call: SharedFunctionCall, p: Mapping[str, float], *given: Any) -> Any:
     """Return the result of a law at default parameters."""
     return _callable(found, call.kernel)(*given, *(p[number.member] for number in call.numbers))
 
@@ -96,7 +96,7 @@ def _value(found: Functions, p: Mapping[str, float], number: Any) -> float:
     return p[found.model.slots.field(number)] if number in found.model.symbols.info else float(number)
 
 
-def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+def _normal(found: Functions, pin: Pin, call: SharedFunctionCall, p: Mapping[str, float]) -> Plot:
     """Return the plot of a normal force over penetration, for several ratios δ̇/δ̇⁻."""
     delta = np.linspace(0.0, DEEPEST, POINTS) * _value(found, p, pin.clearance.pair.c)
     curves = []
@@ -108,7 +108,7 @@ def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
 
 
-def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+def _friction(found: Functions, pin: Pin, call: SharedFunctionCall, p: Mapping[str, float]) -> Plot:
     """Return the plot of a friction force over slip."""
     law = pin.clearance.friction
     numbers = law.numbers if law else {}
@@ -120,7 +120,7 @@ def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, floa
     return Plot(v_t, (Curve(y, ""),), ("v_t", "m/s"), ("F_t/F_n", ""), ("dry", "v_t"), caption)
 
 
-def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+def _film(found: Functions, pin: Pin, call: SharedFunctionCall, p: Mapping[str, float]) -> Plot:
     """Return the plot of film forces over the eccentricity ratio."""
     epsilon = np.linspace(0.0, 0.9, POINTS)
     radial, along, *_ = _called(found, call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
@@ -154,10 +154,10 @@ def drawn(plot: Plot, marks: Mapping[str, str]) -> str:
         points = zip(at_x(plot.x).tolist(), at_y(np.asarray(curve.y, dtype=float)).tolist(), strict=True)
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         parts.append(f'<polyline class="curve dash{k}" points="{path}"/>')
-        if curve.told:
+        if curve.message:
             y = TOP + 12 + 15 * k
             parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
-            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_set(curve.told)}</text>')
+            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_set(curve.message)}</text>')
     parts += [_mark(name, value, first, last, len(plot.curves)) for name, value in marks.items()]
     return svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
 

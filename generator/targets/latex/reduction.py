@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.ledger import Solve
-from gudgeon.contract.ledger_words import ledger_lines, outcome
+from gudgeon.contract.reduction_log import Solve
+from gudgeon.contract.reduction_words import outcome, reduction_lines
 from gudgeon.generator.targets.c.readme import purposes
 from gudgeon.generator.targets.latex.document import Block, Section, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.pictures import tree
@@ -25,7 +25,7 @@ def reduction_sections(found: Functions) -> list[Section]:
 
 def _reduction_log(source: KernelSource, joints: Collection[str]) -> list[Block]:
     """Return the log of the reduction as `gudgeon check -v` prints it."""
-    ledger = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in ledger_lines(source)]
+    ledger = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in reduction_lines(source)]
     story = [cells(name, f"{text}.") for name, text in outcome(source)]
     return [
         paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
@@ -72,9 +72,9 @@ def _of_matrix(before: Solve | None, after: Solve | None) -> list[tuple[str, int
 
 def _files(found: Functions) -> list[Block]:
     """Return the list of files in the order in which they are to be read."""
-    told = purposes(found.program)
-    names = [name for name in told if name in found.files]
-    rows = [cells(name, sentence(told[name].replace("`", ""))) for name in names]
+    message = purposes(found.program)
+    names = [name for name in message if name in found.files]
+    rows = [cells(name, sentence(message[name].replace("`", ""))) for name in names]
     return [
         paragraph("What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."),
         *table(cells("file", "what it holds"), rows, (1,)),

@@ -216,8 +216,8 @@ def _tex_terms(equation: Equation) -> str:
 def _tex_columns(table: Table) -> str:
     """Return the columns of a table; running text gets the remaining width."""
     others = [_width(table, k) for k in range(len(table.header)) if k not in table.wide]
-    taken = LETTER[_tex_size(table)] * sum(others) + GAP * len(table.header)
-    share = max(0.12, min(0.34, 1.0 - taken)) / max(1, len(table.wide))
+    used = LETTER[_tex_size(table)] * sum(others) + GAP * len(table.header)
+    share = max(0.12, min(0.34, 1.0 - used)) / max(1, len(table.wide))
     return "".join(rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
 
 

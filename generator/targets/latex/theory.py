@@ -71,8 +71,8 @@ def _letters(model: Model) -> Iterator[tuple[str, str]]:
         yield "H", "unit step"
     yield from ((name, "a curve of the file") for name in model.scene.mechanism.curves)
     for clearance in model.clearances:
-        told = f"a letter of {clearance.kind} {clearance.name} with play"
-        yield from ((text, told) for text in _of_play(model, clearance))
+        message = f"a letter of {clearance.kind} {clearance.name} with play"
+        yield from ((text, message) for text in _of_play(model, clearance))
     yield from _of_forces(model)
     yield from ((letter("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):

@@ -41,8 +41,8 @@ def line(text: Text) -> str:
 
 def formula(name: Name) -> str:
     """Return a formula as MathML with its tokens and value; a line may break as in LaTeX."""
-    told = "".join(map(mathml, _pieces(name.latex))) + output(name.value)
-    return f"<span{attributes(name.of)}>{told}</span>" if name.of else told
+    message = "".join(map(mathml, _pieces(name.latex))) + output(name.value)
+    return f"<span{attributes(name.of)}>{message}</span>" if name.of else message
 
 
 def _pieces(latex: str) -> Iterator[str]:

@@ -13,7 +13,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.field import OF_CAM_ANGLE
 from gudgeon.generator.mechanism import Quantity, Vector
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
-from gudgeon.generator.symbols.numbers import SlotEntry
+from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.document import Block, Equation, Text, cells, paragraph
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, of_address
@@ -57,17 +57,17 @@ class Values:
         self._long.append(Equation(left, notation.terms(value)))
         return (left,)
 
-    def slot(self, entry: SlotEntry) -> Text:
+    def slot(self, entry: ParameterEntry) -> Text:
         """Return letter = value."""
         return self._notation.math(entry.symbol), " = ", *self.value(entry)
 
-    def value(self, entry: SlotEntry) -> Text:
+    def value(self, entry: ParameterEntry) -> Text:
         """Return the default in the unit of the file; for a dependent number its expression and the value in SI."""
         if (measured := _measured(entry.written)) is not None:
             return self._with_unit(*measured)
         return self.followed(entry) + self._with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
 
-    def in_si(self, entry: SlotEntry) -> Text:
+    def in_si(self, entry: ParameterEntry) -> Text:
         """Return the default in SI without its unit, after the text of the file if that differs."""
         written, angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
         share = as_angle(entry.default) if angle and share_of_pi(entry.default) else None
@@ -75,12 +75,12 @@ class Values:
         if written is None or entry.follows:
             return (*self.followed(entry), number)
         if isinstance(written, Number):
-            told = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
+            message = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
         else:
-            told = share is None
-        return (f"{as_written(written)} = ", share or self._number(entry.default)) if told else (number,)
+            message = share is None
+        return (f"{as_written(written)} = ", share or self._number(entry.default)) if message else (number,)
 
-    def followed(self, entry: SlotEntry) -> Text:
+    def followed(self, entry: ParameterEntry) -> Text:
         """Return the expression that a number follows and a sign after it; nothing if it is long and stands below."""
         if not entry.follows:
             return ()
@@ -90,7 +90,7 @@ class Values:
         self._long += self._apart(entry)
         return ()
 
-    def _apart(self, entry: SlotEntry) -> list[Block]:
+    def _apart(self, entry: ParameterEntry) -> list[Block]:
         """Return a long formula; the argument of a long root gets a letter, since lines cannot break in it."""
         notation, value, blocks = self._notation, entry.value, list[Block]()
         left = notation.math(entry.symbol)
@@ -177,7 +177,7 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def si_unit_of(entry: SlotEntry) -> str:
+def si_unit_of(entry: ParameterEntry) -> str:
     """Return the SI unit of a number; rad and rad/s for angles and their rates, if the file declares them."""
     if entry.written is not None and angle_power(entry.written) == 1:
         return {DIMENSIONLESS: "rad", RATE: "rad/s"}.get(entry.dimension, si_unit(entry.dimension))

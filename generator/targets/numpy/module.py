@@ -12,14 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import ArrayError, BadValueError
-from gudgeon.generator.equations.model import Model, apart_rows
+from gudgeon.generator.equations.model import Model, eccentricity_rows
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.kernels.shared import SharedFunctionCall
 from gudgeon.generator.symbols.curves import c_name
 from gudgeon.generator.targets.numpy.printer import (
     WIDTH,
@@ -32,10 +32,10 @@ from gudgeon.generator.targets.numpy.printer import (
     name,
     remark,
 )
+from gudgeon.language.argument_checks import mapping, number_of
 from gudgeon.language.curves import MARGIN, Curve
 from gudgeon.language.names import unknown, unknown_name
 from gudgeon.language.quantities import number_of_text
-from gudgeon.language.wanted import mapping, number_of
 
 Array = NDArray[np.float64]
 _ABOUT = (
@@ -153,7 +153,7 @@ class ClosedLinkage:
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
         """Return guesses, exact values and rates of the start; the last two end with those of journals."""
-        start, apart = self.model.scene.mechanism.start, len(apart_rows(self.model))
+        start, apart = self.model.scene.mechanism.start, len(eccentricity_rows(self.model))
         sizes = (len(start.guess), len(start.set) + apart, len(start.rates) + apart)
         guess, fixed, rates = (np.zeros(size) for size in sizes)
         with np.errstate(all="ignore"):
@@ -252,8 +252,8 @@ def _one_each(what: str, values: ArrayLike, names: list[str], none: list[float] 
     if found.shape == (0,) and none is not None:
         return none
     if found.shape != (len(names),):
-        told = f"{what} of shape {found.shape}: expected ({len(names)},)"
-        raise ArrayError(told, hint=f"one each for {', '.join(names)}" if names else "this scene has none")
+        message = f"{what} of shape {found.shape}: expected ({len(names)},)"
+        raise ArrayError(message, hint=f"one each for {', '.join(names)}" if names else "this scene has none")
     return _list(found)
 
 
@@ -304,7 +304,7 @@ def _table(curve: Curve) -> str:
         x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
         return "\n".join(
             [
-                *remark(f"{curve.name}: {curve.told()}"),
+                *remark(f"{curve.name}: {curve.message()}"),
                 f"{c_name(curve.name)} = (",
                 f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
                 f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),',
@@ -316,7 +316,7 @@ def _table(curve: Curve) -> str:
     pieces = [f"        [{', '.join(map(repr, piece))}]," for piece in curve.coefficients]
     return "\n".join(
         [
-            *remark(f"{curve.name}: {curve.told()}"),
+            *remark(f"{curve.name}: {curve.message()}"),
             f"{c_name(curve.name)} = (",
             "    np.array([",
             *(f"        {line}," for line in knots),
@@ -350,10 +350,10 @@ _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 def pin(own: Pin) -> str:
     """Return the function `clearance_<joint>`; a contact is closed where bodies overlap."""
     joint, clearance = own.clearance.label, own.clearance
-    told = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
+    message = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
     if clearance.wall:
-        told = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
-    body = [*docstring([told])]
+        message = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
+    body = [*docstring([message])]
     body += lines(own.gap)
     if clearance.normal is None:
         body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
@@ -386,7 +386,7 @@ def pin(own: Pin) -> str:
 def _dry(own: Pin) -> list[str]:
     """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1."""
     ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
-    given, told = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
+    given, message = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
     pressed = "F_N" if own.pressing else "F_n"
     rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
     return [
@@ -394,7 +394,7 @@ def _dry(own: Pin) -> list[str]:
         *lines(own.before_dry),
         *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *map(name, own.given)), is_call=True),
         *lines(own.pressing),
-        *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
+        *assigned(", ".join(["F_along_t_dry", *message]), rubs, is_call=True),
         *lines(own.after_dry),
         f"F = -{pressed}, {', '.join(_DRY[1:])}",
     ]
@@ -406,6 +406,6 @@ def _film(own: Pin) -> list[str]:
     return [*lines(own.before_film), *film, *lines(own.after_film)]
 
 
-def _call(call: SharedCall, *given: str) -> str:
+def _call(call: SharedFunctionCall, *given: str) -> str:
     """Return the call of a law."""
     return f"{call.kernel.name}({', '.join([*given, *map(name, call.numbers)])})"

@@ -32,12 +32,12 @@ from gudgeon.generator.ir.statements import (
     Status,
     When,
 )
-from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Value
+from gudgeon.generator.ir.values import Conditional, Defaulted, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
 from gudgeon.generator.symbols.storage import Key, Place, Result, key_of
-from gudgeon.generator.targets import breaks
-from gudgeon.generator.targets.quick import Quick
+from gudgeon.generator.targets import line_breaks
+from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 _NOWHERE = (Status, JointsAlone, Jump, Rescue, Branches)  # vanished pivots, held corners, what single runs ask for
 _HELD = tuple(Place(argument.name) for argument in BRANCHES)
@@ -52,7 +52,7 @@ def name(key: Key) -> str:
     return f"{key}_" if keyword.iskeyword(key) else key
 
 
-class NumPyPrinter(Quick, PythonCodePrinter):
+class NumPyPrinter(CachedPrinter, PythonCodePrinter):
     """Print expressions for numbers and arrays alike; conditions of C become np.where."""
 
     def __init__(self, of: Readable) -> None:
@@ -202,12 +202,12 @@ class Lines:
         match value:
             case Place():
                 return self.printer.called(value)
-            case Chosen():
+            case Conditional():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"np.where({self._test(value.test)}, {then}, {otherwise})"
             case Sum():
                 return " + ".join(map(name, value.places))
-            case Given():
+            case Defaulted():
                 return f"given[{value.k}] if is_given[{value.k}] else {self.expression(value.default)}"
             case _:
                 return str(self.printer.doprint(value))
@@ -232,7 +232,7 @@ class Lines:
         match item:
             case Statement():
                 target, value = self.printer.called(item.target), self.expression(item.value)
-                return assigned(target, value, item.comment, isinstance(item.value, Chosen))
+                return assigned(target, value, item.comment, isinstance(item.value, Conditional))
             case Branch():
                 side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
                 value = f"np.where({side} < 0, {otherwise}, {then})"
@@ -280,16 +280,16 @@ _WIDTH = WIDTH - 12  # of what stands in a function and in two conditions at mos
 
 def code(text: str) -> list[str]:
     """Return a line of code with brackets, broken if it is long."""
-    return breaks.broken(text, _WIDTH, within=1)
+    return line_breaks.broken(text, _WIDTH, within=1)
 
 
 def assigned(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
     """Return `target = value` as lines; a long value that is not one call is put in brackets."""
     line = f"{target} = {value}"
     lines = code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
-    told = f"# {one_line(comment)}" if comment else ""
-    if len(lines) == 1 and len(line) + 2 + len(told) <= _WIDTH:
-        return [f"{line}  {told}".rstrip()]
+    message = f"# {one_line(comment)}" if comment else ""
+    if len(lines) == 1 and len(line) + 2 + len(message) <= _WIDTH:
+        return [f"{line}  {message}".rstrip()]
     return [*remark(comment), *lines]
 
 

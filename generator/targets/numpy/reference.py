@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import N_ENERGY, N_REACTION_COLUMNS
 from gudgeon.contract.kernel_source import KernelSource, given_parameters
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kernels.outputs import element_series, kept_joints
+from gudgeon.generator.kernels.outputs import constraining_joints, element_series
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _number
 from gudgeon.generator.targets.numpy.module import NumPyModel, _defined, with_curves
@@ -195,7 +195,7 @@ def _values(
         "mass": numpy.mass(p),
         "clearance": np.array([[one.Fx, one.Fy] for one in found.clearance]).ravel(),
     }
-    reactions, drives = N_REACTION_COLUMNS * len(kept_joints(model)), len(model.scene.mechanism.drives)
+    reactions, drives = N_REACTION_COLUMNS * len(constraining_joints(model)), len(model.scene.mechanism.drives)
     out = [np.zeros(size) for size in (reactions, drives, len(element_series(model)), N_ENERGY)]
     try:
         with np.errstate(all="ignore"):

@@ -70,7 +70,7 @@ def run(problem: Problem) -> Trajectory:
     return _Driver(problem).run()
 
 
-def _stepper(equations: Equations, problem: Problem) -> Stepper:
+def _make_stepper(equations: Equations, problem: Problem) -> Stepper:
     """Return the solver that problem.method names."""
     package, _, name = problem.method.partition(":")
     t_end = float(problem.t[-1])
@@ -113,7 +113,7 @@ class _Driver:
         interrupted, stopped = False, None
         self._begin()
         try:
-            self.stepper = _stepper(self.equations, self.problem)
+            self.stepper = _make_stepper(self.equations, self.problem)
             self.began = perf_counter()
             self._restart()
             while len(self.samples) < len(self.problem.t):

@@ -23,8 +23,8 @@ from gudgeon.drawing.roles import EDGES, ROLES, TINTS
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_target, telling, write_bytes, write_text
+from gudgeon.language.argument_checks import flag, function, number_of, path, refuse
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import flag, function, number_of, path, refuse
 from gudgeon.results.figures.mechanism_plots import arrows_of, path_lines, points_of, touching_at
 from gudgeon.results.figures.plots import caption_of
 from gudgeon.results.figures.postures import posture_at, postures_of
@@ -65,7 +65,7 @@ class Animation:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Expected:
     """Checked options of an animation: times of the run (s), duration (s), points with paths, arrows."""
 
     times: Any
@@ -76,9 +76,9 @@ class Wanted:
     progress: Progress | None = None
 
 
-def wanted_of(
+def check_animation_options(
     run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
-) -> Wanted:
+) -> Expected:
     """Return the checked options of an animation. Raises BadValueError, UnknownNameError."""
     span = float(run.t[-1] - run.t[0])
     seconds = (span if SLOW <= span <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
@@ -91,10 +91,10 @@ def wanted_of(
         raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
     arrows = flag(velocities, "velocities"), flag(forces, "forces")
-    return Wanted(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
+    return Expected(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
 
 
-def animate(run: Result, target: Any, options: Wanted) -> Animation | None:
+def animate(run: Result, target: Any, options: Expected) -> Animation | None:
     """Write x.gif, x.mp4 or x.html; return an Animation for a page or if `target` is None."""
     if target is None:
         return _build_page(run, options)
@@ -119,7 +119,7 @@ def animate(run: Result, target: Any, options: Wanted) -> Animation | None:
     return None
 
 
-def sketches(run: Result, options: Wanted) -> Iterator[Sketch]:
+def sketches(run: Result, options: Expected) -> Iterator[Sketch]:
     """Yield the drawing of each picture, all in one box."""
     motion = postures_of(run, 60)
     plan = make_plan(motion)
@@ -156,7 +156,7 @@ def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
     return frozenset(name for k, name in enumerate(names) if k in met or (inside[:, k] > 0).any())
 
 
-def _caption(run: Result, t: float, options: Wanted) -> str:
+def _caption(run: Result, t: float, options: Expected) -> str:
     """Return the caption of a picture: mechanism, scene, time and the ratio of speeds."""
     slow = options.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
     speed_text = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
@@ -164,7 +164,7 @@ def _caption(run: Result, t: float, options: Wanted) -> str:
     return f"{title}, t = {t:.4f} s{speed_text if abs(slow - 1.0) > 1e-9 else ''}"
 
 
-def _build_page(run: Result, options: Wanted) -> Animation:
+def _build_page(run: Result, options: Expected) -> Animation:
     """Return the Animation of an HTML page.
 
     matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
@@ -224,7 +224,7 @@ def _with_swatches(picture: Any) -> Any:
     return more
 
 
-def _write_film(run: Result, options: Wanted, suffix: str) -> bytes:
+def _write_film(run: Result, options: Expected, suffix: str) -> bytes:
     """Return the bytes of a GIF or film, written by matplotlib into a temporary folder."""
     from matplotlib.animation import FFMpegWriter
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.results.peaks import is_blow
+from gudgeon.results.peaks import is_rigid_impact
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
@@ -31,7 +31,7 @@ def force(run: Result, joint: str) -> tuple[Array, Array]:
     if k is None:
         return run.t, run[f"{joint}.F"]
     if run.trace is None:
-        own = run.impacts[(run.impacts["joint"] == k) & ~is_blow(run.impacts)]
+        own = run.impacts[(run.impacts["joint"] == k) & ~is_rigid_impact(run.impacts)]
         peaks = [(peak.t, peak.F) for peak in run.diagnostics.peaks if peak.joint == joint]
         more_t, more = [own["t_peak"], [t for t, _ in peaks]], [own["F_peak"], [F for _, F in peaks]]
     else:

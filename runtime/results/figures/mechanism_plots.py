@@ -15,8 +15,8 @@ from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture, type_of
 from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
+from gudgeon.language.argument_checks import flag, names
 from gudgeon.language.names import unknown
-from gudgeon.language.wanted import flag, names
 from gudgeon.results.figures.plots import cycle
 from gudgeon.results.figures.postures import loads_at, posture_at, postures_of, time_of
 

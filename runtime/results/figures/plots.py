@@ -19,7 +19,7 @@ from gudgeon.drawing.picture import report_missing_glyphs
 from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, quantity, scale
-from gudgeon.language.shown import in_figure, one_line
+from gudgeon.language.shown import figure_title, one_line
 from gudgeon.results.figures import joint_curves
 from gudgeon.results.series import rates
 
@@ -205,7 +205,7 @@ def _draw_motion(
             ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
             mark_horizon(ax, runs[scene], colours[scene])
         word = f"error of {series}" if compared else series
-        _over_time(ax, label(word, text), [runs[scene].t for scene in found], row == len(names) - 1)
+        _format_time_axis(ax, label(word, text), [runs[scene].t for scene in found], row == len(names) - 1)
 
 
 def _draw_forces(
@@ -232,12 +232,12 @@ def _draw_forces(
                 ax.plot([at], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
         if names[0].endswith(".F"):
             ax.set_ylim(bottom=0)
-        _over_time(ax, label(what, text), [t for t, *_ in curves], ax is axes[-1])
+        _format_time_axis(ax, label(what, text), [t for t, *_ in curves], ax is axes[-1])
 
 
-def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
+def _format_time_axis(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
     """Label an axis over time; only the last row of a column has the label of the time."""
-    ax.set_ylabel(_folded(ax, text))
+    ax.set_ylabel(_wrap_label(ax, text))
     start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
     ax.set_xlim(start, end if end > start else start + 1.0)
     ax.tick_params(labelbottom=last)
@@ -248,7 +248,7 @@ def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
 
 
-def _folded(ax: Axes, text: str) -> str:
+def _wrap_label(ax: Axes, text: str) -> str:
     """Return a label wrapped to the height of its axes, since names of bodies may be long."""
     spec = ax.get_subplotspec()
     share = spec.rowspan.stop - spec.rowspan.start if spec else 1
@@ -288,7 +288,7 @@ def _draw_title_and_legend(
     from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
-    title = in_figure(run.source.title or run.source.mechanism, TITLE)
+    title = figure_title(run.source.title or run.source.mechanism, TITLE)
     picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
     labels = {scene: f"{scene}{_early_end_text(scene, runs)}" for scene in colours}
     handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=labels[s]) for s, colour in colours.items()]
@@ -316,6 +316,6 @@ def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
         with report_missing_glyphs():
             picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
-        told = f"no picture {shortened(path)}: its numbers cannot be drawn ({error})"
-        raise GudgeonError(f"{told}\n  watch others") from error
+        message = f"no picture {shortened(path)}: its numbers cannot be drawn ({error})"
+        raise GudgeonError(f"{message}\n  watch others") from error
     write_bytes(path, drawn.getvalue())

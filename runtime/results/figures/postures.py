@@ -11,7 +11,7 @@ import numpy as np
 from gudgeon.assembly.linkage import project
 from gudgeon.drawing.posture import Posture
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import number_of, refuse
+from gudgeon.language.argument_checks import number_of, refuse
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource

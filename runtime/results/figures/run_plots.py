@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.argument_checks import flag, message, positive, refuse
+from gudgeon.language.argument_checks import names as listed_names
 from gudgeon.language.plot_units import drawn, label
-from gudgeon.language.shown import in_figure
-from gudgeon.language.wanted import flag, positive, refuse, told
-from gudgeon.language.wanted import names as listed_names
+from gudgeon.language.shown import figure_title
 from gudgeon.results.figures import joint_curves
 from gudgeon.results.figures.plots import (
     COLOURS,
@@ -65,12 +65,12 @@ class Plot:
         """Plot series with a panel for each unit; without names the default series (default_watch), drives and
         forces.
         """
-        wanted = [name for some in names for name in listed_names(some, "names", SERIES)]
+        expected = [name for some in names for name in listed_names(some, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": joint_curves.force(run, joint) for joint in joints}  # with the extremes of all steps
         guides = [f"{guide}.{last}" for guide in run.source.guides for last in "FM"]
-        for name in wanted or (*default_watch(run), *drive_series(run.source), *forces, *guides):
+        for name in expected or (*default_watch(run), *drive_series(run.source), *forces, *guides):
             panels.setdefault(run.unit(name), []).append(name)
         columns = 1 if len(panels) < 3 else 2
         rows = -(-len(panels) // columns)
@@ -79,7 +79,7 @@ class Plot:
             for k, own in enumerate(panels.values()):
                 ax = figure.add_subplot(rows, columns, k + 1, axes_class=ShownAxes)
                 self._curves({name: forces.get(name, (run.t, run[name])) for name in own}, ax).set_title("")
-            figure.suptitle(in_figure(caption_of(run), TITLE), fontsize=10)
+            figure.suptitle(figure_title(caption_of(run), TITLE), fontsize=10)
         return figure
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
@@ -98,7 +98,7 @@ class Plot:
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
             ax.set(xlabel=over, ylabel=label(names[0] if len(names) == 1 else "", text))
-            ax.set_title(in_figure(caption_of(run), TITLE))
+            ax.set_title(figure_title(caption_of(run), TITLE))
             if over == "t [s]":
                 mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
@@ -119,7 +119,7 @@ class Plot:
         joints = [each.name for each in self.run.source.clearances if not each.at_wall]
         if not isinstance(joint, str) or joint not in joints:
             hint = f"its journals with play: {', '.join(joints) or 'none'}"
-            raise UnknownNameError(f"no orbit of {told(joint)}: expected a journal with play", hint=hint)
+            raise UnknownNameError(f"no orbit of {message(joint)}: expected a journal with play", hint=hint)
         with matplotlib.rc_context(STYLE):
             ax = new_axes(4.2, 4.4) if ax is None else check_axes(ax)
             draw_orbit(ax, self.run, joint, COLOURS[1], orbit_half_width(self.run, joint))
@@ -158,7 +158,7 @@ class Plot:
             if style == "-":
                 ax.plot(xs[:1] * of_x, ys[:1] * of_y, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
             ax.set(xlabel=label(x, x_unit), ylabel=label(y, y_unit))
-            ax.set_title(in_figure(caption_of(self.run) + suffix, TITLE))
+            ax.set_title(figure_title(caption_of(self.run) + suffix, TITLE))
         return ax
 
     def spectrum(self, *names: str | Sequence[str], window: str = "hann", ax: Axes | None = None) -> Axes:
@@ -173,7 +173,7 @@ class Plot:
         every = [name for some in names for name in listed_names(some, "names", SERIES)]
         found = {name: spectrum(self.run.t, self.run[name], window) for name in every}
         ax = self._curves(found, ax, "f [Hz]")
-        ax.set_title(in_figure(f"{caption_of(self.run)}, window {window}", TITLE))
+        ax.set_title(figure_title(f"{caption_of(self.run)}, window {window}", TITLE))
         return ax
 
     def low_pass(
@@ -197,7 +197,7 @@ class Plot:
             ax.plot(run.t, run[name] * factor, color=UNTRUSTED, lw=0.6, alpha=0.7, label=name)
             ax.plot(run.t, smoothed * factor, color=COLOURS[1], lw=1.2, label=filter_text)
             ax.set(xlabel="t [s]", ylabel=label(name, text))
-            ax.set_title(in_figure(caption_of(run), TITLE))
+            ax.set_title(figure_title(caption_of(run), TITLE))
             ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
         return ax
 
@@ -242,7 +242,7 @@ class Plot:
             across = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
             ax = new_axes(width + margin, height) if ax is None else check_axes(ax)
             draw(ax)
-            ax.set_title(in_figure(caption, across))
+            ax.set_title(figure_title(caption, across))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
 
@@ -257,7 +257,7 @@ def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
             label_text = f"{name}, 90 % on {np.degrees(side.arc()):.3g}°" if side.deepest > 0.0 else f"{name}: not worn"
             ax.plot(np.degrees(wear.angle), side.depth * factor, color=colour, lw=1.0, label=label_text)
         ax.set(xlabel="angle in the body's own frame [°]", ylabel=label("depth", unit), xlim=(0.0, 360.0))
-        ax.set_title(in_figure(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
+        ax.set_title(figure_title(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
         ax.legend(loc="best")
     return ax
 

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.files.room import check_disk, check_memory
+from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.files.writing import written
+from gudgeon.language.argument_checks import listed, refuse
+from gudgeon.language.argument_checks import names as plain_names
+from gudgeon.language.argument_checks import path as named
 from gudgeon.language.shown import in_spreadsheet
-from gudgeon.language.wanted import listed, refuse
-from gudgeon.language.wanted import names as plain_names
-from gudgeon.language.wanted import path as named
-from gudgeon.results.batch import Batch, given_columns, iterate_rows, series, series_column, wanted_names
+from gudgeon.results.batch import Batch, check_series_names, given_columns, iterate_rows, series, series_column
 from gudgeon.results.files.netcdf import import_xarray
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
@@ -62,7 +62,7 @@ KEYWORDS = frozenset(
 )
 
 
-def wanted_series(run: Result, names: Iterable[str] | None) -> list[str]:
+def requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
     """Return the names of series without repetitions, or all for None. Raises UnknownNameError for an unknown name."""
     if names is None:
         return list(run.names)
@@ -77,7 +77,7 @@ def wanted_series(run: Result, names: Iterable[str] | None) -> list[str]:
 def dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
     """Return series of a run as a pandas table over t. See Result.to_dataframe."""
     frames = _import_pandas()
-    series = wanted_series(run, names)
+    series = requested_series(run, names)
     table: pandas.DataFrame = frames.DataFrame(
         {name: run[name] for name in series}, index=frames.Index(run.t, name="t"), copy=True
     )
@@ -116,7 +116,7 @@ def _import_pandas() -> Any:
 def _series_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
     """Return the names of series without t and without repetitions, or all for None."""
     every = batch.kept if batch.states is None else catalogue(batch.source)
-    return [name for name in (every if names is None else wanted_names(batch.source, names)) if name != "t"]
+    return [name for name in (every if names is None else check_series_names(batch.source, names)) if name != "t"]
 
 
 def _columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
@@ -135,7 +135,7 @@ def _count_rows(batch: Batch) -> float:
 
 def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a run as CSV. See Result.to_csv."""
-    series = wanted_series(run, names)
+    series = requested_series(run, names)
     _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]), len(run.t))
 
 
@@ -173,7 +173,7 @@ def _format_cell(value: object) -> str:
 
 def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a run as a MATLAB file. See Result.to_mat."""
-    series = ["t", *wanted_series(run, names)]
+    series = ["t", *requested_series(run, names)]
     descriptions = [(name, run.unit(name), run.meaning(name)) for name in series]
     _write_mat(path, run, descriptions, {name: np.asarray(run[name], dtype=float) for name in series})
 

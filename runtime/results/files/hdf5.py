@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.errors import GudgeonError
-from gudgeon.files.room import check_disk
+from gudgeon.files.free_space import check_disk
 from gudgeon.files.writing import written
-from gudgeon.language.wanted import path as named
+from gudgeon.language.argument_checks import path as named
 from gudgeon.waiting.asking import apart
 from gudgeon.waiting.ctrl_c import CtrlC
 

@@ -21,8 +21,8 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE, TRACE_COLUMNS, TRACED, Trace
-from gudgeon.language.wanted import mapping, text, told
-from gudgeon.model.choices import said
+from gudgeon.language.argument_checks import mapping, message, text
+from gudgeon.model.choices import specified
 from gudgeon.results.diagnostics import PROVENANCE, Diagnostics, Extremes
 from gudgeon.results.files.hdf5 import Table, Variable, write
 from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, open_result_file
@@ -135,7 +135,9 @@ def _parameter_variables(run: Result) -> Iterator[Variable]:
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
     if any(slot.words for slot in slots):
-        choice_names = [str(said(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)]
+        choice_names = [
+            str(specified(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)
+        ]
         yield Variable("name", _as_text_array(choice_names), "", "of what was chosen where the value is its place")
 
 
@@ -219,7 +221,7 @@ def _check_attributes(given: Any, root: Table) -> dict[str, str]:
     for name, value in mapping(given, "attributes", "{name: text}").items():
         if not 0 < len(name) <= LONGEST or not name.isprintable() or name in root.attributes:
             hint = f"expected a name other than {', '.join(root.attributes)}"
-            raise BadValueError(f"attributes: {told(name)} is no name for one of your own", hint=hint)
+            raise BadValueError(f"attributes: {message(name)} is no name for one of your own", hint=hint)
         found[name] = text(value, f"attributes: {name}")
     return found
 

@@ -22,15 +22,15 @@ from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.integrators.trajectory import Counts
-from gudgeon.language.wanted import text
+from gudgeon.language.argument_checks import text
 from gudgeon.results.batch import (
     Batch,
     States,
     as_failures,
+    check_series_names,
     given_columns,
     series,
     series_column,
-    wanted_names,
 )
 from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
 from gudgeon.results.files import netcdf
@@ -115,10 +115,10 @@ def _stored_name(name: str) -> str:
 
 def times(batch: Batch) -> Table:
     """Return the table of requested times: (N,) if all runs have the same; else a long table."""
-    told = "time that was asked for"
+    message = "time that was asked for"
     if batch.t.ndim == 1:
-        return Table(TIMES, "time", (Variable("time", batch.t, "s", told),), {})
-    own = ((i, Variable("time", row[~np.isnan(row)], "s", told)) for i, row in enumerate(batch.t))
+        return Table(TIMES, "time", (Variable("time", batch.t, "s", message),), {})
+    own = ((i, Variable("time", row[~np.isnan(row)], "s", message)) for i, row in enumerate(batch.t))
     return long_table(TIMES, [(i, Table(TIMES, "row", (variable,), {})) for i, variable in own], {})
 
 
@@ -171,7 +171,7 @@ def _sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
             found[column] = over, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
     for k, name in enumerate(() if batch.source.massless or not batch.states else ("drives", "forces", "clearances")):
         found[f"work.{name}"] = over, batch.work[:, :, k], {"units": "J"}
-    names = [*(name for name in batch.kept if name != "t"), *wanted_names(batch.source, names)]
+    names = [*(name for name in batch.kept if name != "t"), *check_series_names(batch.source, names)]
     return found | {series_column(name): (over, values) for name, values in series(batch, names).items()}
 
 
@@ -268,8 +268,8 @@ class LongTables:
 
     def __init__(self, file: File, count: int, states: bool) -> None:
         """Read the diagnostics and the first rows of `count` runs; `states`: whether the batch has states."""
-        told = count and states
-        self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if told else [""] * count
+        message = count and states
+        self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if message else [""] * count
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):

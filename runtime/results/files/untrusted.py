@@ -18,7 +18,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError, InputError, in_a_line
 from gudgeon.files.reading import check_regular
-from gudgeon.language.wanted import path as named
+from gudgeon.language.argument_checks import path as named
 from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
 
@@ -54,8 +54,8 @@ def open_result_file(path: str | os.PathLike[str], make: Callable[[Any, int], Ma
     except InputError:
         raise
     except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be
-        told = str(error).partition("\n")[0][:200] or type(error).__name__
-        raise InputError(f"{shown} cannot be read as a result: {told}", hint=AGAIN) from error
+        message = str(error).partition("\n")[0][:200] or type(error).__name__
+        raise InputError(f"{shown} cannot be read as a result: {message}", hint=AGAIN) from error
 
 
 class File:

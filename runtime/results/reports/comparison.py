@@ -52,8 +52,8 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
 
     `reference` is the ideal run at the same times, None for the ideal run itself; `watch` are names of series.
     """
-    wanted = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)
-    series = [name for name in wanted if name in run]
+    expected = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)
+    series = [name for name in expected if name in run]
     motion = tuple(sample_extreme(name, run.unit(name), run.t, run[name]) for name in series)
     errors: tuple[Extreme, ...] = ()
     if reference is not None:
@@ -280,8 +280,8 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
         for name, (unit, what) in CONSTANTS.items():
             values = (report.constants.get(f"{joint}.{name}", math.nan) for report in reports)
-            told = what.replace("clearance", "gap") if "." in joint else what
-            rows.append((f"{joint} {told}", [quantity(value, unit) for value in values]))
+            message = what.replace("clearance", "gap") if "." in joint else what
+            rows.append((f"{joint} {message}", [quantity(value, unit) for value in values]))
     return rows
 
 

@@ -125,9 +125,9 @@ def _joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         names = ("min", "q1", "median", "q3", "max")
         found["restitution"] = {name: getattr(examined, f"restitution_{name}") for name in names}
         found |= {"rms": examined.F_rms, "rms_of": "all of the time"}
-        damping = examined.taken - examined.returned
+        damping = examined.used - examined.returned
         found["work"] = {
-            "taken": examined.taken,
+            "taken": examined.used,
             "returned": examined.returned,
             "damping": damping,
             "friction": examined.friction,
@@ -255,7 +255,7 @@ def _energy_balance(run: Result) -> dict[str, float] | None:
     found |= {"change": float(total[-1] - total[0]), "residual": d.energy_residual, "turned_over": d.energy_turned_over}
     joints = [_joint_statistics(run, joint.name) for joint in run.source.clearances]
     if joints and all(joints):
-        parts = [x for one in joints for x in (one.taken - one.returned, one.friction, one.film) if math.isfinite(x)]
+        parts = [x for one in joints for x in (one.used - one.returned, one.friction, one.film) if math.isfinite(x)]
         found["not_told_apart"] = -found["clearances"] - math.fsum(parts)
     return found
 

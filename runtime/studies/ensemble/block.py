@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Expected:
     """Requested outputs and settings of every run of a study."""
 
     t_end: Expr | None
@@ -74,7 +74,7 @@ class Job:
     columns: Mapping[str, Array]
     relative: Mapping[str, Array]
     absolute: Mapping[str, Array]
-    wanted: Wanted
+    expected: Expected
     threads: int | None
     later: int = 0  # runs of the same scene in later blocks
 
@@ -130,7 +130,7 @@ class Table:
 
     def __init__(self, simulation: Simulation, job: Job) -> None:
         """Evaluate the parameters and settings of all runs of a job."""
-        self.source, self.compiled, wanted = simulation.source, simulation.compiled, job.wanted
+        self.source, self.compiled, expected = simulation.source, simulation.compiled, job.expected
         self.bad: dict[int, str] = {}
         self.columns = {key: own for name, own in job.columns.items() if (key := key_of(self.source, name))}
         self.p, errors = self._prepare_parameters(job.n)
@@ -138,14 +138,14 @@ class Table:
             self.columns |= off
             self.p, errors = self._prepare_parameters(job.n)
         self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
-        self.t_end = self._end_times(wanted.t_end)
+        self.t_end = self._end_times(expected.t_end)
         known = {"t_end": self.t_end}
-        self.output = self._output_counts(wanted.output, known)
+        self.output = self._output_counts(expected.output, known)
         self.step: Array | None = None
-        if wanted.step is not None and self.source.degrees_of_freedom:
-            self.step = evaluate_for_runs(self.source, wanted.step, self.p, known)
+        if expected.step is not None and self.source.degrees_of_freedom:
+            self.step = evaluate_for_runs(self.source, expected.step, self.p, known)
             self._mark_impossible("step", self.step)
-        self.spans = self._evaluate_windows(wanted.windows, known)
+        self.spans = self._evaluate_windows(expected.windows, known)
 
     def _perturbed_parameters(self, job: Job) -> dict[str, Array]:
         """Return the parameters of perturbed starts by address: p (1 + relative) + absolute, (n,) each."""
@@ -226,8 +226,8 @@ def _as_python_value(value: Any) -> float | str:
 
 def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
     """Run some runs of a job and return their batch."""
-    wanted, ends, counts = job.wanted, table.t_end[runs], table.output[runs].astype(int)
-    spans = None if wanted.keep else sampled_interval(wanted.measures, table.spans, runs)
+    expected, ends, counts = job.expected, table.t_end[runs], table.output[runs].astype(int)
+    spans = None if expected.keep else sampled_interval(expected.measures, table.spans, runs)
     same_times = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
     if not same_times:
@@ -237,16 +237,16 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
     t_end: Any = None if not same_times else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_as_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
-    origin, sliding = origin_over_steps(wanted.measures, source), sliding_requests_of(wanted.measures, source)
+    origin, sliding = origin_over_steps(expected.measures, source), sliding_requests_of(expected.measures, source)
     common: dict[str, Any] = {
-        "method": method_in(source, wanted.method),
-        "rtol": wanted.rtol if source.degrees_of_freedom else None,
+        "method": method_in(source, expected.method),
+        "rtol": expected.rtol if source.degrees_of_freedom else None,
         "step": step,
         "threads": job.threads,
-        "stop": wanted.stop,
+        "stop": expected.stop,
     }
     parameters = parameters or [{}] * len(runs)
-    contour, progress = run_wear_rounds(simulation, wanted.wear, wanted.rounds, parameters, ends, common, progress)
+    contour, progress = run_wear_rounds(simulation, expected.wear, expected.rounds, parameters, ends, common, progress)
     batch = simulation.simulate_many(
         parameters,
         t_end,
@@ -254,8 +254,8 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
         **common,
         progress=progress,
         contour=contour,
-        keep=series_of(wanted.measures, wanted.keep, source),
-        peaks=(*peak_series_of(wanted.measures, source), *sliding),
+        keep=series_of(expected.measures, expected.keep, source),
+        peaks=(*peak_series_of(expected.measures, source), *sliding),
         against=origin_of(job, origin) if origin else None,
     )
     if batch.interrupted:
@@ -274,7 +274,7 @@ class _Collector:
     def __init__(self, job: Job, table: Table) -> None:
         """Create empty measures for all runs of a job."""
         self.job, self.table, n = job, table, job.n
-        self.measures = {one.name: np.full(n, np.nan) for one in job.wanted.measures}
+        self.measures = {one.name: np.full(n, np.nan) for one in job.expected.measures}
         self.t_last = np.full(n, np.nan)
         self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
         self.notes: list[Mapping[str, Note]] = []
@@ -285,35 +285,35 @@ class _Collector:
             name: tuple(None if end is None else end[runs] for end in ends) for name, ends in self.table.spans.items()
         }
         failed = {failure.run: str(failure.error) for failure in batch.failures}
-        for i, told in failed.items():
-            failures[runs[i]] = told
+        for i, message in failed.items():
+            failures[runs[i]] = message
         origins = origin_series(self.job, self.table, runs, batch, failures)
         good = np.array([not failures[i] for i in runs])
-        for one in self.job.wanted.measures:
+        for one in self.job.expected.measures:
             self.measures[one.name][runs] = np.where(good, measure_runs(batch, one, spans, origins), np.nan)
         begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(begun, batch.t_last, np.nan)
         noted = batch.result.notes()
         self.notes.append(gathered((self.job.first + int(runs[i]), noted[i]) for i in sorted(noted)))
-        if self.job.wanted.keep:
+        if self.job.expected.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
     def add(self, values: Mapping[str, Array], failures: list[str]) -> None:
         """Add further measures of all runs, and set those of failed runs to NaN."""
         for name, own in (self.measures | dict(values)).items():
-            self.measures[name] = np.where([not told for told in failures], own, np.nan)
+            self.measures[name] = np.where([not message for message in failures], own, np.nan)
 
     def block(self, failures: list[str]) -> Block:
         """Return the collected results as a Block."""
-        job, keep = self.job, self.job.wanted.keep
-        N = max((asked.shape[-1] for _, asked, _ in self.kept), default=0)
+        job, keep = self.job, self.job.expected.keep
+        N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
         t = np.full((job.n, N), np.nan)
         series = {name: np.full((job.n, N), np.nan) for name in keep}
-        for runs, asked, kept in self.kept:
-            taken = kept["t"]
-            t[runs, : taken.shape[1]] = np.where(np.isnan(taken), asked, taken)
+        for runs, requested, kept in self.kept:
+            used = kept["t"]
+            t[runs, : used.shape[1]] = np.where(np.isnan(used), requested, used)
             for name in (name for name in keep if name in kept):
-                series[name][runs, : taken.shape[1]] = kept[name]
+                series[name][runs, : used.shape[1]] = kept[name]
         began = ~np.isnan(self.t_last)
         t[~began] = np.nan
         common = t[began][0] if began.any() else np.zeros(N)

@@ -52,7 +52,7 @@ class Claimed(NamedTuple):
         """Return lines with the number of trends by verdict, for each heading, and with the deviation of printed
         numbers.
         """
-        told = []
+        message = []
         each = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
         headings = list(each["heading"]) if "heading" in each else [UNNAMED] * len(each)
         for heading in dict.fromkeys(headings):
@@ -60,11 +60,11 @@ class Claimed(NamedTuple):
             found = ((counts[one], one, many) for one, many in VERDICTS.items() if counts[one])
             words = (f"{count} {many if count > 1 else one}" for count, one, many in found)
             of = f" of “{heading}”" if heading else ""
-            told.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
+            message.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
-            told.append(_deviation_text(printed))
-        return told
+            message.append(_deviation_text(printed))
+        return message
 
 
 def _deviation_text(printed: pandas.DataFrame) -> str:
@@ -213,8 +213,8 @@ def _describe_cell(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[s
     for name, k in zip(_cell_dimensions(plan), known.cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
-            said = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
-            texts.append(f"{one.name} {own.get(one.name) or written.get(one.name, {k: said})[k]}")
+            specified = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
+            texts.append(f"{one.name} {own.get(one.name) or written.get(one.name, {k: specified})[k]}")
     return ", ".join(texts)
 
 
@@ -228,14 +228,14 @@ def _trend_rows(known: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, An
     claim = known.claim
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
     if claim.not_computed:
-        told = " ".join(filter(None, (claim.not_computed, claim.note)))
+        message = " ".join(filter(None, (claim.not_computed, claim.note)))
         yield common | {
             "ensemble": UNNAMED,
             "verdict": NOT_COMPUTED,
             "alone": NOT_COMPUTED,
             **dict.fromkeys(ODDS),
             "agreed": True,
-            "note": told,
+            "note": message,
         }
         return
     cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
@@ -264,7 +264,7 @@ def _trend_rows(known: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, An
 
 def _has_measure(runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
     """Return whether the part of a cell has a measure."""
-    return any(one.name == measure for one in runs.plans.each[cell.part].wanted.measures)
+    return any(one.name == measure for one in runs.plans.each[cell.part].expected.measures)
 
 
 def _finite_or_none(value: float | None) -> float | None:

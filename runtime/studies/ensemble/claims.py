@@ -120,19 +120,19 @@ def known_claims(plans: Plans) -> Known:
 
 def _resolve_number(plans: Plans, claim: NumberClaim) -> KnownNumber:
     """Return a published number with its cell and unit."""
-    chosen = _select(plans, claim.selection)
-    cells = [cell for _, cell in chosen.cells({})]
+    selected = _select(plans, claim.selection)
+    cells = [cell for _, cell in selected.cells({})]
     if len(cells) > 1:
-        left = [f"{name} ({len(own)})" for name, own in chosen.places.items() if len(own) > 1]
+        left = [f"{name} ({len(own)})" for name, own in selected.places.items() if len(own) > 1]
         hint = f"say in at: which value of {', '.join(left)}"
         raise BadValueError(f"{claim.name} is about {len(cells)} scenes", claim.name.where, hint)
-    told = _unit_of(chosen.plan, claim.measure)
-    return KnownNumber(claim, cells[0], told, None if claim.value is None else _value_in(claim.value, told))
+    message = _unit_of(selected.plan, claim.measure)
+    return KnownNumber(claim, cells[0], message, None if claim.value is None else _value_in(claim.value, message))
 
 
 def _unit_of(plan: Plan, measure: Text) -> str:
     """Return the unit of a measure. Raises an InputError for an unknown measure."""
-    known = [one.name for one in plan.wanted.measures]
+    known = [one.name for one in plan.expected.measures]
     if measure not in known:
         raise unknown_name("measure", measure, known, measure.where)
     return plan.units[str(measure)]
@@ -184,8 +184,8 @@ def _indices_of(one: Coordinate, value: Text) -> set[int]:
     values = np.atleast_1d(np.asarray(one.values))
     if values.dtype.kind in "OU":
         return {k for k, own in enumerate(values.tolist()) if str(own) == value.strip()}
-    wanted = _value_in(value, one.unit)
-    return set(np.flatnonzero(np.abs(values - wanted) <= SAME * np.abs(values)).tolist())
+    expected = _value_in(value, one.unit)
+    return set(np.flatnonzero(np.abs(values - expected) <= SAME * np.abs(values)).tolist())
 
 
 def _list_values(one: Coordinate) -> str:
@@ -197,18 +197,18 @@ def _list_values(one: Coordinate) -> str:
 
 def _make_checks(plans: Plans, trial: Trial) -> Iterator[Check]:
     """Yield the checks of one statement of a trend."""
-    chosen = _select(plans, trial.selection)
+    selected = _select(plans, trial.selection)
     if trial.kind == COUNTS:
-        yield _check_counts(chosen, trial)
+        yield _check_counts(selected, trial)
         return
     for measure in (*trial.measures, *trial.others):
-        _unit_of(chosen.plan, measure)
+        _unit_of(selected.plan, measure)
     if trial.kind in ALONG:
-        yield from _checks_along(chosen, trial)
+        yield from _checks_along(selected, trial)
     elif trial.than is not None:
-        yield from _checks_between(chosen, _select(plans, trial.than), trial)
+        yield from _checks_between(selected, _select(plans, trial.than), trial)
     else:
-        yield from _checks_of_cells(chosen, trial)
+        yield from _checks_of_cells(selected, trial)
 
 
 def _fraction_of(trial: Trial, otherwise: float) -> float:
@@ -216,17 +216,17 @@ def _fraction_of(trial: Trial, otherwise: float) -> float:
     return otherwise if trial.by is None else _value_in(trial.by, "")
 
 
-def _checks_along(chosen: Selected, trial: Trial) -> Iterator[Check]:
+def _checks_along(selected: Selected, trial: Trial) -> Iterator[Check]:
     """Yield the checks of a statement along a dimension."""
-    one = _find_coordinate(chosen.plan, trial.text)
-    if not one.over or len(chosen.places[one.over[0]]) < 2:
-        told = f"nothing to compare along {str(trial.text)[:60]!r}: it has one value here"
-        raise BadValueError(told, trial.text.where, "leave it out of at:, or take another dimension")
+    one = _find_coordinate(selected.plan, trial.text)
+    if not one.over or len(selected.places[one.over[0]]) < 2:
+        message = f"nothing to compare along {str(trial.text)[:60]!r}: it has one value here"
+        raise BadValueError(message, trial.text.where, "leave it out of at:, or take another dimension")
     (dimension,) = one.over
-    order = chosen.places[dimension]
+    order = selected.places[dimension]
     if np.asarray(one.values).dtype.kind not in "OU":
         order = tuple(sorted(order, key=lambda k: float(one.values[k])))
-    rows = [dict(chosen.cells({dimension: k})) for k in order]
+    rows = [dict(selected.cells({dimension: k})) for k in order]
     for key in rows[0]:
         yield from _checks_of_row([row[key] for row in rows], trial)
 
@@ -278,9 +278,9 @@ def _checks_between(first: Selected, second: Selected, trial: Trial) -> Iterator
         _unit_of(second.plan, name)
     here, there = dict(first.cells({})), dict(second.cells({}))
     if here.keys() != there.keys():
-        told = f"{trial.text} and what it is compared with are not about the same runs"
+        message = f"{trial.text} and what it is compared with are not about the same runs"
         hint = "what neither selects must have the same values in both"
-        raise BadValueError(told, trial.text.where, hint)
+        raise BadValueError(message, trial.text.where, hint)
     for key, cell in here.items():
         for measure in [str(name) for name in trial.measures]:
             if trial.kind == "larger":
@@ -296,9 +296,9 @@ def _falls_further(measure: str, other: str) -> Callable[[Look], Array]:
     return lambda x: np.abs(x(1, measure) * x(0, other)) < np.abs(x(1, other) * x(0, measure))
 
 
-def _checks_of_cells(chosen: Selected, trial: Trial) -> Iterator[Check]:
+def _checks_of_cells(selected: Selected, trial: Trial) -> Iterator[Check]:
     """Yield the checks of each cell alone, against another measure of the same run or a number."""
-    for _, cell in chosen.cells({}):
+    for _, cell in selected.cells({}):
         for name in trial.measures:
             measure = str(name)
             if trial.others:
@@ -308,7 +308,7 @@ def _checks_of_cells(chosen: Selected, trial: Trial) -> Iterator[Check]:
                     _exceeds_measure(measure, str(trial.others[0]), _fraction_of(trial, 1.0)),
                 )
                 continue
-            number, within = _value_in(trial.text, _unit_of(chosen.plan, name)), _fraction_of(trial, 0.0)
+            number, within = _value_in(trial.text, _unit_of(selected.plan, name)), _fraction_of(trial, 0.0)
             low = {"above": number, "near": number - within * abs(number)}.get(trial.kind, -np.inf)
             high = {"below": number, "near": number + within * abs(number)}.get(trial.kind, np.inf)
             yield Check((cell,), (measure,), _is_inside(measure, low, high, trial.kind == "near"))
@@ -330,12 +330,12 @@ def _is_inside(measure: str, low: float, high: float, ends: bool) -> Callable[[L
     return shows
 
 
-def _check_counts(chosen: Selected, trial: Trial) -> Check:
+def _check_counts(selected: Selected, trial: Trial) -> Check:
     """Return the check of the numbers of components of a scene, the same in every run."""
-    structure = [one.length for one in chosen.plan.structure]
-    places = [cell.index[: len(structure)] for _, cell in chosen.cells({})]
+    structure = [one.length for one in selected.plan.structure]
+    places = [cell.index[: len(structure)] for _, cell in selected.cells({})]
     parts = {int(np.ravel_multi_index(place, structure)) if structure else 0 for place in places}
-    sources = [chosen.plan.parts[k].simulation.source for k in sorted(parts)]
+    sources = [selected.plan.parts[k].simulation.source for k in sorted(parts)]
     right = all(
         _count_components(source)[str(name)] == count for source in sources for name, count in trial.counts.items()
     )

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from gudgeon.files.room import check_disk, check_memory
+from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.integrators.threads import available_threads
 from gudgeon.model.evaluation import evaluated_bytes, sample_bytes
-from gudgeon.results.batch import parts_of
+from gudgeon.results.batch import evaluation_parts_of
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
 from gudgeon.studies.ensemble.folder import block_to_bytes
@@ -44,15 +44,15 @@ def check_needs(plans: Plans, folder: Path, threads: int | None, here: bool) -> 
 
 def disk_bytes(plan: Plan) -> float:
     """Return the least size of all blocks and the dataset, bytes: measures, ends of runs and stored series."""
-    numbers, kept = len(plan.wanted.measures) + 2, len(plan.wanted.keep)
+    numbers, kept = len(plan.expected.measures) + 2, len(plan.expected.keep)
     return sum(8.0 * plan.each * (2 * numbers + kept * (part.samples + part.most)) for part in plan.parts)
 
 
 def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
     """Raise MemoryError if the states and series of the blocks that run at the same time do not fit."""
     compiled, most = part.simulation.compiled, min(cores, SIDE_BY_SIDE, plan.count_of_blocks)
-    names = series_of(plan.wanted.measures, plan.wanted.keep, compiled.source)
-    state = sample_bytes(compiled) + evaluated_bytes(compiled, parts_of(compiled.source, names))
+    names = series_of(plan.expected.measures, plan.expected.keep, compiled.source)
+    state = sample_bytes(compiled) + evaluated_bytes(compiled, evaluation_parts_of(compiled.source, names))
     size = state * min(max(cores, most), most * part.block) + most * part.block * 8 * READ * (len(names) + 1)
     runs = f"{most * part.block} runs" if most * part.block > 1 else "a run"
     check_memory(size * part.samples, f"{runs} of {part.samples:.0f} samples, under way at once,")
@@ -88,11 +88,11 @@ def estimate(plan: Plan, threads: int | None) -> Estimate:
     seconds, size, failures = 0.0, 0, list[str]()
     for k, part in enumerate(plan.parts):
         job = plan.job_of(0, k, runs, threads)
-        block, taken = _time_block(job, part.simulation)
-        if taken < FIRST:
-            block, taken = _time_block(job, part.simulation)
-        seconds += taken * plan.each / len(runs)
-        numbers = len(plan.wanted.measures) + 3 + (len(plan.wanted.keep) + 1) * block.t.shape[-1]
+        block, used = _time_block(job, part.simulation)
+        if used < FIRST:
+            block, used = _time_block(job, part.simulation)
+        seconds += used * plan.each / len(runs)
+        numbers = len(plan.expected.measures) + 3 + (len(plan.expected.keep) + 1) * block.t.shape[-1]
         more = max(0, len(block_to_bytes(block, plan.digest)) - 8 * numbers * len(runs))  # overhead of a file
         size += 2 * 8 * numbers * plan.each + more * math.ceil(plan.each / part.block)  # in blocks, and in the dataset
         failures += filter(None, block.failures)

@@ -47,14 +47,14 @@ def check_followed(study: StudyFile, source: KernelSource) -> None:
     for one in (one for one in study.measures if one.statistic in FOLLOWED):
         where, owner = one.of.where, f"measures.{one.name}"
         if study.wear is not None:
-            told = f"{owner}: a neighbour is followed beside circles, not beside contours that wear"
-            raise BadValueError(told, where, "leave out wear:, or this measure")
+            message = f"{owner}: a neighbour is followed beside circles, not beside contours that wear"
+            raise BadValueError(message, where, "leave out wear:, or this measure")
         if one.statistic == "believable" and (study.step is not None or study.method == "rk4"):
-            told = f"{owner}: what a fixed step errs by is not known"
-            raise BadValueError(told, where, "expected a method that chooses its step, by rtol")
+            message = f"{owner}: what a fixed step errs by is not known"
+            raise BadValueError(message, where, "expected a method that chooses its step, by rtol")
         if one.of == WHOLE and one.statistic in OF_SECTION:
-            told = f"{owner}: {one.statistic.replace('_', ' ')} is of returns to a section"
-            raise BadValueError(told, where, "expected an event of the file, or a period: 2*pi/omega")
+            message = f"{owner}: {one.statistic.replace('_', ' ')} is of returns to a section"
+            raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
         if one.of != WHOLE and not _is_event(one, source):
             _check_period(one, source)
 
@@ -85,7 +85,7 @@ def follow(
     `t_last` (n,) s: the end of each run, at an event or as requested. The failure of a neighbour is entered in
     `failures`.
     """
-    measures = [one for one in job.wanted.measures if one.statistic in FOLLOWED]
+    measures = [one for one in job.expected.measures if one.statistic in FOLLOWED]
     found = {one.name: np.full(job.n, np.nan) for one in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return found
@@ -109,8 +109,8 @@ class _NeighbourComputation:
     ) -> None:
         """Store the job, its parameters and the ends of the runs."""
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
-        self.error = RTOL if job.wanted.rtol is None else job.wanted.rtol
-        self.rtol = neighbours_rtol(simulation.source, job.wanted.rtol)
+        self.error = RTOL if job.expected.rtol is None else job.expected.rtol
+        self.rtol = neighbours_rtol(simulation.source, job.expected.rtol)
         is_cut = t_last < table.t_end * (1.0 - ROUNDING)
         self.t_last = np.where(is_cut, t_last, table.t_end)
 
@@ -135,7 +135,7 @@ class _NeighbourComputation:
         """Return the exponent of run i for the section of a measure; None if the run ended before the window or a
         return.
         """
-        table, wanted, source = self.table, self.job.wanted, self.simulation.source
+        table, expected, source = self.table, self.job.expected, self.simulation.source
         begin, end = (None if one is None else float(one[i]) for one in table.spans.get(measure.window, (None, None)))
         last, section = float(self.t_last[i]), self._section(i, measure)
         shortest = section if isinstance(section, float) else 0.0
@@ -149,7 +149,7 @@ class _NeighbourComputation:
             last if end is None else min(end, last),
             section=section,
             skip=max(begin or 0.0, 0.0),
-            method=method_in(source, wanted.method),
+            method=method_in(source, expected.method),
             rtol=self.rtol,
             parameters=parameters,
             step=None if table.step is None else float(table.step[i]),

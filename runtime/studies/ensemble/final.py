@@ -64,7 +64,7 @@ def _concatenate_blocks(blocks: Sequence[Block]) -> Block:
         {name: np.concatenate([getattr(one, of)[name] for one in blocks]) for name in getattr(first, of)}
         for of in ("measures", "series")
     )
-    failures = tuple(told for one in blocks for told in one.failures)
+    failures = tuple(message for one in blocks for message in one.failures)
     t_last, notes = np.concatenate([one.t_last for one in blocks]), merge_notes(one.notes for one in blocks)
     return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
 
@@ -73,7 +73,7 @@ def _common_times(folder: StudyFolder) -> tuple[Array, bool]:
     """Return the sample times (N,) and True if all runs have the same; else NaN for the longest run and False."""
     common: Array | None = None
     alike, most = True, 0
-    for block in _blocks(folder) if folder.plan.wanted.keep else ():
+    for block in _blocks(folder) if folder.plan.expected.keep else ():
         most = max(most, block.t.shape[-1])
         if not block.t.size:  # no run began
             continue
@@ -93,13 +93,13 @@ def _write_blocks(target: BinaryIO, folder: StudyFolder, t: Array, common: bool)
         scales = {one.name: one for one in plan.coordinates if one.over == (one.name,)}
         for one in [*scales.values(), *(one for one in plan.coordinates if one.name not in scales)]:
             _write_coordinate(h5py, file, one)
-        if plan.wanted.keep:
+        if plan.expected.keep:
             time = np.arange(len(t)) if not common else t
-            told = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
-            _write_coordinate(h5py, file, Coordinate(told[0], (told[0],), time, *told[1:]))
+            message = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
+            _write_coordinate(h5py, file, Coordinate(message[0], (message[0],), time, *message[1:]))
         variables = _create_variables(h5py, file, plan, len(t), common)
         for block in _join_small_blocks(_blocks(folder)):
-            _fill(variables, plan, block, common)
+            _fill_variables(variables, plan, block, common)
             notes = merge_notes((notes, block.notes))
             for run, why in enumerate(block.failures, block.first):
                 if why:
@@ -132,13 +132,13 @@ def _write_attributes(file: Any, plan: Plan) -> None:
     import gudgeon
 
     source = plan.parts[0].simulation.source
-    said = json.dumps(plan.study.said)  # where it is too long, the folder's own file has it
+    specified = json.dumps(plan.study.specified)  # where it is too long, the folder's own file has it
     attributes = {
         "title": plan.study.title or source.title,
         "mechanism": source.mechanism,
         "gudgeon": gudgeon.__version__,
         "sha256": source.whole_sha256,
-        "study": said if len(said) < MOST_TEXT else "",
+        "study": specified if len(specified) < MOST_TEXT else "",
         "plan": plan.identity,
         "runs": plan.runs,
     }
@@ -171,36 +171,36 @@ def _create_variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bo
     """Create the empty variables over all dimensions and return them by name."""
     found: dict[str, Any] = {}
 
-    def add(name: str, over: tuple[str, ...], kind: Any, unit: str, told: str) -> None:
+    def add(name: str, over: tuple[str, ...], kind: Any, unit: str, message: str) -> None:
         """Create one variable."""
         shape = tuple(len(file[dimension]) for dimension in over)
         more = {} if kind is not float else {"fillvalue": np.nan}
         found[name] = file.create_dataset(name, shape, dtype=kind, **more)
-        _set_attributes(found[name], unit, told)
+        _set_attributes(found[name], unit, message)
         for k, dimension in enumerate(over):
             found[name].dims[k].attach_scale(file[dimension])
 
-    for one in plan.wanted.measures:
+    for one in plan.expected.measures:
         add(one.name, plan.dims, float, plan.units[one.name], meaning(one))
     add("t_last", plan.dims, float, "s", "where the run ended")
     add("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
     beside = " ".join(one.name for one in plan.coordinates if one.over != (one.name,))
     over = (*plan.dims, "time" if common else "sample")
-    for name in plan.wanted.keep:
+    for name in plan.expected.keep:
         add(name, over, float, plan.units[name], f"series {name}")
-    if plan.wanted.keep and not common:
+    if plan.expected.keep and not common:
         add("t", over, float, "s", "time of the sample")
     for variable in found.values() if beside else ():
         variable.attrs["coordinates"] = beside  # as CF has it
     return found
 
 
-def _fill(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> None:
+def _fill_variables(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> None:
     """Write the values of a block into the variables."""
     n = len(block.t_last)
     values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
     values |= block.series
-    if plan.wanted.keep and not common:
+    if plan.expected.keep and not common:
         began = ~np.isnan(block.t_last)[:, None]
         values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
+from gudgeon.language.argument_checks import names, path
 from gudgeon.language.names import unknown
-from gudgeon.language.wanted import names, path
 from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
 from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, h5py_module
 from gudgeon.studies.ensemble.names import Names, read_names
@@ -127,13 +127,13 @@ class Study:
 
         With names of stored series it has a row for each sample.
         """
-        asked = names(series, "series", "a list of names of kept series")
-        for name in asked:
+        requested = names(series, "series", "a list of names of kept series")
+        for name in requested:
             if name not in self.dataset.data_vars or name in (*self.measures, "t_last", "failure", "t"):
                 kept = tuple(str(one) for one in self.dataset.data_vars if "." in str(one))
                 raise unknown(f"the study kept no series {name!r}", name, kept)
-        times = ["t"] if asked and "t" in self.dataset else []
-        found = self.dataset[[*times, *asked]] if asked else self.dataset[[*self.measures, "t_last", "failure"]]
+        times = ["t"] if requested and "t" in self.dataset else []
+        found = self.dataset[[*times, *requested]] if requested else self.dataset[[*self.measures, "t_last", "failure"]]
         if not found.sizes:
             import pandas
 
@@ -174,8 +174,8 @@ class StudyOfParts(Study):
 
     def __repr__(self) -> str:
         """Return parts, runs and failures in one line."""
-        told = ", ".join(f"{name} {part.runs}" for name, part in self._parts.items())
-        return f"<Study of {len(self._parts)} parts: {told} runs{f', {self.failed} failed' if self.failed else ''}>"
+        message = ", ".join(f"{name} {part.runs}" for name, part in self._parts.items())
+        return f"<Study of {len(self._parts)} parts: {message} runs{f', {self.failed} failed' if self.failed else ''}>"
 
     @property
     def parts(self) -> Mapping[str, Study]:

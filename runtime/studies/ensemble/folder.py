@@ -19,8 +19,8 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError, InputError, in_a_line, shortened
 from gudgeon.files.writing import PART, read_regular, telling, written
+from gudgeon.language.argument_checks import message
 from gudgeon.language.names import LABEL
-from gudgeon.language.wanted import told
 from gudgeon.studies.ensemble.block import Block
 from gudgeon.studies.ensemble.notes import Note
 from gudgeon.studies.ensemble.plan import FOLDER_FORMAT
@@ -54,8 +54,8 @@ class StudyFolder:
             try:
                 lock.acquire(timeout=0)
             except Timeout:
-                told = f"another process is at work in {shortened(self.path)}"
-                raise InputError(told, hint="wait for it, or name another folder") from None
+                message = f"another process is at work in {shortened(self.path)}"
+                raise InputError(message, hint="wait for it, or name another folder") from None
         try:
             self._prepare(restart)
             yield self
@@ -68,15 +68,15 @@ class StudyFolder:
         before = manifest(self.path)
         foreign = [name for name in there if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
         if before is None and foreign:
-            told = f"{shortened(self.path)} is no folder of a study: it holds {foreign[0]}"
-            raise InputError(told, hint="name another folder")
+            message = f"{shortened(self.path)} is no folder of a study: it holds {foreign[0]}"
+            raise InputError(message, hint="name another folder")
         for name in there:
             if PART.fullmatch(name):  # of a process that was killed
                 (self.path / name).unlink(missing_ok=True)
         blocks = [part.block for part in self.plan.parts]
         if before is not None and not restart:
-            if before.get("said") != self.plan.said:
-                what = "\n  ".join(_differences(before.get("said"), self.plan.said))
+            if before.get("said") != self.plan.specified:
+                what = "\n  ".join(_differences(before.get("said"), self.plan.specified))
                 hint = "begin anew with --restart (restart=True), or name another folder"
                 raise InputError(f"{shortened(self.path)} holds another study:\n  {what}", hint=hint)
             if before.get("blocks") == blocks:
@@ -84,7 +84,7 @@ class StudyFolder:
         for name in [name for name in there if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
             with telling(self.path / name):
                 (self.path / name).unlink(missing_ok=True)
-        text = json.dumps({"said": self.plan.said, "blocks": blocks, "plan": self.plan.identity}, indent=1)
+        text = json.dumps({"said": self.plan.specified, "blocks": blocks, "plan": self.plan.identity}, indent=1)
         with written(self.path / MANIFEST, sync=True) as file:
             file.write(text.encode())
 
@@ -170,8 +170,8 @@ def convert_read_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except (OSError, KeyError, ValueError, RuntimeError) as error:
-        told = f"{shortened(path)} cannot be read: {in_a_line(str(error))[:200]}"
-        raise InputError(told, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
+        message = f"{shortened(path)} cannot be read: {in_a_line(str(error))[:200]}"
+        raise InputError(message, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
 
 
 def _differences(before: Any, now: Any) -> list[str]:
@@ -180,7 +180,7 @@ def _differences(before: Any, now: Any) -> list[str]:
     lines = []
     for key in dict.fromkeys([*old, *new]):
         if old.get(key) != new.get(key):
-            then, own = (told(one[key]) if key in one else "not said" for one in (old, new))
+            then, own = (message(one[key]) if key in one else "not said" for one in (old, new))
             lines.append(f"{key.removeprefix('study.')} was {then}, is {own}")
     more = [f"and {len(lines) - _MOST_TOLD} more"] if len(lines) > _MOST_TOLD else []
     return lines[:_MOST_TOLD] + more
@@ -230,17 +230,17 @@ def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
     with h5py.File(io.BytesIO(data), "r") as file:
         if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
             return None
-        names, keep = [one.name for one in plan.wanted.measures], plan.wanted.keep
+        names, keep = [one.name for one in plan.expected.measures], plan.expected.keep
         t_last, *measures = _read_array(file, "runs", (1 + len(names), of.runs))
         t, series = np.zeros(0), np.zeros((0, of.runs, 0))
         if keep:
             t, series = np.asarray(file["t"], dtype=float), _read_array(file, "series", (len(keep), of.runs, None))
-        failures, told = json.loads(bytes(np.asarray(file["words"], np.uint8)))
-    notes = {kind: Note(*note) for kind, note in told.items()}
-    if len(failures) != of.runs or not all(isinstance(told, str) for told in failures):
+        failures, message = json.loads(bytes(np.asarray(file["words"], np.uint8)))
+    notes = {kind: Note(*note) for kind, note in message.items()}
+    if len(failures) != of.runs or not all(isinstance(message, str) for message in failures):
         raise ValueError(f"block {number}: expected {of.runs} runs")
-    taken = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
-    return Block(number, of.part * plan.each + of.first, taken[0], tuple(failures), t_last, t, taken[1], notes)
+    used = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
+    return Block(number, of.part * plan.each + of.first, used[0], tuple(failures), t_last, t, used[1], notes)
 
 
 def _read_array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:

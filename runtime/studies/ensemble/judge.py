@@ -154,12 +154,12 @@ def _verdict_of(each: Sequence[Estimate], chance: float) -> Judged:
 
 def _complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
     """Return the runs of each cell that have all measures of the checks."""
-    asked: dict[Cell, dict[str, None]] = {}
+    requested: dict[Cell, dict[str, None]] = {}
     for check in checks:
         for cell in check.cells:
-            asked.setdefault(cell, {}).update(dict.fromkeys(check.measures))
+            requested.setdefault(cell, {}).update(dict.fromkeys(check.measures))
     found = {}
-    for cell, measures in asked.items():
+    for cell, measures in requested.items():
         own = {name: runs[cell][name] for name in measures}
         good = np.logical_and.reduce([np.isfinite(values) for values in own.values()])
         found[cell] = {name: values[good] for name, values in own.items()} | {PLACES: np.flatnonzero(good)}
@@ -172,9 +172,9 @@ def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], again: C
     The number of trials follows from the variance of the fractions of single runs of each cell (W. Hoeffding, Ann.
     Math. Stat. 19, 1948).
     """
-    p, shown, chosen = _evaluate_combinations([check], runs)
+    p, shown, selected = _evaluate_combinations([check], runs)
     shares = {
-        cell: _fractions_by_run(own, shown, runs[cell][PLACES]) for cell, own in chosen.items() if cell not in certain
+        cell: _fractions_by_run(own, shown, runs[cell][PLACES]) for cell, own in selected.items() if cell not in certain
     }
     if not shares or math.isnan(p):
         return Estimate(p, math.inf)
@@ -183,11 +183,11 @@ def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], again: C
     return Estimate(p, *_effective_trials(p, list(shares.values()), most), *_effective_trials(p, several, most))
 
 
-def _fractions_by_run(chosen: Array, shown: Array, places: Array) -> Array:
+def _fractions_by_run(selected: Array, shown: Array, places: Array) -> Array:
     """Return for each run of a cell the fraction of its combinations that meets the check; NaN for a missing run."""
-    found, seen = np.full(int(places.max()) + 1, np.nan), np.bincount(chosen, minlength=len(places))
+    found, seen = np.full(int(places.max()) + 1, np.nan), np.bincount(selected, minlength=len(places))
     with np.errstate(invalid="ignore"):
-        found[places] = np.bincount(chosen, shown, len(places)) / seen
+        found[places] = np.bincount(selected, shown, len(places)) / seen
     return found
 
 
@@ -226,17 +226,17 @@ def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, 
     sizes = [len(next(iter(runs[cell].values()))) for cell in cells]
     if not all(sizes):
         return math.nan, np.zeros(0), {}
-    chosen = dict(zip(cells, _combinations(sizes), strict=True))
-    shown = np.ones(len(chosen[cells[0]]) if cells else 1, dtype=bool)
+    selected = dict(zip(cells, _combinations(sizes), strict=True))
+    shown = np.ones(len(selected[cells[0]]) if cells else 1, dtype=bool)
     for check in checks:
 
         def look(k: int, name: str, check: Check = check) -> Array:
             """Return a measure of the runs of a check's cell k in all combinations."""
             cell = check.cells[k]
-            return runs[cell][name][chosen[cell]]
+            return runs[cell][name][selected[cell]]
 
         shown = shown & check.shows(look)
-    return float(np.mean(shown)), shown, chosen
+    return float(np.mean(shown)), shown, selected
 
 
 def _combinations(sizes: Sequence[int]) -> Sequence[Array]:

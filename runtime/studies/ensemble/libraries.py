@@ -65,8 +65,8 @@ def mechanism_of(study: StudyFile) -> str:
 def structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text], tuple[tuple[str, str], ...]]]:
     """Yield every scene with every combination of options: overrides as texts with locations, and as pairs."""
     choices = [list(choice.options.values()) for choice in study.choices]
-    for scene, chosen in itertools.product(study.scenes, itertools.product(*choices)):
-        texts = {address: text for own in chosen for address, text in own.items()}
+    for scene, selected in itertools.product(study.scenes, itertools.product(*choices)):
+        texts = {address: text for own in selected for address, text in own.items()}
         yield scene, texts, tuple(sorted((address, str(text)) for address, text in texts.items()))
 
 
@@ -90,7 +90,7 @@ def structures_of(studies: Iterable[StudyFile]) -> list[Structure]:
 
 
 @contextmanager
-def made_beside(structures: Sequence[Structure]) -> Iterator[None]:
+def compile_in_second_process(structures: Sequence[Structure]) -> Iterator[None]:
     """Compile libraries in another process from the last on, while this one loads them from the first on.
 
     A process that needs a library that the other is compiling waits for it. They share only the cache. Without a cache
@@ -100,9 +100,9 @@ def made_beside(structures: Sequence[Structure]) -> Iterator[None]:
     with Programs() as programs:
         process = None
         if len(new) >= FEWEST and available_threads() > 1:
-            told = json.dumps([law_files(), new[: -MOST - 1 : -1]])
+            message = json.dumps([law_files(), new[: -MOST - 1 : -1]])
             try:
-                process = programs.begin([sys.executable, "-c", OTHER, told], None, dict(os.environ))
+                process = programs.begin([sys.executable, "-c", OTHER, message], None, dict(os.environ))
             except OSError:
                 process = None
         try:
@@ -135,8 +135,8 @@ def load_library(mechanism: str, scene: str, overrides: tuple[tuple[str, str], .
     """
     found = load(mechanism, scene, overrides=dict(overrides), quick=False)
     if found.source.whole_sha256 != sha256:
-        told = f"{mechanism} was edited after the study began"
-        raise InputError(told, hint="put it back as it was, or begin anew with --restart")
+        message = f"{mechanism} was edited after the study began"
+        raise InputError(message, hint="put it back as it was, or begin anew with --restart")
     return found
 
 

@@ -11,8 +11,8 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
 from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue, check_series
-from gudgeon.results.wear import Rubbing, arc
-from gudgeon.simulation.examine import known_to_rub
+from gudgeon.results.wear import SlidingRequest, arc
+from gudgeon.simulation.examine import has_known_contact_force
 from gudgeon.studies.ensemble.exponents import FOLLOWED, KINDS_TOLD
 from gudgeon.studies.ensemble.numbers import ROUNDING
 
@@ -50,22 +50,22 @@ def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: Kern
     """Return the series whose samples the measures and stored series of a scene need."""
     known = catalogue(source)
     others = (*OF_JOINTS, *CROSSINGS, *STEPS, *FOLLOWED)
-    wanted = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
-    return [name for name in dict.fromkeys(wanted) if name in known]
+    expected = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
+    return [name for name in dict.fromkeys(expected) if name in known]
 
 
 def peak_series_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
     """Return the series whose peaks over all steps are measured; not the deviation of a scene from itself."""
     known = catalogue(source)
-    wanted = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
-    return [name for name in dict.fromkeys(wanted) if name in known]
+    expected = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
+    return [name for name in dict.fromkeys(expected) if name in known]
 
 
-def sliding_requests_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[Rubbing, ...]:
+def sliding_requests_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[SlidingRequest, ...]:
     """Return the requests for sliding loads of joints whose wear is measured."""
     own = _joint_names(source, rubs=True)
-    wanted = (str(one.of) for one in measures if one.statistic in WEAR)
-    return tuple(Rubbing(name) for name in dict.fromkeys(wanted) if name in own)
+    expected = (str(one.of) for one in measures if one.statistic in WEAR)
+    return tuple(SlidingRequest(name) for name in dict.fromkeys(expected) if name in own)
 
 
 def unit_of(measure: Measure, source: KernelSource) -> str | None:
@@ -90,8 +90,8 @@ def unknown_of(measure: Measure, source: KernelSource) -> InputError:
     if measure.statistic in CROSSINGS:
         return unknown_name("event", measure.of, _event_names(source), measure.of.where)
     if measure.statistic in FOLLOWED:
-        told = f"scene {source.scene} has no degree of freedom: no difference can grow"
-        return BadValueError(told, measure.of.where, "expected a scene whose drives do not decide all of the motion")
+        message = f"scene {source.scene} has no degree of freedom: no difference can grow"
+        return BadValueError(message, measure.of.where, "expected a scene whose drives do not decide all of the motion")
     try:
         check_series(source, [str(measure.of)])
     except UnknownNameError as error:
@@ -106,13 +106,17 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
             try:
                 check_series(source, [str(one.of)])
             except UnknownNameError as error:
-                told = f"scene {source.scene}: {error.message}"
-                raise UnknownNameError(told, one.of.where, error.hint) from None
+                message = f"scene {source.scene}: {error.message}"
+                raise UnknownNameError(message, one.of.where, error.hint) from None
 
 
 def _joint_names(source: KernelSource, rubs: bool = False) -> list[str]:
     """Return the names of the joints with play; with `rubs` those whose wear can be measured."""
-    return [joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint) and not joint.at_wall]
+    return [
+        joint.name
+        for joint in source.clearances
+        if not rubs or has_known_contact_force(source, joint) and not joint.at_wall
+    ]
 
 
 def _event_names(source: KernelSource) -> list[str]:
@@ -122,10 +126,10 @@ def _event_names(source: KernelSource) -> list[str]:
 
 def meaning(measure: Measure) -> str:
     """Return a measure in words: "peak of slider.ax in window last"."""
-    told = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
-    told = f"{told} ({KINDS_TOLD})" if measure.statistic == "motion" else told
-    told = f"{told} from scene {measure.origin}" if measure.origin is not None else told
-    return f"{told} in window {measure.window}" if measure.window else told
+    message = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
+    message = f"{message} ({KINDS_TOLD})" if measure.statistic == "motion" else message
+    message = f"{message} from scene {measure.origin}" if measure.origin is not None else message
+    return f"{message} in window {measure.window}" if measure.window else message
 
 
 def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
@@ -167,7 +171,7 @@ def _bearing_wear(batch: Batch, measure: Measure) -> Array:
     """Return the wear of the bearing for a unit wear coefficient, (n,): depth of the deepest cell, or worn arc."""
     out = np.full(len(batch), np.nan)
     for i, found in enumerate(batch.rubbed):
-        for rubbed in (one for one in found if one.asked.joint == measure.of):
+        for rubbed in (one for one in found if one.requested.joint == measure.of):
             out[i] = arc(rubbed.load[0]) if measure.statistic == "wear_arc" else rubbed.depth(0).max()
     return out
 

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gudgeon.assembly.followed import LISTED, NOTED, nearer_text, off_text
-from gudgeon.model.choices import tells_choice
+from gudgeon.assembly.guess_warnings import LISTED, NOTED, guess_difference_text, no_nearer_text
+from gudgeon.model.choices import is_choice_note
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,9 +36,9 @@ def kind_of(message: str) -> str:
     return _NUMBER.sub("…", _WITH.sub("", message.partition("\n")[0]))[:200]
 
 
-def gathered(told: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
+def gathered(message: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
     """Return the notes of runs by kind, without those on choices, which coordinates show."""
-    own = ((run, text) for run, texts in told for text in texts if not tells_choice(text))
+    own = ((run, text) for run, texts in message for text in texts if not is_choice_note(text))
     return merge_notes({kind_of(text): Note(1, run, text)} for run, text in own)
 
 
@@ -64,5 +64,5 @@ def collect_guess_notes(source: KernelSource, run: int) -> Iterator[dict[str, No
         NOTED.reset(token)
     for name in dict.fromkeys(name for off in noted for name in off):
         by = [off[name] for off in noted if name in off]
-        text = f"{name} begins {off_text(name, by[0])} from its guess: {nearer_text(source)}; {LISTED}"
+        text = f"{name} begins {guess_difference_text(name, by[0])} from its guess: {no_nearer_text(source)}; {LISTED}"
         found[kind_of(text)] = Note(len(by), run, text)

@@ -15,7 +15,7 @@ from gudgeon.language.names import unknown_name
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import Dimension, dimension
-from gudgeon.model.choices import place_of_word
+from gudgeon.model.choices import index_of_word
 from gudgeon.model.parameters import TOGETHER, addresses, given_slots, spaced
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import MOST_OUTPUT
@@ -59,7 +59,7 @@ def in_si(text: Text, slot: Slot) -> float | str:
     """Return the value of a text for a parameter, SI, or the name for a choice. Raises an InputError at the text."""
     if slot.words:
         try:
-            place_of_word(str(text), slot)
+            index_of_word(str(text), slot)
         except InputError as error:
             raise type(error)(error.message, text.where, error.hint) from None
         return text.strip()
@@ -98,8 +98,8 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
         return np.array(found, dtype=object if slot.words else float)
     first, last = (real_value(text, slot) for text in numbers.texts)
     if numbers.spacing == GEOMETRIC and not first * last > 0.0:
-        told = f"a geometric row from {first:g} to {last:g}"
-        raise BadValueError(told, numbers.texts[0].where, "expected both ends positive, or both negative")
+        message = f"a geometric row from {first:g} to {last:g}"
+        raise BadValueError(message, numbers.texts[0].where, "expected both ends positive, or both negative")
     if first == last:
         raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
     row = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
@@ -114,7 +114,9 @@ def check_finite(values: Array, text: Text) -> Array:
     return values
 
 
-def check_expression(source: KernelSource, written: Written, wanted: Dimension, more: Mapping[str, Dimension]) -> None:
+def check_expression(
+    source: KernelSource, written: Written, expected: Dimension, more: Mapping[str, Dimension]
+) -> None:
     """Raise an InputError at its location for an expression without the wanted dimension; `more` are further names."""
 
     def dimension_of(path: str) -> Dimension | None:
@@ -131,15 +133,15 @@ def check_expression(source: KernelSource, written: Written, wanted: Dimension, 
             place: Location = at(written.text.where, name.offset)
             raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
     _check_units(written, [*more, *(one.removeprefix("parameters.") for one in addresses(source))])
-    check_dimension(written.expr, wanted, dimension_of, written.text.where)
+    check_dimension(written.expr, expected, dimension_of, written.text.where)
 
 
 def _check_units(written: Written, known: Sequence[str]) -> None:
     """Raise ExpressionError for a unit in a product that is also the name of a number: `2 rad/s` with a parameter s."""
     text, by_name = written.text, parse(written.text, written.text.where, known)
     for name in names_over_units(by_name) if by_name != written.expr else ():
-        told = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
-        raise ExpressionError(told, text.where, f"write {name}^1 for the unit, ({name}) for the number")
+        message = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
+        raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 
 
 def constant_value(written: Written | None, known: Mapping[str, float]) -> float | None:
@@ -173,8 +175,8 @@ def check_constants(study: StudyFile) -> None:
         begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
         if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
             of = window.begin or window.end
-            told = f"window {name} goes from {begin:g} s to {end:g} s"
-            raise BadValueError(told, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
+            message = f"window {name} goes from {begin:g} s to {end:g} s"
+            raise BadValueError(message, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
 
 
 def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:

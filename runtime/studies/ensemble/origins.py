@@ -18,7 +18,7 @@ from gudgeon.integrators.kinematic import along
 from gudgeon.integrators.threads import available_threads
 from gudgeon.language.tree import from_json, names
 from gudgeon.model.parameter_sets import given_each, prepare_sets
-from gudgeon.results.batch import Array, parts_of
+from gudgeon.results.batch import Array, evaluation_parts_of
 from gudgeon.results.results import bare
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.simulation import Simulation
@@ -114,11 +114,11 @@ def origin_series(
     A run whose parameters the other scene cannot use is entered in `failures`.
     """
     found: dict[str, dict[str, Array]] = {}
-    wanted = [one for one in job.wanted.measures if one.statistic not in STEPS]
-    for scene in origins_of(wanted, batch.source.scene):
+    expected = [one for one in job.expected.measures if one.statistic not in STEPS]
+    for scene in origins_of(expected, batch.source.scene):
         simulation = origin_of(job, scene)
         known = catalogue(simulation.source).keys() & catalogue(batch.source).keys()
-        own = dict.fromkeys(str(one.of) for one in wanted if one.origin == scene and one.of in known)
+        own = dict.fromkeys(str(one.of) for one in expected if one.origin == scene and one.of in known)
         if own:
             found[scene] = _series_at_samples(job, simulation, table, runs, batch, list(own), failures)
     return found
@@ -137,15 +137,15 @@ def _series_at_samples(
         job.overrides,
         job.sha256,
         simulation.source.scene,
-        job.wanted.method,
-        job.wanted.rtol,
+        job.expected.method,
+        job.expected.rtol,
         tuple(names),
     )
     keys = [(common, keyed.key(i)) for i in range(len(runs))]
     with _making:  # another block in another thread may be about to need the same ones
         held = {keys[i]: _recent.get(keys[i]) for i in good}
         missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
-        made = _followed(job, simulation, keyed, sorted(missing), names)
+        made = _compute_kinematic(job, simulation, keyed, sorted(missing), names)
         for i, series in (made | _simulate_runs(job, simulation, keyed, sorted({*missing} - {*made}), names)).items():
             if isinstance(series, str):
                 for k in (k for k in good if keys[k] == keys[i]):
@@ -175,14 +175,14 @@ def _as_python_value(value: Any) -> float | str:
     return value if isinstance(value, str) else float(value)
 
 
-def _followed(
-    job: Job, simulation: Simulation, keyed: RunKeys, runs: list[int], wanted: list[str]
+def _compute_kinematic(
+    job: Job, simulation: Simulation, keyed: RunKeys, runs: list[int], expected: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Return the series of kinematically driven runs from their motion alone, without the runs that fail.
 
     A whole run would spend two thirds of its time on works for an energy balance that is not used.
     """
-    source, compiled, parts = simulation.source, simulation.compiled, parts_of(simulation.source, wanted)
+    source, compiled, parts = simulation.source, simulation.compiled, evaluation_parts_of(simulation.source, expected)
     if source.degrees_of_freedom or not runs:
         return {}
 
@@ -194,7 +194,7 @@ def _followed(
             q, v = along(compiled, p, t, start.q, start.v)
             none = np.zeros((len(t), 0))
             run = bare(source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts)
-            found = {name: np.array(run[name]) for name in wanted} if np.isfinite(q).all() and t[0] == 0.0 else {}
+            found = {name: np.array(run[name]) for name in expected} if np.isfinite(q).all() and t[0] == 0.0 else {}
         except GudgeonError:  # a simulation reports the reason
             return None
         return found if found and all(np.isfinite(values).all() for values in found.values()) else None
@@ -218,8 +218,8 @@ def _simulate_runs(
             {name: [_as_python_value(values[i]) for i in runs] for name, values in keyed.columns.items()}
             or [{}] * len(runs),
             output=t[0] if same else t,
-            method=method_in(source, job.wanted.method),
-            rtol=job.wanted.rtol if moves else None,
+            method=method_in(source, job.expected.method),
+            rtol=job.expected.rtol if moves else None,
             step=None if keyed.step is None else keyed.step[runs],
             threads=job.threads,
             stop=False,

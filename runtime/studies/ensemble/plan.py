@@ -16,7 +16,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.block import Job, Wanted
+from gudgeon.studies.ensemble.block import Expected, Job
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import StudyFile, StudySet
@@ -92,7 +92,7 @@ class Plan:
     deviations: Deviations | None
     coordinates: tuple[Coordinate, ...]
     parts: tuple[Part, ...]
-    wanted: Wanted
+    expected: Expected
     units: Mapping[str, str]  # of measures and series
     notes: tuple[str, ...] = ()
 
@@ -157,7 +157,7 @@ class Plan:
             columns,
             relative,
             absolute,
-            self.wanted,
+            self.expected,
             threads,
             later,
         )
@@ -172,7 +172,7 @@ class Plan:
         return relative, absolute
 
     @cached_property
-    def said(self) -> dict[str, Any]:
+    def specified(self) -> dict[str, Any]:
         """Description of all inputs of the results; two studies are the same if it is equal."""
         import gudgeon
 
@@ -180,17 +180,22 @@ class Plan:
             ", ".join([part.simulation.source.scene, *(f"{k}={v}" for k, v in part.overrides)]): part.sha256
             for part in self.parts
         }
-        return {"format": FOLDER_FORMAT, "gudgeon": gudgeon.__version__, "study": self.study.said, "mechanism": parts}
+        return {
+            "format": FOLDER_FORMAT,
+            "gudgeon": gudgeon.__version__,
+            "study": self.study.specified,
+            "mechanism": parts,
+        }
 
     @cached_property
     def identity(self) -> str:
-        """Digest of `said`."""
-        return _sha256_of(self.said)
+        """Digest of `specified`."""
+        return _sha256_of(self.specified)
 
     @cached_property
     def digest(self) -> str:
-        """Digest of `said` and of the sizes of blocks, to identify files of blocks."""
-        return _sha256_of([self.said, [part.block for part in self.parts]])
+        """Digest of `specified` and of the sizes of blocks, to identify files of blocks."""
+        return _sha256_of([self.specified, [part.block for part in self.parts]])
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ from gudgeon.results.series import catalogue, check_series
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.block import Job, Table, Wanted, resolve_wear
+from gudgeon.studies.ensemble.block import Expected, Job, Table, resolve_wear
 from gudgeon.studies.ensemble.exponents import check_followed
 from gudgeon.studies.ensemble.libraries import mechanism_of, method_in, origins, structures
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
@@ -58,7 +58,7 @@ def resolve(study: StudyFile) -> Plan:
     numbers, found = _resolve_numbers(study, sources)
     off, of_starts, starts = _resolve_starts(study.starts, sources)
     coordinates += found + of_starts
-    wanted = _resolve_wanted(study, parts)
+    expected = _resolve_wanted(study, parts)
     fixed = {str(name): in_si(text, known_slot(sources, name)) for name, text in study.fixed.items()}
     coordinates += [
         Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
@@ -72,7 +72,7 @@ def resolve(study: StudyFile) -> Plan:
         off,
         tuple(coordinates),
         parts,
-        wanted,
+        expected,
         _resolve_units(study, sources),
         tuple(_find_notes(study, sources)),
     )
@@ -83,7 +83,7 @@ def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordina
     """Return dimensions and coordinates of scenes and choices."""
     named = [("scene", [str(name) for name in study.scenes], "scene of the mechanism")] if not study.one_scene else []
     named += [(choice.name, list(choice.options), "choice of structure") for choice in study.choices]
-    found = [Coordinate(name, (name,), np.array(words, object), "", told) for name, words, told in named]
+    found = [Coordinate(name, (name,), np.array(words, object), "", message) for name, words, message in named]
     if study.one_scene:
         found.append(Coordinate("scene", (), np.array(str(study.scenes[0]), object), "", "scene of the mechanism"))
     return [Dimension(name, len(words)) for name, words, _ in named], found
@@ -129,8 +129,8 @@ def _resolve_numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple
     if study.draw is not None:
         columns = _draw_values(study.draw, sources)
         dimensions.append(Dimension("draw", study.draw.count, columns))
-        told = f"point of {study.draw.method}, seed {study.draw.seed}"
-        coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", told))
+        message = f"point of {study.draw.method}, seed {study.draw.seed}"
+        coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
         for name in study.draw.numbers:
             slot = known_slot(sources, name)
             coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], slot.unit, slot.address))
@@ -214,7 +214,7 @@ def _deviation_sizes(
     return sizes if found else None
 
 
-def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
+def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Expected:
     """Return the requested outputs of the runs, checked in every scene."""
     ends = {"t_end": TIME}
     rtol = None if study.rtol is None else _parse_tolerance(study.rtol)
@@ -240,7 +240,7 @@ def _resolve_wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
     keep, method = tuple(map(str, study.keep)), str(study.method)
     wear = resolve_wear(study.wear, [part.simulation.source for part in parts]) if study.wear else None
     rounds = study.wear.rounds if study.wear else 0
-    return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
+    return Expected(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
@@ -249,9 +249,9 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
     moves = bool(source.degrees_of_freedom)
     fixed, rtol = moves and study.step is not None, rtol if moves else None
     try:
-        chosen = method_of(source, method, fixed)
+        selected = method_of(source, method, fixed)
         where = study.rtol.where if study.rtol is not None else where
-        adaptive.tolerance(rtol, chosen, fixed)
+        adaptive.tolerance(rtol, selected, fixed)
     except InputError as error:
         raise type(error)(f"scene {source.scene}: {error.message}", where, error.hint) from None
 
@@ -310,7 +310,7 @@ def _size_blocks(plan: Plan, k: int) -> Part:
     counts = Table(plan.parts[k].simulation, job).output
     known = counts[~np.isnan(counts)] + 1.0
     most, mean = (float(known.max()), float(known.mean())) if known.size else (2.0, 2.0)
-    width = 2 + len(series_of(plan.wanted.measures, plan.wanted.keep, plan.parts[k].simulation.source))
+    width = 2 + len(series_of(plan.expected.measures, plan.expected.keep, plan.parts[k].simulation.source))
     block = int(max(1, min(BLOCK, BYTES // (8 * width * max(most, 2.0)))))
     return replace(plan.parts[k], block=block, samples=mean, most=most)
 

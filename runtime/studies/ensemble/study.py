@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import InputError, InputErrors, shortened, together
 from gudgeon.files.reading import MAX_BYTES, read_named
-from gudgeon.language.wanted import flag, function, mapping, path, whole
+from gudgeon.language.argument_checks import flag, function, mapping, path, whole
 from gudgeon.loading.shipped import shipped_study
 from gudgeon.studies.ensemble.claimed import write_claims
 from gudgeon.studies.ensemble.estimate import check_needs
@@ -48,13 +48,13 @@ def plans_of(
     seed: int | None = None,
 ) -> Plans:
     """Return the plans of a study, with mechanisms loaded; arguments as in `study`. Raises InputError."""
-    from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
+    from gudgeon.generator.study.parts import MAX_COUNT, MAX_SEED
     from gudgeon.generator.study.read import read_studies
 
     h5py_module()
     given = {name: str(value) for name, value in mapping(settings, "settings").items()}
-    starts = None if starts is None else whole(starts, "starts", 1, MOST_COUNT)
-    seed = None if seed is None else whole(seed, "seed", 0, MOST_SEED)
+    starts = None if starts is None else whole(starts, "starts", 1, MAX_COUNT)
+    seed = None if seed is None else whole(seed, "seed", 0, MAX_SEED)
     if isinstance(study, Mapping):
         return _resolve_parts(read_studies(study, "", given).begun(starts, seed))
     file = os.fspath(path(study, "study"))
@@ -67,13 +67,13 @@ def plans_of(
 def _resolve_parts(studies: StudySet) -> Plans:
     """Return the resolved plans. Raises the errors of all parts together, without repetitions."""
     from gudgeon.studies.ensemble.claims import known_claims
-    from gudgeon.studies.ensemble.libraries import made_beside, structures_of
+    from gudgeon.studies.ensemble.libraries import compile_in_second_process, structures_of
     from gudgeon.studies.ensemble.plan import Plans
     from gudgeon.studies.ensemble.resolve import resolve
 
     plans: dict[str, Plan] = {}
     errors: list[InputError] = []
-    with made_beside(structures_of(studies.parts.values())):
+    with compile_in_second_process(structures_of(studies.parts.values())):
         for name, part in studies.parts.items():
             try:
                 plans[name] = resolve(part)
@@ -163,7 +163,7 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
             load_study(place / name)
         return StudyOfParts(place, parts)
     if not (place / DATASET).is_file():
-        told = f"the study in {shortened(place)} is not finished"
-        raise InputError(told, hint="gudgeon study FILE --out FOLDER goes on with it")
+        message = f"the study in {shortened(place)} is not finished"
+        raise InputError(message, hint="gudgeon study FILE --out FOLDER goes on with it")
     check_dataset(place, found.get("plan"))
     return Study(place)

@@ -13,7 +13,7 @@ from threading import Thread
 from typing import Any
 
 from gudgeon.errors import GudgeonError, InputError, in_a_line
-from gudgeon.language.wanted import instance
+from gudgeon.language.argument_checks import instance
 
 AHEAD = 2  # blocks for each worker that wait or run
 UNKNOWN = 4  # assumed workers of an executor whose number is not known
@@ -134,8 +134,8 @@ def _connect(address: str) -> Iterator[Any]:
             address, timeout=PATIENCE, set_as_default=False
         )  # otherwise other code would use a failed client
     except (OSError, ValueError, TypeError) as error:
-        told = f"--dask: no scheduler answers at {in_a_line(address)[:100]}: {in_a_line(str(error))[:200]}"
-        raise InputError(told, hint="expected an address as `dask scheduler` prints it, tcp://HOST:8786") from error
+        message = f"--dask: no scheduler answers at {in_a_line(address)[:100]}: {in_a_line(str(error))[:200]}"
+        raise InputError(message, hint="expected an address as `dask scheduler` prints it, tcp://HOST:8786") from error
     try:
         yield client
     finally:

@@ -177,10 +177,10 @@ def _describe_step(scene: SceneBench, step: float) -> str:
         (f"joint forces off by {share(row.error.force)} of their peak", row.error.force),
         (f"journals' paths by {share(row.error.path)} of c", row.error.path),
     )
-    said = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
+    specified = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
     if math.isfinite(scene.contact):
-        said += f"; the shortest contact takes {scene.contact / step:.1f} steps"
-    return said
+        specified += f"; the shortest contact takes {scene.contact / step:.1f} steps"
+    return specified
 
 
 def _rhs_table(found: Sequence[SceneBench]) -> Table:

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 
 from gudgeon.contract.methods import KINEMATIC, METHODS
 from gudgeon.integrators.peers.driver import NAMES
-from gudgeon.language.shown import in_figure
+from gudgeon.language.shown import figure_title
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import Setting
@@ -49,8 +49,8 @@ def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | Non
         ]
         doubt = "within the references' own uncertainty"
         handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=doubt))
-        told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
-        head = in_figure(f"{title}: run time against error{told}", 110)
+        message = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        head = figure_title(f"{title}: run time against error{message}", 110)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
     return picture

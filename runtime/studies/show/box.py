@@ -73,12 +73,12 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
 def count(cells: Sequence[Cell]) -> str:
     """Return the counts by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
     counts = Counter(cell.status for cell in cells)
-    told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
+    message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
     slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
-    return f"{len(cells)} points: {told}; slowest {seconds(slowest)}"
+    return f"{len(cells)} points: {message}; slowest {seconds(slowest)}"
 
 
-def grouped(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
+def group_cells(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
     """Return groups of cells with equal verdict and reason (without its numbers), the worst verdict and largest group
     first.
     """
@@ -101,7 +101,7 @@ def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
     if not any(cell.failed for cell in cells):
         known = [cell for cell in cells if math.isfinite(cell.error.largest)]
         return sorted(known, key=lambda cell: -cell.error.largest)[: WORST // 2]
-    groups = [own for status, _, own in grouped([cell for cell in cells if cell.failed])]
+    groups = [own for status, _, own in group_cells([cell for cell in cells if cell.failed])]
     rounds = [group[k] for k in range(WORST) for group in groups if k < len(group)]
     return rounds[:WORST]
 
@@ -111,7 +111,7 @@ def _verdict_table(cells: Sequence[Cell]) -> Table:
     from rich.text import Text
 
     table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
-    for status, reason, own in grouped(cells):
+    for status, reason, own in group_cells(cells):
         errors = [cell.error.largest for cell in own if math.isfinite(cell.error.largest)]
         sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])
         table.add_row(sign, str(len(own)), share(max(errors, default=math.nan)), reason)

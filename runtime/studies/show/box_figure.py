@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from gudgeon.language.plot_units import label, pretty, quantity
-from gudgeon.language.shown import in_figure
+from gudgeon.language.shown import figure_title
 from gudgeon.model.compiled import Array
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
@@ -49,14 +49,14 @@ def box_figure(title: str, found: Sequence[VerdictBox]) -> Figure:
         used = [s for s in reversed(SEVERITY) if any(cell.status is s for box in found for cell in box.cells)]
         handles = [Line2D([], [], color=LOOK[s][0], marker=LOOK[s][1], ls="", ms=6, label=s.value) for s in used]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
-        told = " (partial: interrupted)" if any(box.interrupted for box in found) else ""
-        head = in_figure(f"{title}: where does it fail?{told}", 125 if wide else 75)
+        message = " (partial: interrupted)" if any(box.interrupted for box in found) else ""
+        head = figure_title(f"{title}: where does it fail?{message}", 125 if wide else 75)
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
     return picture
 
 
-def telling(box: VerdictBox) -> list[int]:
+def rank_ranges(box: VerdictBox) -> list[int]:
     """Return the indices of the ranges, sorted by the correlation of their logarithms with the verdict.
 
     If all verdicts agree, the largest error is used instead.
@@ -102,7 +102,7 @@ def _marker_style(box: VerdictBox, k: int) -> dict[str, Any]:
 
 def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
     """Draw the points over the two most decisive ranges."""
-    order = telling(box)
+    order = rank_ranges(box)
     across = box.ranges[order[0]]
     up = box.ranges[order[1]] if len(order) > 1 else None
     for z, k in enumerate(_paint_order(box)):

@@ -48,9 +48,12 @@ def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pict
         theirs = [rows for rows in under if _is_published(rows[0])]
         drawn = gallery(_claim_figures(theirs, names_of), f"claims{k or ''}", pictures)
         alone = _unpublished_table([rows for rows in under if not _is_published(rows[0])], names_of)
-        said = _trend_table([rows for rows, name in zip(trends, judged, strict=True) if name == heading], names_of)
+        specified = _trend_table([rows for rows, name in zip(trends, judged, strict=True) if name == heading], names_of)
         shown.append(
-            (heading, source * (heading in (NUMBERS, TRENDS)) + _number_table(theirs, names_of) + drawn + alone + said)
+            (
+                heading,
+                source * (heading in (NUMBERS, TRENDS)) + _number_table(theirs, names_of) + drawn + alone + specified,
+            )
         )
     return shown
 
@@ -139,8 +142,16 @@ def _number_cells(rows: list[Row], names: list[str], names_of: _ClaimNames, fact
     ]
     off = sorted(row["deviation"] for row in rows if not _is_missing(row["deviation"]))
     ends = list(dict.fromkeys(f"{value:+.1f}".replace("-", "−") for value in (*off[:1], *off[-1:])))
-    told = f"{' … '.join(ends)} %" if off else ""
-    return [str(first["claim"]), str(first["figure"]), names_of.what(first), printed, *cells, told, str(first["note"])]
+    message = f"{' … '.join(ends)} %" if off else ""
+    return [
+        str(first["claim"]),
+        str(first["figure"]),
+        names_of.what(first),
+        printed,
+        *cells,
+        message,
+        str(first["note"]),
+    ]
 
 
 def _unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
@@ -214,10 +225,10 @@ def _trend_cells(rows: list[Row], names_of: _ClaimNames) -> list[str]:
 
 def _probability_cell(row: Row) -> str:
     """Return a probability with its interval, if there is one."""
-    told = _format_probability(row["probability"])
+    message = _format_probability(row["probability"])
     if _is_missing(row["low"]) or row["low"] == row["high"]:
-        return told
-    return f"{told} ({_format_probability(row['low'])} … {_format_probability(row['high'])})"
+        return message
+    return f"{message} ({_format_probability(row['low'])} … {_format_probability(row['high'])})"
 
 
 def _format_probability(value: Any) -> str:
@@ -298,8 +309,8 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
 def _tick_label(row: Row, names_of: _ClaimNames, scenes: bool) -> str:
     """Return the label of a claim at the axis: name, scene if there are several, and coordinates, on several lines."""
     at = names_of.at(row).split(", ")
-    told = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
-    return "\n".join(filter(None, (str(row["claim"]), names_of.scene(row) if scenes else "", *told)))
+    message = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
+    return "\n".join(filter(None, (str(row["claim"]), names_of.scene(row) if scenes else "", *message)))
 
 
 def _largest_magnitude(rows: list[Row]) -> float:

@@ -146,8 +146,8 @@ def print_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cell
     """Print the reasons of failed cells and the command that repeats each, on one line so that it can be copied."""
     laws = files_of_laws()
     for cell in cells:
-        said = cell.reason or f"largest error {share(cell.error.largest)}"
-        out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
+        specified = cell.reason or f"largest error {share(cell.error.largest)}"
+        out.print(f"  {SIGNS[cell.status]} {specified}", markup=False, emoji=False)
         again = command(file, found.scene, cell, found.t_long, found.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
@@ -170,8 +170,8 @@ def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False,
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
     words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
     words += ["--formulation", "full"] if full else []
-    for name, told in cell.parameters.items():
-        words += ["--set", f"{name}={told}"]
+    for name, message in cell.parameters.items():
+        words += ["--set", f"{name}={message}"]
     for law in laws:
         words += ["--laws", law]
     return shlex.join([*words, "--t-end", repr(t_end)])
@@ -193,10 +193,12 @@ def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
             continue
         cells = [scene.cell(step, x) for x in scene.columns.values]
         counts = Counter(cell.status for cell in cells)
-        told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
+        message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
         best = [x for x in map(scene.largest_stable, scene.columns.values) if x == x]
         shortest = seconds(min(best)) if len(best) == len(cells) else "below the grid"
-        lines.append(f"step {seconds(step)}, {scene.scene}: of {len(cells)} columns {told}; a step for all: {shortest}")
+        lines.append(
+            f"step {seconds(step)}, {scene.scene}: of {len(cells)} columns {message}; a step for all: {shortest}"
+        )
     return lines
 
 
@@ -236,8 +238,8 @@ def value(axis: Axis, x: float) -> str:
 def explain_labels(found: Sequence[VerdictMap]) -> str:
     """Return the meaning of the labels that occur in cells, two a line."""
     used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
-    told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
-    parts = ["a number: largest error against a finer run, over the time compared", *told]
+    message = dict.fromkeys(text for word, text in LABELS.items() if word in used)
+    parts = ["a number: largest error against a finer run, over the time compared", *message]
     return "\n".join(" · ".join(parts[k : k + 2]) for k in range(0, len(parts), 2))
 
 

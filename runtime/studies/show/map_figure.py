@@ -10,7 +10,7 @@ import matplotlib
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from gudgeon.language.shown import in_figure
+from gudgeon.language.shown import figure_title
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
 from gudgeon.studies.show.map import compared, explain_labels, value
@@ -47,11 +47,13 @@ def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None 
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
         question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
         part = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
-        head = in_figure(f"{title}: {question}{part}", int(10 * width))
+        head = figure_title(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in found)
-        told = "\n".join([explain_labels(found), *over])
-        picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=told, title_fontsize=8)
+        message = "\n".join([explain_labels(found), *over])
+        picture.legend(
+            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=message, title_fontsize=8
+        )
     return picture
 
 

@@ -37,16 +37,16 @@ class Pictures:
 
     def __init__(self) -> None:
         """Create an empty list of figures."""
-        self.wanted: list[tuple[str, Callable[[], Axes]]] = []
+        self.expected: list[tuple[str, Callable[[], Axes]]] = []
 
     def place(self, name: str, draw: Callable[[], Axes]) -> str:
         """Return the placeholder of a figure, a comment that no text of a file can contain. `name` must be unique."""
-        self.wanted.append((name, draw))
-        return f"<!--picture {len(self.wanted) - 1}-->"
+        self.expected.append((name, draw))
+        return f"<!--picture {len(self.expected) - 1}-->"
 
     def filled(self, page: str) -> str:
         """Return the page with its figures."""
-        drawn = _draw_in_processes(self.wanted)
+        drawn = _draw_in_processes(self.expected)
         return _PLACE.sub(lambda place: drawn[int(place[1])], page)
 
 
@@ -83,11 +83,11 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
 class _DrawingProcess:
     """A process that draws some of the figures; if it dies, they are drawn here."""
 
-    def __init__(self, wanted: list[tuple[str, Callable[[], Any]]]) -> None:
+    def __init__(self, expected: list[tuple[str, Callable[[], Any]]]) -> None:
         """Start the process."""
-        self.wanted, context = wanted, get_context("fork")
+        self.expected, context = expected, get_context("fork")
         self.end, begin = context.Pipe(duplex=False)
-        self.process = context.Process(target=_draw_all, args=(begin, wanted), daemon=True)
+        self.process = context.Process(target=_draw_all, args=(begin, expected), daemon=True)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of threads of BLAS, which expect it
             self.process.start()
@@ -98,7 +98,7 @@ class _DrawingProcess:
         try:
             found: list[str] = self.end.recv()
         except (EOFError, OSError):
-            return [_draw_figure(*one) for one in self.wanted]
+            return [_draw_figure(*one) for one in self.expected]
         return found
 
 

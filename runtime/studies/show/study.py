@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.files.room import in_bytes
+from gudgeon.files.free_space import size_text
 from gudgeon.language.shown import counted, path_text, print_json, visible
 from gudgeon.studies.ensemble.claimed import FILE, claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
@@ -42,7 +42,7 @@ def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> N
         _show_estimate(plan, found[name])
     if plans.named:
         size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
-        print(f"all parts: {counted(plans.runs, 'run')}, about {in_bytes(size)} on disk, {_time_text(spent)}")
+        print(f"all parts: {counted(plans.runs, 'run')}, about {size_text(size)} on disk, {_time_text(spent)}")
 
 
 def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
@@ -63,7 +63,7 @@ def _show_estimate(plan: Plan, found: Estimate) -> None:
     """Print an estimate."""
     print(f"{runs_text(plan, found.runs)} in {counted(found.blocks, 'block')}")
     print(
-        f"about {in_bytes(found.bytes)} on disk, {_time_text(found.seconds)} by {counted(found.tried, 'run')} on trial"
+        f"about {size_text(found.bytes)} on disk, {_time_text(found.seconds)} by {counted(found.tried, 'run')} on trial"
     )
     if found.failed:
         print(f"{found.failed} of {counted(found.tried, 'run')} on trial failed: {visible(found.reasons[0])}")
@@ -97,7 +97,7 @@ def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
         "runs": found.runs,
         "failed": found.failed,
         "failures": found.failures,
-        "first_failures": {kind: told for kind, _, told in StudyData(found).failures()},
+        "first_failures": {kind: message for kind, _, message in StudyData(found).failures()},
         "measures": measures,
         "notes": list(found.notes),
     }
@@ -115,8 +115,8 @@ def _show_study(plan: Plan, found: Study) -> None:
         console().print(table)
     if found.failed:
         print(f"{found.failed} of {counted(found.runs, 'run')} failed:")
-        for kind, count, told in itertools.islice(StudyData(found).failures(), MOST_KINDS):
-            print(f"  {count} × {visible(kind)}" + f"\n    the first: {visible(told)}" * bool(told))
+        for kind, count, message in itertools.islice(StudyData(found).failures(), MOST_KINDS):
+            print(f"  {count} × {visible(kind)}" + f"\n    the first: {visible(message)}" * bool(message))
         if (more := len(found.failures) - MOST_KINDS) > 0:
             print(f"  and {more} other reasons")
     for note in found.notes:
@@ -129,20 +129,20 @@ def _show_claims(found: Study) -> None:
     claims = found.claims
     trends = claims.trends
     if len(trends):
-        told = {
+        message = {
             name: own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
             for name, own in trends.groupby("claim", sort=False)
         }
-        if len(told) <= MOST_TRENDS:
+        if len(message) <= MOST_TRENDS:
             says = trends.drop_duplicates("claim").set_index("claim")["says"]
-            print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in told.items()))
+            print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in message.items()))
     print("\n".join(map(visible, claims.totals())))
     print(f"wrote {path_text(Path(found.folder) / FILE)}")
 
 
 def _measure_spreads(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
     """Yield name, unit, and minimum, median, maximum and number of NaN of each measure."""
-    for name in (one.name for one in plan.wanted.measures):
+    for name in (one.name for one in plan.expected.measures):
         values = found.dataset[name].values
         own = values[np.isfinite(values)]
         row = {key: float(np.quantile(own, q)) if own.size else float("nan") for key, q in QUANTILES.items()}

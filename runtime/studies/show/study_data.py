@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.language.argument_checks import flag, mapping, message, number_of, text
 from gudgeon.language.names import unknown
 from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import flag, mapping, number_of, text, told
 from gudgeon.studies.show.study_signals import alike, crossings
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ class StudyData:
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
             if not isinstance(value, str) or value not in words:
-                raise unknown(f"{name} has no {told(value)}", str(value), tuple(words))
+                raise unknown(f"{name} has no {message(value)}", str(value), tuple(words))
             return words.index(value)
         return int(np.abs(values - number_of(value, name)).argmin())
 
@@ -254,8 +254,8 @@ class StudyData:
             place = dict(zip(words, np.unravel_index(run, found.shape), strict=True)) if words else {}
             own = ((name, words[name][k]) for name, k in place.items())
             at = ", ".join(word if " = " in word else f"{self.shown(name)} {word}" for name, word in own)
-            told = str(found.isel(place).values).partition("\n")[0]
-            yield kind, count, f"{at}: {told}" if at else told
+            message = str(found.isel(place).values).partition("\n")[0]
+            yield kind, count, f"{at}: {message}" if at else message
 
     def sections(
         self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
@@ -295,7 +295,7 @@ def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
     own = [
         [f"{name} = {column[k]}" for column, name in columns.items() if column[k] != usual[column][0]] for k in places
     ]
-    return [", ".join(told) or "unchanged" for told in own]
+    return [", ".join(message) or "unchanged" for message in own]
 
 
 def _unknown_dimension(name: str, known: list[str]) -> UnknownNameError:

@@ -84,7 +84,7 @@ def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterat
     """Yield heading and HTML of each section of a part; `name` is the prefix of its figures."""
     study = data.study
     yield "What varied", table(("", "over", "values", "unit", ""), _coordinate_rows(data), True)
-    failed = ((str(count), kind, told) for kind, count, told in data.failures())
+    failed = ((str(count), kind, message) for kind, count, message in data.failures())
     yield "Failed runs", table(("runs", "failed of", "the first of them"), failed, True)
     yield "Notes", lines(study.notes)
     yield "Measures", _measure_table(data)
@@ -93,7 +93,7 @@ def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterat
     except GudgeonError as error:
         yield "Figures", lines([str(error)])
         return
-    yield "Figures", gallery(_figures(data), f"{name}-measure", pictures)
+    yield "Figures", gallery(_measure_figures(data), f"{name}-measure", pictures)
     yield "Series", gallery(_series_figures(data), f"{name}-series", pictures)
 
 
@@ -121,20 +121,20 @@ def _coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
         if name in ("time", "sample"):
             continue
         over = ", ".join(map(data.shown, one.dims)) if one.dims != (name,) else ""
-        unit, told = str(one.attrs.get("units", "")), str(one.attrs.get("long_name", ""))
+        unit, message = str(one.attrs.get("units", "")), str(one.attrs.get("long_name", ""))
         values = np.ravel(one.values)
         if values.dtype.kind in "OU":
-            yield data.shown(name), over, _list_values([data.shown(value) for value in values]), "", told
+            yield data.shown(name), over, _list_values([data.shown(value) for value in values]), "", message
             continue
         if written := data.written(str(name)):
-            yield data.shown(name), over, _list_values(list(written)), "", told
+            yield data.shown(name), over, _list_values(list(written)), "", message
             continue
         factor, shown = drawn(float(np.abs(values).max(initial=0.0)), unit)
         few = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         ends = values if few or not values.size else np.array([values.min(), values.max()])
         words = [f"{float(value) * factor + 0.0:.6g}" for value in ends]
         listed = ", ".join(words) if few else f"{' … '.join(words)}, {len(values)} of them"
-        yield data.shown(name), over, listed, shown, told
+        yield data.shown(name), over, listed, shown, message
 
 
 def _list_values(words: list[str]) -> str:
@@ -163,9 +163,9 @@ def _measure_table(data: StudyData) -> str:
     head = [data.labels(data.dataset[names[0]], one)[1] for one in dims]
     head += [label(data.shown(name), unit) for name, unit in zip(names, units, strict=True)]
     over = [data.shown(one) for one in data.dataset[names[0]].dims if one in MANY]
-    told = [f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"] * spread
-    told += [f"{left} more rows are in the dataset"] * bool(left)
-    return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(told, "g-quiet")
+    message = [f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"] * spread
+    message += [f"{left} more rows are in the dataset"] * bool(left)
+    return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(message, "g-quiet")
 
 
 def _spread_cell(values: Any, spread: bool) -> str:
@@ -180,7 +180,7 @@ def _spread_cell(values: Any, spread: bool) -> str:
     return f"{middle:.4g} ({q1:.4g} … {q3:.4g}){less}"
 
 
-def _figures(data: StudyData) -> Iterator[Draw]:
+def _measure_figures(data: StudyData) -> Iterator[Draw]:
     """Yield caption and drawing function of each measure over the first dimension, and maps over the first two."""
     from gudgeon.studies.show.study_plots import StudyPlot
 
@@ -197,8 +197,8 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             at = {"scene": scene} if scene else {}
             if not np.nan_to_num(data.measure(name, at).values).any():  # nothing, or what is 0 everywhere
                 continue
-            told = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
-            yield told, partial(plot.heat_map, name, *varied[:2], at=at)
+            message = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
+            yield message, partial(plot.heat_map, name, *varied[:2], at=at)
 
 
 def _describe_pooled_runs(data: StudyData, found: Any) -> str:
@@ -223,5 +223,7 @@ def _series_figures(data: StudyData) -> Iterator[Draw]:
         shares = t.ndim > 1
         if shares and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
-        told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}{', over shares' * shares}"
-        yield told, partial(plot.bands, name, by, share=shares)
+        message = (
+            f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}{', over shares' * shares}"
+        )
+        yield message, partial(plot.bands, name, by, share=shares)

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError
+from gudgeon.language.argument_checks import flag, number_of, positive, refuse
 from gudgeon.language.plot_units import drawn, label
-from gudgeon.language.shown import in_figure, one_line
-from gudgeon.language.wanted import flag, number_of, positive, refuse
+from gudgeon.language.shown import figure_title, one_line
 from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.figures.run_plots import check_axes, new_axes
 from gudgeon.studies.show.study_data import Coords, StudyData
@@ -78,13 +78,13 @@ class StudyPlot:
             most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = drawn(max(most), found.attrs.get("units", ""))
             parts, course = self.data.split(found, by), self.data.is_course(axis)
-            for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
+            for k, ((message, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 five = quantiles(self.data.rows(own, over)) * factor
                 if course:
-                    draw_band(ax, x, five, colour, told)
+                    draw_band(ax, x, five, colour, message)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
+                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, message)
             draw_published(ax, claimed, factor, cycle(len(parts)))
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             set_ticks(ax, x, ticks)
@@ -111,14 +111,14 @@ class StudyPlot:
                 raise BadValueError(f"{series}: no run has a length of which there are shares")
             t, found = shares
         if t.ndim > 1:
-            told = f"{series}: the runs have samples at different times, of which there are no bands"
-            raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
+            message = f"{series}: the runs have samples at different times, of which there are no bands"
+            raise BadValueError(message, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
-            for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                draw_band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
+            for (message, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
+                draw_band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, message, 0.0)
             ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
@@ -148,11 +148,11 @@ class StudyPlot:
         with matplotlib.rc_context(STYLE):
             ax = new_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = drawn(max(peak_of(rows) for _, rows in own), found.attrs.get("units", ""))
-            told = [word for word, _ in self.data.split(found, by)]
-            for word, (f, rows), colour in zip(told, own, cycle(len(told)), strict=True):
+            message = [word for word, _ in self.data.split(found, by)]
+            for word, (f, rows), colour in zip(message, own, cycle(len(message)), strict=True):
                 draw_band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
-            self._finish(ax, at, len(told) > 1)
+            self._finish(ax, at, len(message) > 1)
         return ax
 
     def low_pass(
@@ -175,8 +175,8 @@ class StudyPlot:
         cutoff = positive(cutoff, "cutoff")
         left = low_pass_runs(t, found, cutoff, order, flag(causal, "causal"))
         ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
-        told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
-        ax.set_title(in_figure(f"{ax.get_title()}: {told}", TITLE))
+        message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
+        ax.set_title(figure_title(f"{ax.get_title()}: {message}", TITLE))
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
@@ -202,10 +202,10 @@ class StudyPlot:
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             x = np.broadcast_to(x, found.shape)
             parts = self.data.split(found, by)
-            for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
+            for k, ((message, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
-                called = legend_label(own.values, told)
+                called = legend_label(own.values, message)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
@@ -283,7 +283,7 @@ class StudyPlot:
             (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
             below, beside = thin_out(len(words), COLUMNS), thin_out(len(others), ROWS)
             set_ticks(ax, below, [words[k] for k in below])
-            ax.set_yticks(beside, [in_figure(others[k], LINE) for k in beside])
+            ax.set_yticks(beside, [figure_title(others[k], LINE) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
@@ -295,7 +295,7 @@ class StudyPlot:
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
         """Set title and legend."""
         picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
-        ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
+        ax.set_title(figure_title(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
@@ -349,7 +349,7 @@ def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
     """Set texts at an axis, wrapped, and slanted if they would not fit."""
     if ticks is None:
         return
-    lines = [in_figure(word, LINE) for word in ticks]
+    lines = [figure_title(word, LINE) for word in ticks]
     ax.set_xticks(x, lines)
     if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > AXIS:
         ax.tick_params(axis="x", rotation=30.0, labelsize=7)
@@ -361,8 +361,8 @@ def draw_published(ax: Axes, claimed: list[tuple[float, float, int]], factor: fl
     """Draw published values: position, value and index of the line of each; −1: no line."""
     for k, (place, value, line) in enumerate(claimed):
         own = IDEAL if line < 0 else colours[line]
-        told = "published" if k == 0 else None
-        ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=told)
+        message = "published" if k == 0 else None
+        ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=message)
 
 
 def write_numbers(ax: Axes, values: Any, image: Any) -> None:

@@ -35,12 +35,12 @@ def over_shares(t: Any, found: Any) -> tuple[Any, Any] | None:
     if not len(at):
         return None
     left = np.full((len(own), len(at)), np.nan)
-    for out, x, row, told in zip(left, found.values.reshape(times.shape), times, own, strict=True):
+    for out, x, row, message in zip(left, found.values.reshape(times.shape), times, own, strict=True):
         y = x[np.isfinite(row)]
-        if len(told) == len(at) and np.allclose(told, at, rtol=0.0, atol=SAME):
+        if len(message) == len(at) and np.allclose(message, at, rtol=0.0, atol=SAME):
             out[:] = y
-        elif len(told) and (good := np.isfinite(y)).any():
-            out[:] = np.interp(at, told[good], y[good], left=np.nan, right=np.nan)
+        elif len(message) and (good := np.isfinite(y)).any():
+            out[:] = np.interp(at, message[good], y[good], left=np.nan, right=np.nan)
     return at, found.isel({found.dims[-1]: slice(len(at))}).copy(data=left.reshape(*found.shape[:-1], len(at)))
 
 
@@ -69,8 +69,8 @@ def _spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[
         return np.zeros(1), np.full((1, 1), np.nan)
     first = rows[0][0]
     if any(len(t) != len(first) for t, _ in rows) or not alike(np.array([t for t, _ in rows])):
-        told = f"{one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
-        raise BadValueError(told, hint="pick runs with the same times (at=…), or name by= what their times follow")
+        message = f"{one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
+        raise BadValueError(message, hint="pick runs with the same times (at=…), or name by= what their times follow")
     each = [spectrum(first, x, window) for _, x in rows]
     return each[0][0], np.array([amplitudes for _, amplitudes in each])
 

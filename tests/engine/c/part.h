@@ -40,7 +40,7 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
     return 0;
 }
 
-int play_here(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
+int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
     return motion(t, y, discrete, p, dy, rhs);
@@ -48,4 +48,4 @@ int play_here(double t, const double *y, DiscreteState *discrete, const Paramete
 
 double radial_clearance(const Parameters *p, int i) { return (void)i, p->radius; }
 double deepest(const Parameters *p, int i) { return (void)i, p->radius; }
-double slowest_impact(const Parameters *p, int i) { return (void)p, (void)i, 1e-3; }
+double min_approach_speed(const Parameters *p, int i) { return (void)p, (void)i, 1e-3; }

@@ -9,7 +9,7 @@ static void changes(double t, double deltadot)
 {
     run.t = t;
     run.rhs.clearance[0].deltadot = deltadot;
-    cross_contact(&run, 0, slowest_impact(&p, 0));
+    cross_contact(&run, 0, min_approach_speed(&p, 0));
 }
 
 static void begins_and_ends(void)
@@ -17,16 +17,16 @@ static void begins_and_ends(void)
     const Contacts *contacts = &run.contacts;
     changes(2.0, 1.0);
     CHECK(run.discrete.contact[0].closed && contacts->open[0].t_on == 2.0 && contacts->open[0].deltadot == 1.0);
-    CHECK(contacts->onsets == 1 && contacts->compressing[0]);
-    note_turn(&run, 0, -1.0);
-    CHECK(!contacts->compressing[0]);
+    CHECK(contacts->onsets == 1 && contacts->is_compressing[0]);
+    update_compression(&run, 0, -1.0);
+    CHECK(!contacts->is_compressing[0]);
     changes(7.5, -2.0);
     CHECK(!run.discrete.contact[0].closed && contacts->n_impacts == 1);
     CHECK(contacts->impacts[0].t_on == 2.0 && contacts->impacts[0].t_off == 7.5);
 
     /* the rate of an onset is at least the floor of the law */
     changes(8.0, 1e-9);
-    CHECK(contacts->open[0].deltadot == slowest_impact(&p, 0));
+    CHECK(contacts->open[0].deltadot == min_approach_speed(&p, 0));
 
     /* a run that begins deep in its wall is in contact, and one that begins beside it is free */
     run.discrete.contact[0].closed = 0;
@@ -41,7 +41,7 @@ static void begins_and_ends(void)
 static void peaks(void)
 {
     double height;
-    CHECK(cubic_top(0.0, 1.0, 0.0, -1.0, &height) == 0.5 && CLOSE(height, 0.25, 1e-16)); /* s (1 - s) */
+    CHECK(cubic_maximum(0.0, 1.0, 0.0, -1.0, &height) == 0.5 && CLOSE(height, 0.25, 1e-16)); /* s (1 - s) */
     raise_force(&run, 0, 1.0, 5.0);
     raise_force(&run, 0, 2.0, 4.0);
     CHECK(run.contacts.F_peak[0] == 5.0 && run.contacts.t_peak[0] == 1.0);
@@ -51,9 +51,9 @@ static void peaks(void)
     /* deltadot/deltadot_minus of a contact that lasts, outside of [-1, 1] once */
     run.discrete.contact[0].deltadot_minus = 2.0;
     run.rhs.clearance[0] = (Clearance){.F_n = 3.0, .F_t = 4.0, .e = 0.5, .deltadot = 1.0};
-    watch_joint(&run, 0);
+    update_joint_peaks(&run, 0);
     run.rhs.clearance[0].deltadot = -3.0;
-    watch_joint(&run, 0);
+    update_joint_peaks(&run, 0);
     CHECK(run.contacts.ratio_max == 0.5 && run.contacts.ratio_min == -1.5 && run.contacts.ratio_outside == 1.0);
     CHECK(run.contacts.open[0].F_peak == 5.0 && run.contacts.e_max[0] == 0.5);
 }
@@ -78,7 +78,7 @@ static void lists(void)
     CHECK(run.contacts.n_impacts == 1 && run.contacts.impacts[0].F_peak == 4.0);
     while (run.contacts.n_impacts < LISTED_IMPACTS)
         CHECK(!list_contact(&run, &bounce));
-    CHECK(lists_full(&run) && list_contact(&run, &bounce) == CHATTERING && run.contacts.n_impacts == LISTED_IMPACTS);
+    CHECK(has_full_lists(&run) && list_contact(&run, &bounce) == CHATTERING && run.contacts.n_impacts == LISTED_IMPACTS);
 }
 
 int main(void)

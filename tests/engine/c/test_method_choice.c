@@ -8,7 +8,7 @@ static int steps_to_change(double stability, int most)
 {
     const Method *method = run.choice.method;
     for (int k = 1; k <= most; k++) {
-        note_stability(&run, stability);
+        record_stability(&run, stability);
         choose_method(&run, NULL);
         if (run.choice.method != method)
             return k;
@@ -19,7 +19,7 @@ static int steps_to_change(double stability, int most)
 int main(void)
 {
     const int explicit = gudgeon_method("dop853"), stiff = gudgeon_method("rodas5p");
-    const double beyond = 2.0 * METHODS[explicit]->bounded, below = 0.5 * SLACK;
+    const double beyond = 2.0 * METHODS[explicit]->bounded, below = 0.5 * MAX_EXPLICIT_STABILITY;
 
     start_choice(&run, explicit, 0);
     CHECK(steps_to_change(beyond, 1000) == 0); /* it may not change */
@@ -31,7 +31,7 @@ int main(void)
 
     /* a step of the other kind in between begins the count anew */
     CHECK(steps_to_change(below, PATIENCE - 1) == 0);
-    CHECK(steps_to_change(2.0 * SLACK, 1) == 0);
+    CHECK(steps_to_change(2.0 * MAX_EXPLICIT_STABILITY, 1) == 0);
     CHECK(steps_to_change(below, 1000) == PATIENCE);
 
     /* a return that did not last makes the next one twice as hard, up to a limit */
@@ -43,13 +43,13 @@ int main(void)
     CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == MAX_PATIENCE);
 
     /* one that lasted makes it as easy as the first */
-    CHECK(steps_to_change(below, WORTHWHILE) == 0);
+    CHECK(steps_to_change(below, LASTING_STEPS) == 0);
     CHECK(steps_to_change(beyond, 1000) == MAX_AGAINST);
     CHECK(steps_to_change(below, 1000) == PATIENCE);
 
     /* explicit steps that are too short beside the stiff ones from before lead back as well */
     run.control.h_stiff = 1.0;
-    run.control.h = 0.5 * WORTH;
+    run.control.h = 0.5 * STIFF_LENGTH_RATIO;
     CHECK(steps_to_change(below, 1000) == COMPARE_FROM + 1 + MAX_AGAINST);
     return failures;
 }

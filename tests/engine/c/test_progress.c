@@ -16,7 +16,7 @@ static long steps_to_stall(double h, double t_end, long most)
     run = (Integrator){.t = 0.0};
     for (long k = 1; k <= most; k++) {
         run.t = (double)k * h;
-        if (stalls(&run, t_end))
+        if (is_stalled(&run, t_end))
             return k;
     }
     return 0;
@@ -41,10 +41,10 @@ int main(void)
 
     /* steps that lead nowhere */
     int crawls = 0;
-    while (!note_short_step(&run, ++crawls))
+    while (!is_stuck_in_short_steps(&run, ++crawls))
         ;
     CHECK(crawls == MAX_SHORT_STEPS + 1);
-    CHECK(!note_short_step(&run, 0) && !note_short_step(&run, 1));
+    CHECK(!is_stuck_in_short_steps(&run, 0) && !is_stuck_in_short_steps(&run, 1));
 
     /* counters */
     count_step(&run, 1);
@@ -53,16 +53,16 @@ int main(void)
 
     /* a request to stop: nobody asks at first, then it counts unless what is under way comes to its end */
     Cancellation token;
-    start_cancellation(&token, answer, &stop, 0.0);
+    start_polling(&token, answer, &stop, 0.0);
     for (int k = 0; k < 1000; k++)
-        CHECK(!given_up(&token));
+        CHECK(!is_cancelled(&token));
     CHECK(cancellation > 0 && cancellation <= 1000);
     stop = 1;
     defer_stop(&token);
     for (int k = 0; k < 1000; k++)
-        CHECK(!given_up(&token));
+        CHECK(!is_cancelled(&token));
     CHECK(token.stop);
     allow_stop(&token);
-    CHECK(given_up(&token));
+    CHECK(is_cancelled(&token));
     return failures;
 }

@@ -20,7 +20,7 @@ static double shrinks_to(double h, double error)
 {
     run.control.attempt.h = h;
     step.error = error;
-    return shrink(&run, &step);
+    return shrink_factor(&run, &step);
 }
 
 int main(void)
@@ -35,14 +35,14 @@ int main(void)
     CHECK(CLOSE(growth(1.0, 1.0), 0.9, 1e-3));
     CHECK(growth(1e-30, 1.0) == MAX_GROWTH);
     CHECK(run.control.error_before == MIN_LAST_ERROR);
-    step.is_searched = 1;
+    step.has_zero_bracket = 1;
     CHECK(growth(1e-30, 1.0) == MAX_GROWTH_EVENTS);
-    step.is_searched = 0;
+    step.has_zero_bracket = 0;
 
     /* stability bounds an explicit step */
-    note_stability(&run, 2.0 * step.method->bounded);
+    record_stability(&run, 2.0 * step.method->bounded);
     CHECK(CLOSE(growth(1e-6, 1e-4), 0.5 * STABLE_GROWTH, 1e-12));
-    note_stability(&run, 0.0);
+    record_stability(&run, 0.0);
 
     /* where errors are h^(1/power), lengths converge to the fixed point of the formula: 0.9 e^(-0.6 power) = 1 */
     double h = 0.1;

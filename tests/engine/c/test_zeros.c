@@ -12,7 +12,7 @@ static double cubed(double s) { return -(s - 1.0) * (s - 1.0) * (s - 1.0); }
 static double jump(double s) { return s < 1.5 ? 1.0 : -1e-6; }
 static double pole(double s) { return 1.0 / (1.5 - s); }
 
-static int evaluate(void *context, double s, Place *now)
+static int evaluate(void *context, double s, Sample *now)
 {
     Evaluated *of = context;
     now->f = of->f(s);
@@ -42,7 +42,7 @@ static void check_location(void)
     for (int i = 0; i < 5; i++)
         for (double width = 0.0; width < 1e-2; width = width > 0.0 ? 1e4 * width : 1e-15) {
             Evaluated of = cases[i].of;
-            const Bracket zero = located(&of, 0.25, 2.75, (ZeroTolerance){.width = width}, MOST_PLACES);
+            const Bracket zero = located(&of, 0.25, 2.75, (ZeroTolerance){.width = width}, MAX_POINTS);
             const double low = zero.at[0].s, high = zero.at[1].s;
             CHECK(high - low <= width || high == nextafter(low, 3.0));
             CHECK(of.count <= (width > 0.0 ? cases[i].most : 160));
@@ -86,15 +86,15 @@ static void check_grazes(void)
 {
     for (double depth = 0.04; depth > 1e-18; depth *= 0.1) {
         Parabola of = {.middle = 0.3, .depth = depth};
-        CHECK(first_part(0.0, 1.0, 1e-12, judge, &of) == 1); /* two zeros, 2 sqrt(depth) apart: the first of them */
+        CHECK(halve_parts(0.0, 1.0, 1e-12, judge, &of) == 1); /* two zeros, 2 sqrt(depth) apart: the first of them */
         CHECK(of.a <= 0.3 - sqrt(depth) + 1e-12 && of.b >= 0.3 - sqrt(depth) - 1e-12 && of.a < 0.3);
         CHECK(of.b < 0.3 + sqrt(depth) + 1e-12);
         of = (Parabola){.middle = 0.3, .depth = -depth};
-        CHECK(first_part(0.0, 1.0, 1e-12, judge, &of) == 0);
+        CHECK(halve_parts(0.0, 1.0, 1e-12, judge, &of) == 0);
         CHECK(of.parts < 200);
     }
     Parabola touched = {.middle = 0.3};
-    CHECK(first_part(0.0, 1.0, 1e-12, judge, &touched) == 0); /* it comes to zero and is not below it */
+    CHECK(halve_parts(0.0, 1.0, 1e-12, judge, &touched) == 0); /* it comes to zero and is not below it */
 }
 
 int main(void)

@@ -18,14 +18,14 @@ from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.adaptive import RTOL
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import Problem
-from gudgeon.language.wanted import names, refuse
-from gudgeon.model.choices import said
+from gudgeon.language.argument_checks import names, refuse
+from gudgeon.model.choices import specified
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, without_baumgarte
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue, check_series
-from gudgeon.results.wear import Rubbed, Rubbing
+from gudgeon.results.wear import SlidingLoads, SlidingRequest
 from gudgeon.simulation.arguments import integrate, method_of
 
 if TYPE_CHECKING:
@@ -35,37 +35,39 @@ if TYPE_CHECKING:
 LIST = "a list of names of series"  # expected type of the argument `peaks`, for messages
 
 
-class Looker(Protocol):
+class StepObserver(Protocol):
     """Observe the states of all steps of one run."""
 
     def __call__(self, steps: Steps) -> None:
         """Process the next states of the run."""
 
-    def told(self) -> Told:
+    def message(self) -> Observation:
         """Return the findings."""
 
 
-def wanted_peaks(source: KernelSource, peaks: Iterable[str | Rubbing] | None) -> tuple[str | Rubbing, ...]:
+def requested_peaks(
+    source: KernelSource, peaks: Iterable[str | SlidingRequest] | None
+) -> tuple[str | SlidingRequest, ...]:
     """Return the requested peaks: the given names of series, else those of the scene, and requests for wear.
 
     Raises UnknownNameError, BadValueError.
     """
     if peaks is None:
         return check_series(source, source.peaks)
-    rubbing = tuple(one for one in peaks if isinstance(one, Rubbing)) if isinstance(peaks, tuple) else ()
-    wanted = names([one for one in peaks if one not in rubbing] if rubbing else peaks, "peaks", LIST)
-    if "t" in wanted:
+    rubbing = tuple(one for one in peaks if isinstance(one, SlidingRequest)) if isinstance(peaks, tuple) else ()
+    expected = names([one for one in peaks if one not in rubbing] if rubbing else peaks, "peaks", LIST)
+    if "t" in expected:
         raise BadValueError("peaks: t has no peaks", hint="leave it out: a peak comes with its time")
-    return (*check_series(source, wanted), *rubbing)
+    return (*check_series(source, expected), *rubbing)
 
 
 @dataclass(frozen=True)
-class Told:
+class Observation:
     """Hold the findings of the observers of one run: extremes, notes and wear."""
 
     extremes: tuple[Extremes, ...] = ()
     notes: tuple[str, ...] = ()
-    rubbed: tuple[Rubbed, ...] = ()
+    rubbed: tuple[SlidingLoads, ...] = ()
 
     def to(self, run: Result) -> None:
         """Store the findings in the diagnostics of a run."""
@@ -73,47 +75,49 @@ class Told:
         run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes, rubbed=self.rubbed)
 
 
-def search_of(
+def make_observer(
     compiled: CompiledModel,
     numbers: tuple[Array, Array, Array],
     rtol: float,
-    wanted: tuple[str | Rubbing, ...],
+    expected: tuple[str | SlidingRequest, ...],
     against: Simulation | None,
-) -> Looker | None:
+) -> StepObserver | None:
     """Return the observer of a run with parameter arrays `numbers` (p, given, is_given); None if nothing is
     requested.
     """
-    found, series = list[Looker](), tuple(one for one in wanted if isinstance(one, str))
+    found, series = list[StepObserver](), tuple(one for one in expected if isinstance(one, str))
     if series:
         from gudgeon.simulation.peaks import Search
 
-        beside = Beside(against, compiled.source, numbers[0], rtol or RTOL) if against else None
+        beside = ComparedScene(against, compiled.source, numbers[0], rtol or RTOL) if against else None
         found.append(Search(compiled, series, numbers, beside))
-    if len(series) < len(wanted):
-        from gudgeon.simulation.wear import Rubs
+    if len(series) < len(expected):
+        from gudgeon.simulation.wear import WearObserver
 
-        found += [Rubs(compiled, one, numbers) for one in wanted if isinstance(one, Rubbing)]
-    return found[0] if len(found) == 1 else Several(found) if found else None
+        found += [WearObserver(compiled, one, numbers) for one in expected if isinstance(one, SlidingRequest)]
+    return found[0] if len(found) == 1 else CombinedObserver(found) if found else None
 
 
-class Several:
+class CombinedObserver:
     """Combine several observers of one run."""
 
-    def __init__(self, lookers: Sequence[Looker]) -> None:
+    def __init__(self, lookers: Sequence[StepObserver]) -> None:
         self.lookers = lookers
 
     def __call__(self, steps: Steps) -> None:
         """Pass the next states to each observer."""
-        for looker in self.lookers:
-            looker(steps)
+        for observer in self.lookers:
+            observer(steps)
 
-    def told(self) -> Told:
+    def message(self) -> Observation:
         """Return the findings of all observers."""
-        told = [looker.told() for looker in self.lookers]
-        return Told(*(tuple(one for each in told for one in getattr(each, name.name)) for name in fields(Told)))
+        message = [observer.message() for observer in self.lookers]
+        return Observation(
+            *(tuple(one for each in message for one in getattr(each, name.name)) for name in fields(Observation))
+        )
 
 
-class Beside:
+class ComparedScene:
     """Follow another scene from t = 0, as its file describes, with the parameter values of the run where it has
     them.
     """
@@ -122,7 +126,9 @@ class Beside:
         self.compiled = simulation.compiled
         self.scene, self.names = simulation.source.scene, frozenset(catalogue(simulation.source))
         own = {slot.address for slot in self.compiled.source.slots}
-        values = {slot.address: said(slot, float(p[k])) for k, slot in enumerate(source.slots) if slot.address in own}
+        values = {
+            slot.address: specified(slot, float(p[k])) for k, slot in enumerate(source.slots) if slot.address in own
+        }
         self.numbers = prepare(self.compiled, values)
         self.lost = ""  # reason why it cannot be followed further; "" if it can
         self.problem: Problem | None = None  # from where it resumes
@@ -175,13 +181,13 @@ class Beside:
         )
 
 
-def check_beside(source: KernelSource, against: Simulation | None) -> Simulation | None:
+def check_compared_scene(source: KernelSource, against: Simulation | None) -> Simulation | None:
     """Raise BadValueError unless `against` is a loaded scene of the same mechanism. Return it, or None."""
     if against is None:
         return None
     if not hasattr(against, "compiled") or not hasattr(against, "simulate"):
         refuse("against", against, "a loaded scene, gudgeon.load(file)")
     if against.source.mechanism != source.mechanism:
-        told = f"against is a scene of {against.source.mechanism}: this is a scene of {source.mechanism}"
-        raise BadValueError(told, hint="errors are taken against another scene of the same mechanism")
+        message = f"against is a scene of {against.source.mechanism}: this is a scene of {source.mechanism}"
+        raise BadValueError(message, hint="errors are taken against another scene of the same mechanism")
     return against

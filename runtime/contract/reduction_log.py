@@ -63,7 +63,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Placed:
+class TreeBody:
     """Describe a body of the tree and the one that carries it; `joint` is empty if the body keeps its x and y."""
 
     body: str
@@ -72,7 +72,7 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Story:
+class ReductionLog:
     """Record the reduction. `costs`: estimated operations of each tree; the first is breadth-first, the least is
     used.
     """
@@ -81,7 +81,7 @@ class Story:
     rows: tuple[str, ...] = ()
     jacobian: int = 0  # nonzeros of the absolute Φ_q, without joints with play
     steps: tuple[Step, ...] = ()
-    tree: tuple[Placed, ...] = ()
+    tree: tuple[TreeBody, ...] = ()
     costs: tuple[int, ...] = ()
     before: Solve | None = None  # linear system in absolute coordinates
     after: Solve | None = None  # linear system of what is integrated or followed
@@ -96,9 +96,9 @@ class Story:
             yield step, n, m
 
     @staticmethod
-    def from_data(data: Mapping[str, Any]) -> Story:
+    def from_data(data: Mapping[str, Any]) -> ReductionLog:
         """Return the record from the lists that `dataclasses.asdict` and JSON made of it."""
-        kinds = {"steps": Step, "tree": Placed, "groups": Group}
+        kinds = {"steps": Step, "tree": TreeBody, "groups": Group}
         solves = {"before": Solve, "after": Solve}
         found: dict[str, Any] = {}
         for name, value in data.items():
@@ -108,7 +108,7 @@ class Story:
                 found[name] = value and Solve(**value)
             else:
                 found[name] = tuple(value) if isinstance(value, list) else value
-        return Story(**found)
+        return ReductionLog(**found)
 
 
 def _build(kind: Any, item: Mapping[str, Any]) -> Any:

@@ -21,7 +21,7 @@ from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 
 @dataclass(frozen=True)
-class SlotEntry:
+class ParameterEntry:
     """One parameter with its address; `value` is the default in symbols of earlier parameters, or a number."""
 
     symbol: sp.Symbol
@@ -47,7 +47,7 @@ class Owned:
     axis: str = ""
 
 
-class Slots(Freezable):
+class ParameterTable(Freezable):
     """The parameter table, in order of first use; entries of the section `parameters` come first, in dependency order.
 
     The model's parameters are complete; derived ones are those of the model, then those of each program.
@@ -56,7 +56,7 @@ class Slots(Freezable):
     def __init__(self, scene: Scene, symbols: Symbols) -> None:
         """Begin with the section `parameters` of a scene."""
         self.symbols = symbols
-        self.entries: dict[str, SlotEntry] = {}
+        self.entries: dict[str, ParameterEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
         self.of_owner: dict[sp.Symbol, Owned] = {}  # roles of derived parameters of one joint or element
         self.unwritten: set[sp.Expr] = set()  # derived parameters of the integration only, which no document prints
@@ -67,7 +67,7 @@ class Slots(Freezable):
         for name in scene.parameters:
             self._parameter(name)
 
-    def beside(self, symbols: Symbols) -> Slots:
+    def beside(self, symbols: Symbols) -> ParameterTable:
         """Return the same table for functions with other symbols (`Symbols.beside`)."""
         other = copy.copy(self)
         other.symbols = symbols
@@ -92,7 +92,7 @@ class Slots(Freezable):
                 self._add(f"parameters.{last}", last, quantity)
         return self.entries[f"parameters.{name}"].symbol
 
-    def _add(self, address: str, wanted: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
+    def _add(self, address: str, expected: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
         """Add a parameter with the expression of a quantity and return its symbol."""
         parts = {part.address: part for part in quantity.of}
 
@@ -107,10 +107,10 @@ class Slots(Freezable):
         follows = to_sympy(quantity.value, symbol) if names_any(quantity) else None
         default = float(evaluate(quantity.value, number))
         value = sp.Float(default, 17) if follows is None else follows
-        short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is not y
+        short = "." not in expected and not address.startswith("parameters.")  # gravity.y is not y
         shown = address if short else ""
-        symbol = self.symbols.new(wanted, home, address, shown=shown)
-        self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
+        symbol = self.symbols.new(expected, home, address, shown=shown)
+        self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
     def use(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
@@ -124,11 +124,11 @@ class Slots(Freezable):
         self.symbols.adopt(self.entries[quantity.address].symbol)
         return self.entries[quantity.address].symbol
 
-    def table(self, wanted: str, quantities: Sequence[Quantity]) -> str:
+    def table(self, expected: str, quantities: Sequence[Quantity]) -> str:
         """Return the name of an array of Parameters that holds several quantities."""
         known = next((k for k, s in self.tables.items() if s[0] == self._slot(quantities[0])), "")
         if not known:
-            known = self.symbols.unique(wanted)
+            known = self.symbols.unique(expected)
             self.tables[known] = [
                 self._add(own.address, f"{known}_{k}", own, Place(PARAMETERS)[known][k])
                 for k, own in enumerate(quantities)
@@ -142,11 +142,11 @@ class Slots(Freezable):
         entry = self.entries.get(quantity.address)
         return entry.symbol if entry else None
 
-    def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
+    def constant(self, address: str, expected: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
         """Return the parameter of an address that no file names, such as a Baumgarte gain."""
         if address not in self.entries:
-            symbol = self.symbols.new(wanted, OWN_FIELD, address)
-            self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
+            symbol = self.symbols.new(expected, OWN_FIELD, address)
+            self.entries[address] = ParameterEntry(symbol, address, sp.Float(default, 17), default, dimension)
         self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
 
@@ -156,16 +156,16 @@ class Slots(Freezable):
         self.entries[address] = replace(self.entries[address], words=words)
 
     def derive(
-        self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None
+        self, expected: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None
     ) -> sp.Expr:
         """Return a derived parameter, which `prepare` computes once a run; numbers and parameters stay as they are.
 
-        `wanted`: base of its name; `shown`: name of its field.
+        `expected`: base of its name; `shown`: name of its field.
         """
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
         if expression not in self._derived_by:
-            symbol = self.symbols.define(wanted, expression, OWN_FIELD, meaning, shown=shown)
+            symbol = self.symbols.define(expected, expression, OWN_FIELD, meaning, shown=shown)
             self.derived[symbol] = expression
             if of is not None:
                 self.of_owner[symbol] = of
@@ -173,13 +173,13 @@ class Slots(Freezable):
         self.symbols.adopt(self._derived_by[expression])
         return self._derived_by[expression]
 
-    def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
+    def derive_signed(self, expected: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
         """Return a derived parameter as `derive`, but −s is written with the symbol of s.
 
         Opposite arms are shared in this way.
         """
         opposite = self._derived_by.get(-expression)
-        return self.derive(wanted, expression, meaning, shown) if opposite is None else -opposite
+        return self.derive(expected, expression, meaning, shown) if opposite is None else -opposite
 
     def default(self, expression: sp.Expr) -> float:
         """Return the value of a constant expression with every parameter at its default."""

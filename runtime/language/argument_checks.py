@@ -19,7 +19,7 @@ One = TypeVar("One")  # type of the items of a checked list
 IN_RANGE = "expected a magnitude from 2.3e-308 to 1.7e308"
 
 
-def told(value: object) -> str:
+def message(value: object) -> str:
     """Return a short text of any value for a message."""
     if isinstance(value, (str, bytes)):
         return repr(value[:60])
@@ -34,7 +34,7 @@ def told(value: object) -> str:
 
 def refuse(name: str, value: object, expected: str, hint: str = "") -> NoReturn:
     """Raise BadValueError: the argument `name` has a value other than expected."""
-    raise BadValueError(f"{name} is {told(value)}: expected {expected}", hint=hint)
+    raise BadValueError(f"{name} is {message(value)}: expected {expected}", hint=hint)
 
 
 def flag(value: object, name: str) -> bool:
@@ -98,7 +98,7 @@ def number_of(value: Any, name: str) -> float:
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):
-        shown = value if isinstance(value, str) else told(value)
+        shown = value if isinstance(value, str) else message(value)
         raise BadValueError(f"{name}: {shown[:60]!r} is not one real number") from None
     if not math.isfinite(result):
         raise BadValueError(f"{name}: {value!r} is not a finite number")
@@ -130,7 +130,7 @@ def mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
         raise BadValueError(f"{name} is a {type(value).__name__}: expected a mapping", hint=hint)
     for key in found:
         if not isinstance(key, str):
-            raise BadValueError(f"{name}: its key {told(key)} is no text", hint=hint)
+            raise BadValueError(f"{name}: its key {message(key)} is no text", hint=hint)
     return found
 
 

@@ -16,7 +16,7 @@ import typer
 
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import path_text, print_json, visible
-from gudgeon.waiting.ctrl_c import INTERRUPTED, last_word
+from gudgeon.waiting.ctrl_c import INTERRUPTED, print_interrupted
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -28,7 +28,7 @@ def complain(error: GudgeonError) -> None:
     print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 
-def told(command: Command) -> Command:
+def message(command: Command) -> Command:
     """Return the command with gudgeon's errors printed as one line; other exceptions keep their traceback.
 
     The wrapper takes further keyword arguments. `laws`: files of user-defined laws that are registered first.
@@ -48,7 +48,7 @@ def told(command: Command) -> Command:
             complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
             code = known.exit_code
         except KeyboardInterrupt:
-            last_word()
+            print_interrupted()
             code = INTERRUPTED
         if code:
             raise typer.Exit(code)
@@ -61,7 +61,7 @@ def silent(but_json: bool) -> Iterator[None]:
     """Suppress results on stdout and progress on stderr while the block runs; but_json: stdout is not suppressed."""
     from gudgeon.commands import progress
 
-    looked_at, progress.looked_at = progress.looked_at, lambda: False
+    is_terminal, progress.is_terminal = progress.is_terminal, lambda: False
     try:
         with (
             open(os.devnull, "w", encoding="utf-8") as nothing,
@@ -69,7 +69,7 @@ def silent(but_json: bool) -> Iterator[None]:
         ):
             yield
     finally:
-        progress.looked_at = looked_at
+        progress.is_terminal = is_terminal
 
 
 def _register_laws(laws: Iterable[str]) -> None:
@@ -80,7 +80,7 @@ def _register_laws(laws: Iterable[str]) -> None:
         register(file)
 
 
-def tell_warnings() -> None:
+def print_warnings_once() -> None:
     """Print each warning once, without a line of source."""
     seen = set[str]()
 

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.branches import Assembly, find_assemblies, guesses_apart
+from gudgeon.assembly.branches import Assembly, find_assemblies, guess_distance
 from gudgeon.assembly.closure import Closure
-from gudgeon.assembly.failures import not_closed
-from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
+from gudgeon.assembly.failures import closure_error
+from gudgeon.assembly.guess_warnings import guess_difference_text, no_nearer_text, unfollowed
 from gudgeon.assembly.journals import check_places, in_walls
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.start import velocities
 from gudgeon.commands.common import check_addresses, linkage_at_values
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
-from gudgeon.model.seams import seams
+from gudgeon.model.seams import curve_seam_notes
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism import Mechanism
@@ -59,7 +59,7 @@ class Findings:
             return []
         closure = Closure(first.linkage, first.linkage.p, 0.0)
         start = self.assemblies[0].q
-        return [a for a in self.assemblies[1:] if guesses_apart(closure, a.q, start) < ALIKE]
+        return [a for a in self.assemblies[1:] if guess_distance(closure, a.q, start) < ALIKE]
 
 
 def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
@@ -103,7 +103,7 @@ def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
     with np.errstate(all="ignore"):
         q, closed = closure.nearest()
         if not closed:
-            raise not_closed(closure, q)
+            raise closure_error(closure, q)
         velocities(closure, q)
         every = find_mobility(linkage, p, q)
         own = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
@@ -150,9 +150,9 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         return
     if (large := _too_large(mechanism, first)) is not None:
         yield "size", large
-    yield from (("curve", told) for told in seams(first.linkage.source, first.linkage.p))
-    deep = (told for scene in found.scenes.values() for told in in_walls(scene.linkage, scene.linkage.p))
-    yield from (("start", told) for told in dict.fromkeys(deep))
+    yield from (("curve", message) for message in curve_seam_notes(first.linkage.source, first.linkage.p))
+    deep = (message for scene in found.scenes.values() for message in in_walls(scene.linkage, scene.linkage.p))
+    yield from (("start", message) for message in dict.fromkeys(deep))
     closed = first.closed
     if closed.loose:
         yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"
@@ -175,9 +175,12 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
                 " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
             ),
         )
-    told = {name: off for scene in found.scenes.values() for name, off in scene.off.items()}
-    for name, off in told.items():
-        yield "guess", f"{name} is {off_text(name, off)} from your guess: {nearer_text(first.linkage.source)}"
+    message = {name: off for scene in found.scenes.values() for name, off in scene.off.items()}
+    for name, off in message.items():
+        yield (
+            "guess",
+            f"{name} is {guess_difference_text(name, off)} from your guess: {no_nearer_text(first.linkage.source)}",
+        )
     if not closed.freedoms or mechanism.freedoms is not None:
         yield from _ambiguous(found)
 

@@ -18,7 +18,7 @@ from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import PairSymbols
 from gudgeon.generator.mechanism import Bearing, Guide, Joint
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Place:
     wall: Wall | None = None
 
 
-def places_of(joint: Joint, measures: Bearing | Guide, geometry: Geometry, slots: Slots) -> Iterator[Place]:
+def places_of(joint: Joint, measures: Bearing | Guide, geometry: Geometry, slots: ParameterTable) -> Iterator[Place]:
     """Yield the contact points of a joint with play: one of a revolute joint, four of a translational one."""
     if isinstance(measures, Guide):
         yield from _corners(joint, measures, geometry, slots)
@@ -59,35 +59,35 @@ def places_of(joint: Joint, measures: Bearing | Guide, geometry: Geometry, slots
     yield Place(joint.name, joint.name, geometry.point(joint.first), geometry.point(joint.second), pair, pair)
 
 
-def _pair(bearing: Bearing, slots: Slots) -> PairSymbols:
+def _pair(bearing: Bearing, slots: ParameterTable) -> PairSymbols:
     """Return radii, clearance, length and elastic constants of a bearing and its journal as parameters."""
     R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
     R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
     return PairSymbols(R_i, R_j, c, slots.use(bearing.length), *_elastic(bearing, slots))
 
 
-def _elastic(measures: Bearing | Guide, slots: Slots) -> list[sp.Expr]:
+def _elastic(measures: Bearing | Guide, slots: ParameterTable) -> list[sp.Expr]:
     """Return E_i, ν_i, E_j, ν_j of both bodies as parameters."""
     materials = measures.bearing_material, measures.journal_material
     return [slots.use(material.numbers[what]) for material in materials for what in ("E", "nu")]
 
 
-def _corners(joint: Joint, guide: Guide, geometry: Geometry, slots: Slots) -> Iterator[Place]:
+def _corners(joint: Joint, guide: Guide, geometry: Geometry, slots: ParameterTable) -> Iterator[Place]:
     """Yield the four corners of a slider in its guide as contact points."""
     first = geometry.point(joint.first)
     a, b, c = (slots.use(number) for number in (guide.half_length, guide.half_height, guide.gap))
     radius = sp.Integer(0) if guide.corner_radius is None else slots.use(guide.corner_radius)
     named = (("reach", a - radius, "half-length"), ("rise", b - radius, "half-height"))
-    reach, rise = (slots.derive(f"{what}_{guide.name}", x, f"{told} less radius") for what, x, told in named)
+    reach, rise = (slots.derive(f"{what}_{guide.name}", x, f"{message} less radius") for what, x, message in named)
     width = slots.derive(f"half_width_{guide.name}", b + c, "half the guide's width")
     pair = PairSymbols(width, radius, c, sp.nan, *_elastic(guide, slots))
     fields = JointFields(joint, geometry)
     axis_x, axis_y = first.direction(fields.direction("axis"))
     along_x, along_y = _axis_in_slider(fields, slots, joint.name)
-    taken = set(geometry.mechanism.joints)
+    used = set(geometry.mechanism.joints)
     for corner, (front, upper) in CORNERS.items():
         label = f"{joint.name}_{corner}"
-        while label in taken:
+        while label in used:
             label += "_"
         x, y = front * reach, upper * rise
         offset = (along_x * x - along_y * y, along_y * x + along_x * y)
@@ -96,7 +96,7 @@ def _corners(joint: Joint, guide: Guide, geometry: Geometry, slots: Slots) -> It
         yield Place(f"{joint.name}.{corner}", label, first, second, pair, replace(pair, R_i=sp.oo), wall)
 
 
-def _axis_in_slider(fields: JointFields, slots: Slots, joint: str) -> tuple[sp.Expr, sp.Expr]:
+def _axis_in_slider(fields: JointFields, slots: ParameterTable, joint: str) -> tuple[sp.Expr, sp.Expr]:
     """Return the guide's axis in the slider's frame, with the slider at the angle that the joint prescribes."""
     along = fields.angle_of("axis")
     turned = fields.quantity("angle", along)

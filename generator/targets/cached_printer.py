@@ -19,7 +19,7 @@ from gudgeon.generator.symbols.from_expressions import CLASSES
 Method = Callable[..., str]
 
 
-class Quick:
+class CachedPrinter:
     """Provide cached versions of methods of SymPy's code printers; a base class before one of these."""
 
     def doprint(self, expr: sp.Expr) -> str:
@@ -40,7 +40,7 @@ class Quick:
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
         """Print the sum of terms in SymPy's order."""
         text = ""
-        for term in ordered_terms(expr):
+        for term in order_terms(expr):
             own = self._print(term)
             minus = own.startswith("-") and not term.is_Add
             own = own[1:] if minus else own
@@ -105,7 +105,7 @@ def _find_method(printer: type, kind: type) -> Method:
 
 
 @lru_cache(20_000)
-def ordered_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
+def order_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first."""
     terms = total.args
     if not total.is_Add or any(

@@ -24,14 +24,14 @@ _GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.us
 def check_memory(size: float, what: str) -> None:
     """Raise MemoryError if `size` bytes exceed the free memory; `what` needs them."""
     if size > LEAST and size > SHARE * (free := free_memory()):
-        raise MemoryError(f"{what} would take {in_bytes(size)}, and {in_bytes(free)} are free")
+        raise MemoryError(f"{what} would take {size_text(size)}, and {size_text(free)} are free")
 
 
 def check_disk(folder: str | os.PathLike[str], size: float, what: str, path: str | os.PathLike[str] = "") -> None:
     """Raise OutputError, of `path` or the folder, if `size` bytes exceed the free disk space there."""
     if size > (free := free_disk(folder)):
-        told = f"{os.strerror(errno.ENOSPC)}: {what} would take {in_bytes(size)}, and {in_bytes(free)} are free"
-        raise OutputError(path or folder, OSError(errno.ENOSPC, told))
+        message = f"{os.strerror(errno.ENOSPC)}: {what} would take {size_text(size)}, and {size_text(free)} are free"
+        raise OutputError(path or folder, OSError(errno.ENOSPC, message))
 
 
 def free_disk(folder: str | os.PathLike[str]) -> float:
@@ -96,12 +96,12 @@ def _free_in_process(root: Path) -> float:
 
         limit = resource.getrlimit(resource.RLIMIT_AS)[0]
         if limit != resource.RLIM_INFINITY:
-            taken = int((root / "proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-            return float(limit - taken)
+            used = int((root / "proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+            return float(limit - used)
     return math.inf
 
 
-def in_bytes(size: float) -> str:
+def size_text(size: float) -> str:
     """Return a size as text: 1.2 GB."""
     for power, unit in ((12, "TB"), (9, "GB"), (6, "MB"), (3, "kB")):
         if size >= 10.0**power:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from gudgeon.contract import ledger as told
+from gudgeon.contract import reduction_log as message
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.ledger import Solve, Step, Story
 from gudgeon.contract.methods import KINEMATIC
+from gudgeon.contract.reduction_log import ReductionLog, Solve, Step
 
 MOST = 16  # largest number of names that are listed in full
 
 
-def ledger_lines(source: KernelSource) -> Iterator[tuple[int, int, str]]:
+def reduction_lines(source: KernelSource) -> Iterator[tuple[int, int, str]]:
     """Yield for each reduction step the numbers of coordinates and equations that remain, and its description."""
     story = source.story
     yield len(story.coordinates), len(story.rows), "every body by x, y and its angle; every joint closed"
@@ -115,20 +115,20 @@ def _chain(step: Step) -> str:
 
 # descriptions by kind of step
 _WORDS: Mapping[str, Callable[[Step], str]] = {
-    told.PLAY: _play,
-    told.REDUNDANT: _redundant,
-    told.PRESCRIBED: _prescribed,
-    told.CONSTANT: _constant,
-    told.FOLLOWING: _following,
-    told.HUB: _hub,
-    told.HINGES: _hinges,
-    told.SLIDES: _slides,
-    told.KNOWN: _known,
-    told.CHAIN: _chain,
+    message.PLAY: _play,
+    message.REDUNDANT: _redundant,
+    message.PRESCRIBED: _prescribed,
+    message.CONSTANT: _constant,
+    message.FOLLOWING: _following,
+    message.HUB: _hub,
+    message.HINGES: _hinges,
+    message.SLIDES: _slides,
+    message.KNOWN: _known,
+    message.CHAIN: _chain,
 }
 
 
-def _tree_text(story: Story) -> str:
+def _tree_text(story: ReductionLog) -> str:
     """Return the tree as "L1, L6 (L7, L8 (S9))": each body with those it carries; [..]: bodies with own x and y."""
     carried: dict[str, list[str]] = {}
     loose = {placed.body for placed in story.tree if not placed.joint}
@@ -138,13 +138,13 @@ def _tree_text(story: Story) -> str:
         own = f", {len(loose)} of them with x and y of their own" * bool(loose)
         return f"{len(story.tree)} bodies, at most {_depth(carried, 'ground')} behind each other{own}"
 
-    def told_of(body: str) -> str:
+    def message_of(body: str) -> str:
         """Return a body with those that it carries, in brackets."""
         name = f"[{body}]" if body in loose else body
-        return f"{name} ({', '.join(map(told_of, carried[body]))})" if body in carried else name
+        return f"{name} ({', '.join(map(message_of, carried[body]))})" if body in carried else name
 
     own = "; [keeps its x and y: no joint places it, or that is cheaper]" * bool(loose)
-    return ", ".join(map(told_of, carried["ground"])) + own
+    return ", ".join(map(message_of, carried["ground"])) + own
 
 
 def _depth(carried: Mapping[str, Sequence[str]], body: str) -> int:
@@ -178,7 +178,7 @@ def _matrix_text(solve: Solve) -> str:
     return f"{solve.size:,} × {solve.size:,} with {solve.entries:,} non-zeros and {solve.factor:,} in its factor"
 
 
-def _systems_text(story: Story, reduced: bool) -> str:
+def _systems_text(story: ReductionLog, reduced: bool) -> str:
     """Return a text on the linear systems before and after the reduction."""
     before = _matrix_text(story.before) if story.before else ""
     if story.after:

@@ -1,11 +1,13 @@
-"""The record of a scene's reduction, from what the generator has done; runtime/contract/ledger.py has its fields."""
+"""The record of a scene's reduction, from what the generator has done; runtime/contract/reduction_log.py has its
+fields.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from gudgeon.contract import ledger as told
-from gudgeon.contract.ledger import Group, Placed, Solve, Step, Story
+from gudgeon.contract import reduction_log as message
+from gudgeon.contract.reduction_log import Group, ReductionLog, Solve, Step, TreeBody
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.reduction.frames import CONSTANT, Affine
@@ -15,7 +17,9 @@ from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.sparsity import Block
 
 
-def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]) -> Story:
+def build_reduction_log(
+    model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]
+) -> ReductionLog:
     """Return the record of which coordinates and constraint equations the generator has eliminated, and how.
 
     `system`: what is integrated; `solved`: the KKT matrix of its right-hand side (None: there is none).
@@ -24,12 +28,12 @@ def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks
     tree = system.tree if isinstance(system, TreeSystem) else None
     steps = [*_opening_steps(model), *(_reduction_steps(model, system) if isinstance(system, TreeSystem) else ())]
     names = _unknown_names(model, system)
-    return Story(
+    return ReductionLog(
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         rows=tuple(row.name for row in model.all_rows),
         jacobian=sum(len(row.phi_q) for row in model.rows),
         steps=tuple(step for step in steps if step.owners),
-        tree=tuple(Placed(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.links) if tree else (),
+        tree=tuple(TreeBody(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.links) if tree else (),
         costs=tree.costs if tree else (),
         before=_describe_solve(absolute),
         after=_describe_solve(solved) if solved else None,
@@ -63,9 +67,9 @@ def _opening_steps(model: Model) -> Iterator[Step]:
     """Yield the steps from the closed linkage to the equations of the scene: joints with play, redundant equations."""
     dropped = model.redundancy.dropped
     open_rows = tuple(r.name for r in model.all_rows if r.owner in model.scene.play)
-    yield Step(told.PLAY, tuple(model.scene.play), rows_gone=open_rows)
+    yield Step(message.PLAY, tuple(model.scene.play), rows_gone=open_rows)
     owner = {row.name: row.owner for row in model.all_rows}
-    yield Step(told.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
+    yield Step(message.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
 
 
 def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
@@ -73,8 +77,8 @@ def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     yield from _angle_steps(model, system.tree)
     yield from _hub_steps(system.tree)
     links = [link for link in system.tree.links if link.joint]
-    for kind in (told.HINGES, told.SLIDES):
-        some = [link for link in links if link.slides == (kind == told.SLIDES)]
+    for kind in (message.HINGES, message.SLIDES):
+        some = [link for link in links if link.slides == (kind == message.SLIDES)]
         yield Step(
             kind,
             _owner_names(some),
@@ -84,11 +88,11 @@ def _reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
         )
     if system.slides:
         by = dict.fromkeys(k for affine in system.slides.values() for k in affine if k != CONSTANT)
-        yield Step(told.KNOWN, tuple(by) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
+        yield Step(message.KNOWN, tuple(by) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
     if system.chain:
         rows = tuple(row.name for row in system.chain.rows)
         gone = tuple(name if "." in name else f"{name}.theta" for name in system.chain.names)
-        yield Step(told.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), gone, rows_gone=rows)
+        yield Step(message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), gone, rows_gone=rows)
 
 
 def _owner_names(links: Iterable[Link]) -> tuple[str, ...]:
@@ -107,11 +111,11 @@ def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
         """Return the kind of an angle: prescribed by drives, constant, or dependent on other angles."""
         keys = [k for k in affine if k != CONSTANT]
         if any(k not in drives for k in keys):
-            return told.FOLLOWING
-        return told.PRESCRIBED if keys else told.CONSTANT
+            return message.FOLLOWING
+        return message.PRESCRIBED if keys else message.CONSTANT
 
     owner = {row.name: row.owner for row in model.all_rows}
-    for which in (told.PRESCRIBED, told.CONSTANT, told.FOLLOWING):
+    for which in (message.PRESCRIBED, message.CONSTANT, message.FOLLOWING):
         rows = {row: body for row, body in tree.solved.items() if kind(tree.angles[body]) == which}
         by = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
         yield Step(
@@ -125,9 +129,9 @@ def _angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
 def _hub_steps(tree: Tree) -> Iterator[Step]:
     """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use."""
     for hub in tree.hubs:
-        taken = [link.joint for link in tree.links if link.joint in hub.pairs]
-        taken += [joint for joint in tree.closing if joint in hub.pairs]
-        came = tuple(row for joint in taken if joint and joint not in hub.joints for row in hub.rows_of(joint))
-        went = tuple(row for joint in hub.joints if joint not in taken for row in hub.rows_of(joint))
+        used = [link.joint for link in tree.links if link.joint in hub.pairs]
+        used += [joint for joint in tree.closing if joint in hub.pairs]
+        came = tuple(row for joint in used if joint and joint not in hub.joints for row in hub.rows_of(joint))
+        went = tuple(row for joint in hub.joints if joint not in used for row in hub.rows_of(joint))
         if went:
-            yield Step(told.HUB, tuple(joint.name for joint in hub.joints), rows_gone=went, rows_come=came)
+            yield Step(message.HUB, tuple(joint.name for joint in hub.joints), rows_gone=went, rows_come=came)

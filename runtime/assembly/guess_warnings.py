@@ -25,12 +25,12 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     source, off = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
     size = mechanism_size(linkage, p)
-    for name, wanted in guess.items():
+    for name, expected in guess.items():
         if name in source.coordinates:
-            away = float(q[source.coordinates.index(name)]) - wanted
+            away = float(q[source.coordinates.index(name)]) - expected
             is_angle = name.endswith(".theta")
             away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away
-            if abs(away) > (FOLLOWED if is_angle else APART * max(size, abs(wanted))):
+            if abs(away) > (FOLLOWED if is_angle else APART * max(size, abs(expected))):
                 off[name] = away
     for point in source.points:
         if f"{point.name}.x" in guess:
@@ -40,28 +40,30 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     return off
 
 
-def tell_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
+def warn_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
     """Warn about each guess that the start q does not follow; within a batch, note them in NOTED."""
     off, noted = unfollowed(linkage, p, q), NOTED.get()
     if noted is not None:
         noted.append(off)
         return
     for name, away in off.items():
-        told = f"{name} begins {off_text(name, away)} from its guess: {nearer_text(linkage.source)}"
-        warnings.warn(f"{told}; {LISTED}", stacklevel=outside())
+        message = f"{name} begins {guess_difference_text(name, away)} from its guess: {no_nearer_text(linkage.source)}"
+        warnings.warn(f"{message}; {LISTED}", stacklevel=outside())
 
 
-def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
+def warn_unfollowed_in_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
     """Issue one warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
     if (kept := NOTED.get()) is not None:  # by who makes many batches
         kept.extend(noted)
         return
-    told = []
+    message = []
     for name in dict.fromkeys(name for off in noted for name in off):
         by = [off[name] for off in noted if name in off]
-        told.append(f"{name} in {len(by)} of {len(noted)} runs by up to {off_text(name, max(map(abs, by)))}")
-    if told:
-        text = f"runs begin away from their guess: {', '.join(told)}: {nearer_text(source)}; {LISTED}"
+        message.append(
+            f"{name} in {len(by)} of {len(noted)} runs by up to {guess_difference_text(name, max(map(abs, by)))}"
+        )
+    if message:
+        text = f"runs begin away from their guess: {', '.join(message)}: {no_nearer_text(source)}; {LISTED}"
         warnings.warn(text, stacklevel=outside())
 
 
@@ -73,12 +75,12 @@ def outside() -> int:
     return level
 
 
-def off_text(name: str, off: float) -> str:
+def guess_difference_text(name: str, off: float) -> str:
     """Return the difference from a guess as text, in degrees or mm."""
     return f"{np.degrees(abs(off)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(off):.3g} mm"
 
 
-def nearer_text(source: KernelSource) -> str:
+def no_nearer_text(source: KernelSource) -> str:
     """Return a text that no nearer assembly was found; several guesses may contradict each other."""
     guessed = {name if name in source.coordinates else name.rpartition(".")[0] for name in source.start_guess}
     return f"no assembly nearer{' to all guesses together' if len(guessed) > 1 else ''} was found"

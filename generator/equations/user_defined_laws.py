@@ -18,11 +18,11 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError, LawError
 from gudgeon.generator.kinds.laws.built import PAIR, probe
-from gudgeon.generator.kinds.laws.law import FURTHER, OWN, RESULTS, VARIABLES, Law, laws
+from gudgeon.generator.kinds.laws.law import FURTHER, RESULTS, USER_LAWS, VARIABLES, Law, laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_name, prefix
-from gudgeon.generator.mechanism import LawUse, Quantity, Scene, at_onset
+from gudgeon.generator.mechanism import LawUse, Quantity, Scene, value_at_onset
 from gudgeon.generator.symbols.from_expressions import classes_where, quantity_to_sympy
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.language.functions import Units
 from gudgeon.language.tree import evaluate
 from gudgeon.language.units import (
@@ -42,7 +42,7 @@ N_PENETRATIONS = 400  # penetrations at which a force is sampled
 _SMALLEST = 1e-6  # of the largest of them
 
 
-def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: Slots) -> sp.Expr:
+def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: ParameterTable) -> sp.Expr:
     """Return a force of the file as an expression of `delta` and parameters, checked up to the penetration `most` (m).
 
     If SymPy does not see that the force at δ = 0 is 0, its value there becomes a parameter, which every run checks.
@@ -64,11 +64,11 @@ def force_of(force: Quantity, delta: sp.Symbol, most: float, slots: Slots) -> sp
     _check_force(force, most, slots)
     _check_slope(force, value, delta, slots)
     if value.subs(delta, 0) != 0:
-        slots.use(at_onset(force))
+        slots.use(value_at_onset(force))
     return value
 
 
-def _check_force(force: Quantity, most: float, slots: Slots) -> None:
+def _check_force(force: Quantity, most: float, slots: ParameterTable) -> None:
     """Raise BadValueError if the force is not finite or negative at sampled penetrations, with the scene's values."""
     depths = np.union1d(
         np.geomspace(_SMALLEST * most, most, N_PENETRATIONS // 2), np.linspace(0.0, most, N_PENETRATIONS // 2)[1:]
@@ -86,7 +86,7 @@ def _check_force(force: Quantity, most: float, slots: Slots) -> None:
         raise BadValueError(f"{force.address} is {load:.6g} N at delta = {depth:.6g} m", force.where, hint)
 
 
-def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: Slots) -> None:
+def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, slots: ParameterTable) -> None:
     """Raise BadValueError if the slope at δ = 0 is infinite, so that no Jacobian exists."""
     numbers = {entry.symbol: sp.Float(entry.default, 17) for entry in slots.entries.values()}
     slope = sp.diff(value, delta).xreplace(numbers).subs(delta, 0)
@@ -138,10 +138,10 @@ def check_units(law: Law, use: LawUse) -> None:
     for name, step in made.steps.items():
         found = units.of(name, step)
         known[name] = found
-        wanted = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
-        if name in law.results and wanted and isinstance(found, Dimension) and found != wanted:
+        expected = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
+        if name in law.results and expected and isinstance(found, Dimension) and found != expected:
             hint = "a number with a unit is one of its fields: number(name, meaning, DIMENSION, default=…)"
-            raise LawError(f"{units.whose}{name} is {describe(found)}, expected {describe(wanted)}", hint=hint)
+            raise LawError(f"{units.whose}{name} is {describe(found)}, expected {describe(expected)}", hint=hint)
 
 
 @dataclass
@@ -208,8 +208,8 @@ class _Units:
     def _pure(self, name: str, what: str, found: _DimensionOrFlexible) -> None:
         """Raise LawError if a value that must be dimensionless, described by `what`, has a unit."""
         if isinstance(found, Dimension) and found != DIMENSIONLESS:
-            told = f"{self.whose}{name} has {what} of {describe(found)}, expected {describe(DIMENSIONLESS)}"
-            raise LawError(told, hint="divide by a number of that unit: one of the law's fields")
+            message = f"{self.whose}{name} has {what} of {describe(found)}, expected {describe(DIMENSIONLESS)}"
+            raise LawError(message, hint="divide by a number of that unit: one of the law's fields")
 
     @staticmethod
     def _product(found: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
@@ -247,9 +247,9 @@ def check_own_laws(scene: Scene) -> None:
     """Raise LawError if a name in a user-defined law has two meanings, or if units do not fit."""
     for play in scene.play.values():
         some = [(laws()[use.law], use) for use in play.contact.laws]
-        if any(law.name in OWN for law, _ in some):
+        if any(law.name in USER_LAWS for law, _ in some):
             names = {law.name: _Names(law, use) for law, use in some}
-            for law, use in (one for one in some if one[0].name in OWN):
+            for law, use in (one for one in some if one[0].name in USER_LAWS):
                 names[law.name].check()
                 check_units(law, use)
             _check_together([names[law.name] for law, _ in some if law.role != "film"])
@@ -286,8 +286,8 @@ def _check_together(dry: Sequence[_Names]) -> None:
     """
     for one, other in itertools.permutations(dry, 2):
         if both := {*one.locals} & {*other.locals, *other.numbers}:
-            told = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
-            raise LawError(f"{_law_prefix(one.law)}{told}", hint="call the abbreviation of your own law otherwise")
+            message = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
+            raise LawError(f"{_law_prefix(one.law)}{message}", hint="call the abbreviation of your own law otherwise")
 
 
 def _law_prefix(law: Law) -> str:
@@ -295,7 +295,9 @@ def _law_prefix(law: Law) -> str:
     return prefix(law.name, ORIGINS.get(law.name))
 
 
-def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: Slots) -> None:
+def check_numbers(
+    law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: ParameterTable
+) -> None:
     """Raise LawError if a force is not a finite real number at sampled states, with the values of the file."""
     numbers = {symbol: np.float64(number_of(slots, symbol)) for symbol in _constants(steps, slots)}
     known, functions = [*numbers, *variables], {}
@@ -311,26 +313,26 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
                 try:
                     values.append(np.float64(function(*values)))
                 except (ArithmeticError, TypeError, ValueError) as error:
-                    told = f"{_law_prefix(law)}{name} cannot be computed: {type(error).__name__}: {error}"
-                    raise LawError(told, hint="expected a finite real number for every δ > 0") from error
+                    message = f"{_law_prefix(law)}{name} cannot be computed: {type(error).__name__}: {error}"
+                    raise LawError(message, hint="expected a finite real number for every δ > 0") from error
             if not math.isfinite(values[-1]):
                 at = ", ".join(
                     f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip() for s, x in zip(variables, state, strict=True)
                 )
-                told = f"{_law_prefix(law)}{name} is {values[-1]:g} at {at}"
-                raise LawError(f"{told}, with the file's numbers", hint="expected a finite real number there")
+                message = f"{_law_prefix(law)}{name} is {values[-1]:g} at {at}"
+                raise LawError(f"{message}, with the file's numbers", hint="expected a finite real number there")
             if name == "share" and not (0.0 <= values[-1] <= 1.0 and (state[0] > 0.0 or values[-1] == 0.0)):
-                told = f"{_law_prefix(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
-                raise LawError(told, hint="expected a number between 0 and 1, and 0 at δ = 0, where film alone ends")
+                message = f"{_law_prefix(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
+                raise LawError(message, hint="expected a number between 0 and 1, and 0 at δ = 0, where film alone ends")
 
 
-def _constants(steps: Mapping[str, sp.Expr], slots: Slots) -> set[sp.Symbol]:
+def _constants(steps: Mapping[str, sp.Expr], slots: ParameterTable) -> set[sp.Symbol]:
     """Return the parameters that the steps of a law read."""
     members = set(slots.members())
     return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
 
 
-def number_of(slots: Slots, symbol: sp.Symbol) -> float:
+def number_of(slots: ParameterTable, symbol: sp.Symbol) -> float:
     """Return the file's value of a parameter or of a derived parameter; NaN if it is not real."""
     for entry in slots.entries.values():
         if entry.symbol == symbol:
