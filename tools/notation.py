@@ -15,7 +15,7 @@ import sympy as sp
 from gudgeon.generator.equations import contact_steps as steps
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
-from gudgeon.generator.kinds.laws.law import RESULTS, house
+from gudgeon.generator.kinds.laws.law import RESULTS, bundled_laws
 from gudgeon.generator.targets.latex.play_letters import NAMES
 from gudgeon.language.units import si_unit
 from gudgeon.results.series import CLEARANCE
@@ -128,7 +128,7 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
 
 def _of_laws() -> Iterator[tuple[str, ...]]:
     for role in RESULTS:
-        for law in house().values():
+        for law in bundled_laws().values():
             for field in law.parameters if law.role == role else ():
                 key = f"contacts.NAME.{role}.{field.name}"
                 yield (

@@ -94,9 +94,7 @@ _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a 
 
 
 def catalogue(source: KernelSource) -> Mapping[str, Series]:
-    """Return all series of a scene by name, in the order in which they are listed and stored; cached for each
-    source.
-    """
+    """Return all series of a scene by name, in the order of lists and files; cached for each source."""
     if (kept := _catalogues.get(id(source))) is None or kept[0]() is not source:
         for gone in [key for key, (lives, _) in list(_catalogues.items()) if lives() is None]:
             _catalogues.pop(gone, None)
@@ -216,9 +214,7 @@ def _joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def _guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of the summed corner forces of each guide with play, named like the reaction of an ideal
-    joint.
-    """
+    """Yield the summed corner forces of each guide with play, named like the reaction of an ideal joint."""
     second = {joint.joint: _body_name(source, joint.second) for joint in source.clearances}
     for k, name in enumerate(source.guides, len(source.joints)):
         yield from _reaction_series(
@@ -337,9 +333,7 @@ DRIFT = ("Phi.max", "Phi_dot.max")
 
 
 def _drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles are compared as
-    numbers.
-    """
+    """Yield the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles count as numbers."""
     what = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
     for k, name in enumerate(DRIFT):
         yield name, _evaluated_series("", f"drift, the largest {what[k]}", "drift", k)
@@ -387,9 +381,7 @@ def _output_series(source: KernelSource, name: str, tree: Any, known: Mapping[st
 def unknown_series(
     source: KernelSource, known: Mapping[str, Series], name: Any, parameters: Iterable[str]
 ) -> UnknownNameError:
-    """Return the error for a name that is not in `known`, the series of a scene, with the nearest names and the
-    reason.
-    """
+    """Return the error for a name that is not in `known`, with the nearest names and the reason."""
     if not isinstance(name, str):
         return UnknownNameError(f"nothing is named {message(name)}", hint="a name is a text: run.names lists all")
     if name in parameters:
@@ -409,9 +401,7 @@ def unknown_series(
 
 
 def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
-    """Return names of series of a scene without repetitions. Raises UnknownNameError for a name that the scene
-    lacks.
-    """
+    """Return names of series without repetitions. Raises UnknownNameError for a name that the scene lacks."""
     known, expected = catalogue(source), list(names)
     for name in expected:
         if not isinstance(name, str) or name not in known:

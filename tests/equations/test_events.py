@@ -94,15 +94,15 @@ int main(void)
     static unsigned char is_given[1000];
     Parameters p;
     double t, q[N_Q], v[N_Q], a[N_Q];
-    Aside aside;
+    RhsOutputs rhs;
     gudgeon_prepare(given, is_given, (double *)&p);
     while (scanf("%lf", &t) == 1) {
         for (int k = 0; k < 2 * N_Q; k++)
             if (scanf("%lf", k < N_Q ? &q[k] : &v[k - N_Q]) != 1)
                 return 1;
-        (void)dynamics(t, q, v, &(Memory){0}, &p, a, &aside);
+        (void)dynamics(t, q, v, &(DiscreteState){0}, &p, a, &rhs);
         for (int i = 0; i < N_USER_EVENTS; i++)
-            printf("%.17g ", aside.event[i]);
+            printf("%.17g ", rhs.event[i]);
     }
     return 0;
 }
@@ -122,13 +122,13 @@ def values(source: KernelSource, driver: str, states: np.ndarray, folder: Path) 
 
 IN_TREE = DRIVER.replace("N_Q; k++", "N_X; k++").replace("k < N_Q", "k < N_X").replace("k - N_Q", "k - N_X")
 BOTH = """\
-        Aside tree;
+        RhsOutputs tree;
         double all_q[N_Q], all_v[N_Q];
         expand(t, q, v, &p, all_q, all_v);
-        (void)dynamics(t, all_q, all_v, &(Memory){0}, &p, a, &aside);
-        (void)reduced_dynamics(t, q, v, &(Memory){0}, &p, a, &tree);
+        (void)dynamics(t, all_q, all_v, &(DiscreteState){0}, &p, a, &rhs);
+        (void)reduced_dynamics(t, q, v, &(DiscreteState){0}, &p, a, &tree);
         for (int i = 0; i < N_USER_EVENTS; i++)
-            printf("%.17g %.17g ", aside.event[i], tree.event[i]);
+            printf("%.17g %.17g ", rhs.event[i], tree.event[i]);
     }
 """
 

@@ -168,7 +168,7 @@ def test_a_contact_that_is_missed(tmp_path: Path) -> None:
         right,
         tmp_path,
         ("engine/watch/events.c", "is_gap ? has_zero(run", "is_gap ? run->contacts.onsets % 3 != 2 && has_zero(run"),
-        ("engine/methods/step_length.c", "!run->memory.latch[i].closed && joint->deltadot < 0.0)", "0)"),
+        ("engine/methods/step_length.c", "!run->discrete.contact[i].closed && joint->deltadot < 0.0)", "0)"),
     )
     found = reported(wrong, 0.05)
     assert found

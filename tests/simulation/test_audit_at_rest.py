@@ -130,7 +130,7 @@ def test_the_power_of_friction_that_is_wrong(tmp_path: Path) -> None:
         run = right.simulate(3.0, output=100, parameters={"start.set.block.x": start}, audit="full")
         assert not audit_notes(run)
         assert "power" in {one.check for one in run.diagnostics.audit}
-    line = next(x for x in right.source.files["dynamics.c"].splitlines() if "aside->power[1] = " in x)
+    line = next(x for x in right.source.files["dynamics.c"].splitlines() if "rhs->power[1] = " in x)
     broken = mutant(right, tmp_path, ("dynamics.c", line, line.replace("power[1] = ", "power[1] = 1e-3 + ")))
     assert "check power" in reported(broken, 3.0)
 

@@ -91,7 +91,7 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     ranges = part_of(right.source.files["watched.c"], "watched_ranges", heading, "}\n")
     values = part_of(right.source.files["reduced.c"], "void watched_functions", heading, "\n}")
     garbage = "    out[0] = out[1] = (Range){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
-    stale = "    aside->g[0] = aside->g[1] = -1.0;"
+    stale = "    rhs->g[0] = rhs->g[1] = -1.0;"
     wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
     specified = reported(wrong, 6.0)  # whichever comes first
     assert "check branch" in specified or "changes its side without end" in specified
