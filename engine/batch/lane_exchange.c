@@ -11,7 +11,7 @@ enum { ABREAST = LANES };
 enum { ABREAST = 4 * LANES };
 #endif
 
-/* CombinedObserver runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
+/* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *b;
     const Single *one;

@@ -1,6 +1,6 @@
 /*
  * The time loop of one run and of ensembles, one run after the other: start, steps and report of each without Python.
- * CombinedObserver threads may work on one Batch, each on its own runs with its own Integrator. Results do not depend
+ * Several threads may work on one Batch, each on its own runs with its own Integrator. Results do not depend
  * on the other runs.
  */
 #include "batch.h"

@@ -84,7 +84,7 @@ static void perturb_position(const KinematicRun *run, const Position *here, int 
 
 /*
  * Return by how much rounding errors of positions and velocities change event function i; 0 where they include a pole.
- * CombinedObserver combinations of signs are tried.
+ * Several combinations of signs are tried.
  */
 static double event_uncertainty(const KinematicRun *run, SampledPosition *here, int i)
 {

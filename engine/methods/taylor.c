@@ -16,7 +16,7 @@ static int taylor_order(double fraction)
     return order > TAYLOR_ORDERS ? TAYLOR_ORDERS : order < MIN_TAYLOR_ORDER ? MIN_TAYLOR_ORDER : (int)order;
 }
 
-/* CombinedObserver components of the state in one vector register. */
+/* Several components of the state in one vector register. */
 typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
 /* Do nothing: for one run, step->error is tested after the step. */
 static void reject_late(const Integrator *run, const Step *step) { (void)run, (void)step; }

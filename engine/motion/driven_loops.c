@@ -208,7 +208,7 @@ static inline int follow_chains(double t, const DiscreteState *discrete, const P
 }
 
 /*
- * Build all that the tree's kernels read at (t, y). CombinedObserver stages of a method share a time. A positive status
+ * Build all that the tree's kernels read at (t, y). Several stages of a method share a time. A positive status
  * is a closure of a driven loop, numbered after the TREE_PIVOTS pivots.
  */
 static inline int tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, TreeState *at)
