@@ -55,7 +55,7 @@ def test_counts_come_first_and_are_in_no_digest() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "place", "value", "told"),
+    ("name", "place", "value", "message"),
     [
         ("state", (1, 0), 1, "1 instead of 0 from 0.25 s on"),
         ("memory", (3, 0), 2.0, "2.0 instead of nan from 0.75 s on"),

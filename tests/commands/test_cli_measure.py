@@ -28,7 +28,7 @@ PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pend
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "message"),
     [
         (("--range", "c=1mm..2mm"), "there is no --box"),
         (("--box", "2"), "give its edges"),

@@ -90,7 +90,7 @@ def test_the_reference_has_the_parameters_of_the_scene(call: Gudgeon, tmp_path: 
 
 @needs_compiler
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "message"),
     [
         (("--scene", "wron"), "worn"),
         (("--set", "cc=1mm"), "cc"),

@@ -84,7 +84,7 @@ def test_masses_are_not_asked_for(call: Gudgeon, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("four_bar --scene worn", "no scene 'worn'"),
         ("four_bar --set bodies.crank.len=3mm", "nearest: bodies.crank.length"),

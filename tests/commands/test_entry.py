@@ -210,7 +210,7 @@ def test_errors_are_red_where_somebody_looks_and_wants_it(
     assert capsys.readouterr().err == ("\033[31merror:\033[0m no\n" if red else "error: no\n")
 
 
-@pytest.mark.parametrize("looked_at", [True, False])
+@pytest.mark.parametrize("is_terminal", [True, False])
 def test_a_bar_is_shown_on_a_terminal_alone(
     is_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -216,7 +216,7 @@ def test_bristles_that_have_gone_far_slide() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("lugre --plot x.svg --set viscosity=1", "unknown key of lugre 'viscosity'"),
         ("flores --plot x.svg --set restitution=1.5", "restitution is 1.5: expected <= 1"),

@@ -61,7 +61,7 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("my-engine", "my_engine"),
         ("engine.yml", "without .yaml"),

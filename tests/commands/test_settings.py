@@ -115,7 +115,7 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
 
 @pytest.mark.parametrize("command", ["check", "run"])
 @pytest.mark.parametrize(
-    ("setting", "told"),
+    ("setting", "message"),
     [
         ("gains=-1", "baumgarte.alpha is -1 1/s: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
         ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300 1/s: its square is no number"),

@@ -141,7 +141,7 @@ def test_restitution_of_the_normal_law(given_restitution: float, delivered: floa
 
 
 @pytest.mark.parametrize(("name", "numbers"), [("hertz", {"stiffness": 1e9}), ("liu", {})])
-@pytest.mark.parametrize("asked", [1e-3, 0.05, 0.3, 0.9, 0.9999, 1.0])
+@pytest.mark.parametrize("requested", [1e-3, 0.05, 0.3, 0.9, 0.9999, 1.0])
 def test_the_exact_damping_is_the_identitys(name: str, numbers: dict[str, float], requested: float) -> None:
     """1 − a e = (1 + a) e^{−a(1 + e)}, which is the identity for a > 0."""
     law = Evaluator(name, {"restitution": requested, **numbers}, dissipation="exact")

@@ -143,7 +143,7 @@ def changed(k: int, **values: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(
-    ("data", "told"),
+    ("data", "message"),
     [
         ([], "no joints"),
         ({"joints": []}, "no joints"),

@@ -232,7 +232,7 @@ def test_an_input_at_a_floating_pin_turns_one_link_against_the_other(tmp_path: P
 
 
 @pytest.mark.parametrize(
-    ("joint", "told"), [("4A,A,0,0,0", "A: it is an input and joins"), ("2A,A,0,0,0", "A: it is an input and joins")]
+    ("joint", "message"), [("4A,A,0,0,0", "A: it is an input and joins"), ("2A,A,0,0,0", "A: it is an input and joins")]
 )
 def test_no_input_is_left_out(joint: str, message: str) -> None:
     """An input that joins nothing is refused, and so is one among three links."""

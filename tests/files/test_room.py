@@ -213,7 +213,7 @@ def test_a_study_that_does_not_fit_on_the_disk(tmp_path: Path) -> None:
 @needs_compiler
 @pytest.mark.usefixtures("small")
 @pytest.mark.parametrize(
-    ("output", "told"),
+    ("output", "message"),
     [
         ("10000000", "not enough memory: 2 scenes of 10000001 samples would take "),
         ("100000", "No space left on device: the results, 2 scenes of 100001 samples, would take "),

@@ -147,7 +147,7 @@ def make(path: Path, what: str) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("what", "told"),
+    ("what", "message"),
     [
         ("pipe", "a pipe"),
         ("folder", "a folder"),
@@ -173,7 +173,7 @@ def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, message: 
 
 
 @pytest.mark.parametrize(
-    ("path", "told"),
+    ("path", "message"),
     [
         ("", "cannot write '': the name is empty\n"),
         (".", r"cannot write \.: it is a folder"),

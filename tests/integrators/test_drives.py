@@ -223,7 +223,7 @@ SAMPLED = [(*jump, output) for jump in JUMPS for output in (10, 77)]  # with a s
 
 
 @pytest.mark.parametrize(
-    ("value", "told", "time", "output"),
+    ("value", "message", "time", "output"),
     slow_rows_but([(*JUMPS[0], 77), (*JUMPS[4], 10), (*JUMPS[4], 77)], SAMPLED),
 )
 def test_without_freedom_too_a_rate_that_is_none_ends_the_run(

@@ -343,7 +343,7 @@ def test_a_run_goes_on_in_contact(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("numbers", "told"),
+    ("numbers", "message"),
     [
         ({"tilt": 3.0}, "tilt turns the slider by 171.9 deg"),
         ({"tilt": -math.pi / 2}, "tilt turns the slider by 90 deg"),

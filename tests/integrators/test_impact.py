@@ -94,7 +94,7 @@ def test_damping_factors_are_those_of_their_authors(name: str) -> None:
     assert (factor(1.0 - 1e-6) - factor(1.0 + 1e-6)) / 2e-6 == pytest.approx(slope, rel=1e-8, abs=1e-15)
 
 
-@pytest.mark.parametrize("asked", [0.05, 0.5, 0.93])
+@pytest.mark.parametrize("requested", [0.05, 0.5, 0.93])
 def test_the_exact_damping_delivers_what_is_asked(requested: float) -> None:
     simulation = gudgeon.load("bouncing_ball", "damped", overrides={"contacts.damped.normal.dissipation": "exact"})
     run = impact(simulation, 3e-3, 1e-7, restitution=requested)

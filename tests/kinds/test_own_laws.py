@@ -192,7 +192,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "told"), WRONG)
+@pytest.mark.parametrize(("old", "new", "message"), WRONG)
 def test_what_it_may_not_be_is_told(
     old: str, new: str, message: str, disc: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

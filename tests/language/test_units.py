@@ -163,7 +163,7 @@ def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "column", "told"),
+    ("text", "column", "message"),
     [
         ("1 N^m", 3, "'m' is not a power of the unit N"),
         ("1 mm^1.5/s^x", 10, "'x' is not a power of the unit s"),

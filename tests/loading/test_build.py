@@ -238,7 +238,7 @@ def test_ctrl_c_ends_the_compilers_and_what_they_started(
         os.close(running)
 
 
-@pytest.mark.parametrize(("name", "said"), [("", "no C compiler found"), ("no-such-cc -O0", "'no-such-cc'")])
+@pytest.mark.parametrize(("name", "specified"), [("", "no C compiler found"), ("no-such-cc -O0", "'no-such-cc'")])
 def test_no_compiler_names_what_to_install(
     cache: Cache, monkeypatch: pytest.MonkeyPatch, name: str, specified: str
 ) -> None:

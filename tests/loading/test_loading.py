@@ -240,7 +240,7 @@ def test_committed_kernels_need_no_generator(cache: Cache, generator: list[objec
 
 
 @pytest.mark.parametrize(
-    ("data", "scene", "asked"),
+    ("data", "scene", "requested"),
     [
         (DATA + b"#", "ideal", {}),  # another file
         (DATA, "dry", {}),  # a scene that is not there

@@ -38,7 +38,7 @@ def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
 
 
 @pytest.mark.parametrize(
-    ("values", "told"),
+    ("values", "message"),
     [
         (np.ma.array([1.0, 2.0], mask=[False, True]), r"x\[1\] is masked"),
         ([1.0, np.ma.masked], r"x\[1\] is masked"),
@@ -193,7 +193,7 @@ def test_no_other_length_of_a_start(ball: gudgeon.Simulation, method: str) -> No
 
 @needs_compiler
 @pytest.mark.parametrize(
-    ("output", "told"),
+    ("output", "message"),
     [
         ([0.0, 0.2, 0.1], "increasing times.*0.1 s after 0.2 s"),
         ([0.0, 0.0], "increasing"),

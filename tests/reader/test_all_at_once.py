@@ -61,7 +61,7 @@ TOGETHER: list[tuple[Patches, tuple[str, ...]]] = [
 ]
 
 
-@pytest.mark.parametrize(("patches", "told"), TOGETHER)
+@pytest.mark.parametrize(("patches", "message"), TOGETHER)
 def test_they_are_told_together(patches: Patches, message: tuple[str, ...]) -> None:
     read_mechanism(TEXT.encode(), "m.yaml")
     with pytest.raises(InputErrors) as caught:
@@ -74,7 +74,7 @@ def test_they_are_told_together(patches: Patches, message: tuple[str, ...]) -> N
 
 
 @pytest.mark.parametrize(
-    ("patches", "told"),
+    ("patches", "message"),
     [
         ((("0.3 mm, zero", "0.3 lengths, zero"),), "lengths"),  # and not the clearance, which follows it
         ((("0.3 kg", "-1 kg"),), "mass is -1 kg"),  # once, and not of each scene

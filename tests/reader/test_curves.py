@@ -79,7 +79,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("curve", "value", "told"), REFUSED, ids=[message[:25] for _, _, message in REFUSED])
+@pytest.mark.parametrize(("curve", "value", "message"), REFUSED, ids=[message[:25] for _, _, message in REFUSED])
 def test_what_is_refused(tmp_path: Path, curve: str, value: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         read(tmp_path, curve, value)
@@ -104,7 +104,7 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("data", "told"),
+    ("data", "message"),
     [
         (b"0,1\n1,two\n", r"lift\.csv:2:3: 'two' is no number"),
         (b"x,y\nx,y\n0,1\n", r"lift\.csv:2:1: 'x' is no number"),

@@ -244,7 +244,7 @@ def test_none_is_no_law() -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "kind", "told"),
+    ("old", "new", "kind", "message"),
     [
         ("name: plain", "name: ‸plain-one", BadNameError, "such as plain_one"),
         ("forces:\n", "‸springs:\n", UnknownKeyError, "'springs' is called forces here"),

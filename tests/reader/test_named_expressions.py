@@ -139,7 +139,7 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
 ]
 
 
-@pytest.mark.parametrize(("text", "by", "error", "told", "at"), MISTAKES)
+@pytest.mark.parametrize(("text", "by", "error", "message", "at"), MISTAKES)
 def test_mistakes_are_told_where_they_are(text: str, by: str, error: type[InputError], message: str, at: str) -> None:
     wrong = patched(LED, (text, by))
     with pytest.raises(InputError) as raised:

@@ -194,7 +194,7 @@ def swapped(values: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("what", "change", "told"),
+    ("what", "change", "message"),
     [
         ("times/time", swapped, "the times of samples do not ascend"),
         ("series/time", swapped, "the times of samples do not ascend"),

@@ -46,7 +46,7 @@ def assert_same(one: Result, other: Result) -> None:
     assert dict(one.parameters) == dict(other.parameters) and dict(one.constants) == dict(other.constants)
 
 
-@pytest.mark.parametrize("asked", ["before", "after"])
+@pytest.mark.parametrize("requested", ["before", "after"])
 @pytest.mark.parametrize(("name", "scene", "options"), SCENES)
 def test_a_result(name: str, scene: str, options: dict[str, Any], requested: str, tmp_path: Path) -> None:
     run = gudgeon.load(name, scene=scene).simulate(0.012, output=12, **options)

@@ -47,7 +47,7 @@ def test_every_film_law_can_be_held_against_it(law: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("how", "told"),
+    ("how", "message"),
     [
         ({"law": "pinkus"}, "did you mean 'pinkus_sternlicht'"),
         ({"law": "hertz"}, "unknown film law"),

@@ -119,7 +119,7 @@ SHAPE = {"radius": 0.01, "length": 0.02, "clearance": 1e-5, "viscosity": 0.1}
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         ({"length": -0.02}, "length is -0.02: expected a number above zero"),
         ({"radius": 0}, "above zero"),
@@ -138,7 +138,7 @@ def test_bearings_that_are_none(change: dict[str, Any], message: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         ({"eccentricity": (30e-6, 0.0)}, "1 times the clearance"),
         ({"eccentricity": (1.0, 2.0, 3.0)}, "eccentricity"),

@@ -24,7 +24,7 @@ pytestmark = needs_compiler
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "message"),
     [
         ({"rtol": "x"}, "rtol is 'x': expected a share from 1e-14 to 1"),
         ({"rtol": float("nan")}, "expected a share"),

@@ -89,7 +89,7 @@ def test_numbers_that_a_state_does_not_fit_fail_their_run() -> None:
 
 
 @pytest.mark.parametrize(
-    ("starts", "told"),
+    ("starts", "message"),
     [
         (lambda: begun()[:2], "start has 2 states for 3 runs"),
         (lambda: [*begun()[:2], replace(begun()[2], t=0.1)], "have their times together"),

@@ -425,7 +425,7 @@ def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
 
 
 @pytest.mark.parametrize(
-    ("code", "rate", "told"),
+    ("code", "rate", "message"),
     [
         (2, np.nan, r"start.memory\[0\] of joint \w+ is nan while start.state\[0\] is 2: expected the rate"),
         (1, np.nan, "is nan while"),
@@ -446,7 +446,7 @@ def test_a_state_that_contradicts_itself(code: int, rate: float, message: str) -
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "message"),
     [
         (["map", "slider_crank", "--scene", "dry", "--axis", "c=1..2:0"], "a whole number of values after ':'"),
         (["map", "slider_crank", "--scene", "dry", "--axis", "c=1..2:"], "a whole number of values after ':'"),

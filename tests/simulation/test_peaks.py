@@ -240,7 +240,7 @@ def test_files(pump: dict[str, Simulation], tmp_path: Path) -> None:
     assert "extremes" not in plain.diagnostics.to_json() and not plain.to_xarray("peaks").sizes.get("row", 0)
 
 
-@pytest.mark.parametrize("chosen", [{}, {"step": 2e-6}, {"method": "rodas5p"}], ids=["auto", "rk4", "rodas5p"])
+@pytest.mark.parametrize("selected", [{}, {"step": 2e-6}, {"method": "rodas5p"}], ids=["auto", "rk4", "rodas5p"])
 def test_who_looks_changes_nothing(pump: dict[str, Simulation], selected: dict[str, Any]) -> None:
     seen, unseen = (pump["worn"].simulate(0.01, output=50, peaks=peaks, **selected) for peaks in (["piston.ax"], None))
     for name in ("q", "v", "work", "memory", "state", "impacts"):

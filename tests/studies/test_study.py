@@ -337,7 +337,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
 
 
 @pytest.mark.parametrize(
-    ("told", "kind"),
+    ("message", "kind"),
     [
         ("a.R is -0.0001 m with omega = 15.7 1/s, c = -1e-4 m: it is positive", "a.R is … m: it is positive"),
         ("a.R is 2 m with c = 3 m: it is positive\n more", "a.R is … m: it is positive"),

@@ -130,7 +130,7 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    ("medians", "off", "told"),
+    ("medians", "off", "message"),
     [
         ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: ours are off by 6 % or less for half of them"),
         ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: ours is off by 5 %"),
