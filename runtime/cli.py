@@ -17,7 +17,7 @@ from typer.models import CommandInfo
 
 from gudgeon.commands import completion
 from gudgeon.commands import options as opt
-from gudgeon.commands.outcome import message, print_warnings_once
+from gudgeon.commands.outcome import print_warnings_once, report_errors
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.language.deprecations import STRESS
 
@@ -53,7 +53,7 @@ def _root(version: opt.Version = False) -> None:
 
 
 @app.command()
-@message
+@report_errors
 def run(
     file: opt.File,
     scene: opt.Scenes = None,
@@ -117,7 +117,7 @@ def run(
 
 
 @app.command()
-@message
+@report_errors
 def check(
     file: opt.File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
@@ -137,7 +137,7 @@ def check(
 
 
 @app.command()
-@message
+@report_errors
 def emit(
     file: opt.File,
     folder: Annotated[
@@ -160,7 +160,7 @@ def emit(
 
 
 @app.command()
-@message
+@report_errors
 def equations(
     file: opt.File,
     target: opt.Pages,
@@ -179,7 +179,7 @@ def equations(
 
 
 @app.command("laws")
-@message
+@report_errors
 def force_laws(
     name: opt.LawName = None,
     plot: opt.Plot = None,
@@ -197,7 +197,7 @@ def force_laws(
 
 
 @app.command()
-@message
+@report_errors
 def new(
     name: opt.Name,
     like: opt.Like = None,
@@ -215,7 +215,7 @@ def new(
 
 
 @app.command("import")
-@message
+@report_errors
 def import_(
     file: opt.Foreign, target: opt.Mechanism = None, files_as_json: opt.FilesJson = False, quiet: opt.Quiet = False
 ) -> int:
@@ -229,7 +229,7 @@ def import_(
 
 
 @app.command()
-@message
+@report_errors
 def exercise(
     file: opt.File,
     target: opt.Sheet,
@@ -252,7 +252,7 @@ def exercise(
 
 
 @app.command()
-@message
+@report_errors
 def draw(
     file: opt.File,
     scene: opt.OneScene = "ideal",
@@ -276,7 +276,7 @@ def draw(
 
 
 @app.command()
-@message
+@report_errors
 def schema(
     study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: opt.Laws = None
 ) -> int:
@@ -290,7 +290,7 @@ def schema(
 
 
 @app.command()
-@message
+@report_errors
 def bench(
     file: opt.File,
     scene: opt.Scenes = None,
@@ -324,7 +324,7 @@ def bench(
 
 @app.command("stress", hidden=True)
 @app.command("map")
-@message
+@report_errors
 def verdicts(
     context: typer.Context,
     file: opt.File,
@@ -363,7 +363,7 @@ def verdicts(
 
 
 @app.command()
-@message
+@report_errors
 def study(
     file: opt.StudyFile,
     finished: opt.Finished = None,

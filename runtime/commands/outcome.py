@@ -28,7 +28,7 @@ def complain(error: GudgeonError) -> None:
     print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 
-def message(command: Command) -> Command:
+def report_errors(command: Command) -> Command:
     """Return the command with gudgeon's errors printed as one line; other exceptions keep their traceback.
 
     The wrapper takes further keyword arguments. `laws`: files of user-defined laws that are registered first.

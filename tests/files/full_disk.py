@@ -82,7 +82,7 @@ def table_and_figure(room: Path) -> Act:
 
     simulation = gudgeon.load("pendulum")
     found = [bench(simulation, [0.01 / (k + 1)], [1e-6], t_end=0.1, quick=True, methods=["rk4"]) for k in range(2)]
-    return lambda folder, k: message(lambda: show_bench(simulation.source, [found[k]], folder / "x.csv", None))
+    return lambda folder, k: report_errors(lambda: show_bench(simulation.source, [found[k]], folder / "x.csv", None))
 
 
 @task
@@ -92,7 +92,7 @@ def figure(room: Path) -> Act:
 
     run = gudgeon.load("pendulum").simulate(1.0)
     pictures = [figure({"ideal": run}, {}, [name]) for name in list(run.names)[:2]]
-    return lambda folder, k: message(lambda: save_figure(pictures[k], folder / "x.png"))
+    return lambda folder, k: report_errors(lambda: save_figure(pictures[k], folder / "x.png"))
 
 
 @task
@@ -105,7 +105,7 @@ def save(room: Path) -> Act:
     runs = [pendulum.simulate(1.0 + k, output=200 * (k + 1)) for k in range(2)]
     for k, run in enumerate(runs):
         run.save(folder / f"{k}.nc")
-    return lambda folder, k: message(lambda: runs[k].save(folder / "run.nc"))
+    return lambda folder, k: report_errors(lambda: runs[k].save(folder / "run.nc"))
 
 
 @task
@@ -117,13 +117,13 @@ def study(room: Path) -> Act:
     resolve.BLOCK = 1
     file = {"mechanism": "pendulum", "parameters": {"g": [5, 7, 9]}, "t_end": "0.1 s", "output": 500, "keep": ["bob.x"]}
     gudgeon.study(file)
-    return lambda folder, k: message(lambda: gudgeon.study(file, folder / f"{k}.study").save(folder / "study.nc"))
+    return lambda folder, k: report_errors(lambda: gudgeon.study(file, folder / f"{k}.study").save(folder / "study.nc"))
 
 
 @task
 def compile(room: Path) -> Act:
     """A cache without room: the library is had all the same, from a temporary folder, and that is told."""
-    return lambda folder, k: message(lambda: compiled(folder, k))
+    return lambda folder, k: report_errors(lambda: compiled(folder, k))
 
 
 @task
@@ -132,7 +132,7 @@ def compile_nowhere(room: Path) -> Act:
 
     def act(folder: Path, k: int) -> None:
         tempfile.tempdir = os.environ["TMPDIR"] = str(folder / "tmp")
-        message(lambda: compiled(folder, k))
+        report_errors(lambda: compiled(folder, k))
 
     return act
 
@@ -146,11 +146,11 @@ def compiled(folder: Path, k: int) -> None:
     assert all(is_whole(entry) for entry in folder.glob("cache/libraries/*"))
 
 
-def message(act: Callable[[], object]) -> None:
+def report_errors(act: Callable[[], object]) -> None:
     """As the command line does: an error of ours is a sentence and an exit code."""
-    from gudgeon.commands.outcome import message
+    from gudgeon.commands.outcome import report_errors
 
-    message(act)()
+    report_errors(act)()
 
 
 def child(act: Callable[[], object]) -> tuple[int, str]:
