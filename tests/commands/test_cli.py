@@ -294,7 +294,7 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
 def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch) -> None:
     words = line.replace("PUMP", pump).split()
     assert call(*words).stdout
-    monkeypatch.setattr("gudgeon.commands.progress.looked_at", lambda: True)
+    monkeypatch.setattr("gudgeon.commands.progress.is_terminal", lambda: True)
     files = {path.name for path in Path().rglob("*") if path.is_file()}
     done = call(*words, "--quiet")
     assert (done.exit_code, done.stdout, done.stderr) == (0, "", "")

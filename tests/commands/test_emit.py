@@ -24,7 +24,7 @@ from tests.tiny import tiny
 def source(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[KernelSource]:
     """What is emitted next, for scenes called ideal and dry; no mechanism is read."""
     current = [tiny()]
-    monkeypatch.setattr(emit, "chosen_scenes", lambda mechanism, expected: expected or ("ideal", "dry"))
+    monkeypatch.setattr(emit, "select_scenes", lambda mechanism, expected: expected or ("ideal", "dry"))
     monkeypatch.setattr(emit, "find_mechanism", Path)
     monkeypatch.setattr(emit, "read_bytes", lambda file: b"")
     monkeypatch.setattr(emit, "kernel_source", lambda data, file, scene: (current[0], "cache"))
@@ -213,7 +213,7 @@ def test_scenes_that_differ_in_capitals_alone_share_no_folder(
     names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """There are file systems that know no capitals: one would remove what the other wrote."""
-    monkeypatch.setattr("gudgeon.commands.emit.chosen_scenes", lambda *_: names)
+    monkeypatch.setattr("gudgeon.commands.emit.select_scenes", lambda *_: names)
     with pytest.raises(InputError, match=f"scene '{names[1]}' cannot be emitted"):
         emit_c("pendulum", tmp_path / "c", ())
     assert not (tmp_path / "c").exists()

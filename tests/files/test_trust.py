@@ -138,11 +138,11 @@ def test_a_group_of_the_user_alone_may_write_above(tmp_path: Path, monkeypatch: 
     """As with a umask of 002, where each user has a group; not the cache folder itself, as ssh has it."""
     (tmp_path / "home" / "cache").mkdir(parents=True, mode=0o700)
     (tmp_path / "home").chmod(0o775)
-    monkeypatch.setattr(trust, "_own_group", lambda group: True)
+    monkeypatch.setattr(trust, "_is_own_group", lambda group: True)
     check_path(tmp_path / "home" / "cache")
     with pytest.raises(Untrusted):
         check_path(tmp_path / "home")
-    monkeypatch.setattr(trust, "_own_group", lambda group: False)
+    monkeypatch.setattr(trust, "_is_own_group", lambda group: False)
     with pytest.raises(Untrusted, match="the group"):
         check_path(tmp_path / "home" / "cache")
 
@@ -157,7 +157,7 @@ def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
         check_path(root)
         assert is_whole(root / "models" / "one")
     give(root.parent)
-    monkeypatch.setattr(trust, "_nobody", lambda: OTHER)
+    monkeypatch.setattr(trust, "_overflow_user", lambda: OTHER)
     with pytest.raises(Untrusted):
         check_path(root)
     monkeypatch.setattr(trust, "_root_has_no_name", lambda: True)

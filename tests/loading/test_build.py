@@ -342,8 +342,8 @@ def test_a_folder_that_forbids_running_code(
             raise ImportError("failed to map segment from shared object: Operation not permitted")
         return real(entry, cdef)
 
-    monkeypatch.setattr(build, "_open", open_elsewhere)
-    monkeypatch.setattr(build, "_noexec", lambda folder: folder == cache.root)
+    monkeypatch.setattr(build, "_open_entry", open_elsewhere)
+    monkeypatch.setattr(build, "_is_noexec", lambda folder: folder == cache.root)
     with pytest.warns(RuntimeWarning, match="(?s)noexec.*GUDGEON_CACHE") as message:
         for _ in range(2):
             monkeypatch.setattr(build, "_libraries", {})
@@ -359,8 +359,8 @@ def test_no_folder_where_code_may_run_says_what_to_set(cache: Cache, monkeypatch
     def refuse(entry: Path, cdef: str) -> Library:
         raise ImportError("failed to map segment from shared object")
 
-    monkeypatch.setattr(build, "_open", refuse)
-    monkeypatch.setattr(build, "_noexec", lambda folder: True)
+    monkeypatch.setattr(build, "_open_entry", refuse)
+    monkeypatch.setattr(build, "_is_noexec", lambda folder: True)
     with pytest.raises(BuildError, match="(?s)failed to map.*TMPDIR"):
         compile_kernels(tiny(13))
 
@@ -369,7 +369,7 @@ def test_a_library_that_loads_nowhere_is_a_build_error(cache: Cache, monkeypatch
     def refuse(entry: Path, cdef: str) -> Library:
         raise ImportError("wrong ELF class")
 
-    monkeypatch.setattr(build, "_open", refuse)
+    monkeypatch.setattr(build, "_open_entry", refuse)
     with pytest.raises(BuildError, match="wrong ELF class"):
         compile_kernels(tiny(11))
 

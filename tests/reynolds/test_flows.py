@@ -47,7 +47,7 @@ def test_ctrl_c_does_not_wait_for_a_factorization(monkeypatch: pytest.MonkeyPatc
     def singular(*_: object, **__: object) -> None:
         raise RuntimeError
 
-    monkeypatch.setattr(cavitations, "LONG", 0)
+    monkeypatch.setattr(cavitations, "MIN_THREADED_UNKNOWNS", 0)
     monkeypatch.setattr(cavitations, "splu", long)
     with pytest.raises(KeyboardInterrupt):
         film("reynolds")

@@ -93,7 +93,7 @@ def test_run_with_horizon_ends_with_130_and_keeps_the_run(
 @pytest.mark.parametrize("method", ["scipy:Radau", "sundials:cvode"])
 def test_a_cross_check_stores_its_start_first(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C while its package is imported: a partial result, as of any other method."""
-    monkeypatch.setattr(python_driver, "_stepper", ctrl_c_at(1, python_driver._make_stepper))
+    monkeypatch.setattr(python_driver, "_make_stepper", ctrl_c_at(1, python_driver._make_stepper))
     dry = press("dry")
     run = dry.simulate(0.01, method=method)
     assert run.diagnostics.interrupted and len(run.t) == 1 and run.t[0] == 0.0

@@ -129,7 +129,7 @@ def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pyt
     ways: list[Any] = [origins._compute_kinematic, lambda *arguments: {}]
     for follow in ways:
         monkeypatch.setattr(origins, "_recent", origins.Recent())
-        monkeypatch.setattr(origins, "_followed", follow)
+        monkeypatch.setattr(origins, "_compute_kinematic", follow)
         found.append(gudgeon.study(study).dataset)
     assert (found[0]["x"] == found[1]["x"]).all() and float(found[0]["x"].min()) > 0.0
     np.testing.assert_allclose(found[0]["a"], found[1]["a"], rtol=1e-12)
@@ -144,7 +144,7 @@ def test_the_other_scene_is_run_once_for_its_own_numbers(monkeypatch: pytest.Mon
         made.extend(alike.columns["parameters.omega"][runs])
         return before(job, simulation, alike, runs, expected)
 
-    monkeypatch.setattr(origins, "_followed", count)
+    monkeypatch.setattr(origins, "_compute_kinematic", count)
     monkeypatch.setattr(origins, "_recent", origins.Recent())
     monkeypatch.setattr("gudgeon.studies.ensemble.resolve.BLOCK", 5)
     found = gudgeon.study(CRANK | {"scenes": "dry", "keep": []})
