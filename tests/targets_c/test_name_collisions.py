@@ -135,7 +135,7 @@ def drawn(seed: int) -> list[str]:
 
 
 def test_the_vocabulary_holds_what_code_has() -> None:
-    assert {"dynamics", "N_ROWS", "aside", "k", "omega_i", "weight", "rodas5p", "Lanes"} <= set(vocabulary())
+    assert {"dynamics", "N_ROWS", "rhs", "k", "omega_i", "weight", "rodas5p", "Lanes"} <= set(vocabulary())
     assert len(vocabulary()) > 2000
 
 
