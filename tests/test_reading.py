@@ -18,7 +18,7 @@ QUOTES = runpy.run_path(str(ROOT / "tools" / "quotes.py"))
 
 def test_its_quotations_are_current() -> None:
     """`make tables` renews them; every block of C or YAML is one."""
-    assert QUOTES["renewed"](PAGE) == PAGE
+    assert QUOTES["renew_quotes"](PAGE) == PAGE
     assert len(QUOTES["QUOTE"].findall(PAGE)) == PAGE.count("```c\n") + PAGE.count("```yaml\n") > 8
 
 

@@ -71,7 +71,7 @@ def row_kernels(model: Model) -> list[Kernel]:
         _jacobian_kernel(model),
         kernel(
             "velocity_rhs",
-            "Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.",
+            "Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).",
             "nu",
             False,
             lambda row: row.nu,
@@ -79,7 +79,7 @@ def row_kernels(model: Model) -> list[Kernel]:
         ),
         kernel(
             "acceleration_rhs",
-            "Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.",
+            "Right-hand side gamma of the accelerations, Phi_q a = gamma (closed linkage).",
             "gamma_rows",
             True,
             lambda row: row.gamma,
@@ -91,7 +91,7 @@ def row_kernels(model: Model) -> list[Kernel]:
 def _absence(model: Model, row: Row) -> str:
     """Return why an equation does not constrain the motion, for its comment; "" if it does."""
     if row.owner in model.scene.play:
-        return f"; open: {row.owner} has play in this scene"
+        return f"; open, {row.owner} has play"
     return "; redundant, left out" if row.name in model.redundancy.dropped else ""
 
 

@@ -1,7 +1,7 @@
 """Convert arrays to the form that C reads, and pass their memory to C; all arrays enter C through this module.
 
-`used` converts a list, a table column or any NumPy array to an aligned, C-contiguous array of native byte order, of
-the required shape and type. No number changes. `pointer` gives C the memory of such an array and of no other.
+`as_c_array` converts a list, a table column or any NumPy array to an aligned, C-contiguous array of native byte order,
+of the required shape and type. No number changes. `pointer` gives C the memory of such an array and of no other.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool
     raise ArrayError(f"an array of {array.dtype} for {kind}")
 
 
-def used(
+def as_c_array(
     values: ArrayLike,
     name: str,
     shape: Shape | None = None,
@@ -102,7 +102,7 @@ def _check_shape(array: NDArray[Any], name: str, shape: Shape) -> None:
 def _convert(
     values: ArrayLike, name: str, shape: Shape | None, dtype: np.dtype[Any], own: bool, most: int
 ) -> NDArray[Any]:
-    """Return values converted to a C-contiguous array of `dtype`; see `used` for the arguments."""
+    """Return values converted to a C-contiguous array of `dtype`; see `as_c_array` for the arguments."""
     _refuse_masked(values, name)
     try:
         given: NDArray[Any] = np.asarray(values)

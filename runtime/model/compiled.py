@@ -18,7 +18,7 @@ from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.language.argument_checks import number_of, time
-from gudgeon.model.arrays import FLAG, pointer, used
+from gudgeon.model.arrays import FLAG, as_c_array, pointer
 from gudgeon.model.choices import choices, filled_in
 from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, nothing
 
@@ -106,7 +106,7 @@ class CompiledModel:
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
         """Return all values of a run, (n_slots + n_derived,), from given parameters (n_slots,) and a mask."""
         shape = (len(self.source.slots),)
-        values, mask = used(given, "given", shape), used(is_given, "is_given", shape, dtype=FLAG)
+        values, mask = as_c_array(given, "given", shape), as_c_array(is_given, "is_given", shape, dtype=FLAG)
         p, selected = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
         for last in (False, True) if selected else (True,):  # what is chosen has numbers of this run
             self.lib.gudgeon_prepare(
@@ -123,8 +123,8 @@ class CompiledModel:
         slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
         selected = is_given[:, list(self._choices)].any()
         for rows in (slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)):
-            values = np.array(used(given[rows], "given", (None, slots)))
-            mask = np.array(used(is_given[rows], "is_given", (None, slots), dtype=FLAG))
+            values = np.array(as_c_array(given[rows], "given", (None, slots)))
+            mask = np.array(as_c_array(is_given[rows], "is_given", (None, slots), dtype=FLAG))
             values[:, zero], mask[:, zero] = 0.0, True
             if selected:
                 p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
@@ -229,7 +229,7 @@ class CompiledModel:
         if why := self.source.no_slopes:
             raise ValueError(f"this scene has no Jacobian: {why}")
         u = np.empty(2 * self.n + N_WORK + len(self.source.states))
-        right, eta, s = self.pointer(used(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
+        right, eta, s = self.pointer(as_c_array(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
         status = self.lib.gudgeon_newton(
             time(t), *self._state_pointers(y, memory, p), eta, s, right, self._output_pointer(u)
         )
@@ -270,8 +270,8 @@ class CompiledModel:
         """
         if memory is None:
             return self._free
-        array = used(memory, "memory")
-        return array if not self.n_memory and array.shape == (1,) else used(array, "memory", (self.n_memory,))
+        array = as_c_array(memory, "memory")
+        return array if not self.n_memory and array.shape == (1,) else as_c_array(array, "memory", (self.n_memory,))
 
     def check_pivot(
         self, status: int, t: float, pivots: tuple[str, ...] | None = None, p: ArrayLike | None = None
@@ -302,18 +302,18 @@ class CompiledModel:
 
     def _state_pointers(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
         """Return pointers to the arguments that every right-hand side takes."""
-        state = used(y, "y")
+        state = as_c_array(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
-            used(state, "y", (2 * self.n,))  # says so
+            as_c_array(state, "y", (2 * self.n,))  # says so
         return self.pointer(state), self.pointer(self.memory_array(memory)), self._parameter_pointer(p)
 
     def _parameter_pointer(self, p: ArrayLike) -> Any:
         """Return a pointer to the parameter values."""
-        return self.pointer(used(p, "p", (self.n_p,)))
+        return self.pointer(as_c_array(p, "p", (self.n_p,)))
 
     def _state(self, values: ArrayLike, name: str) -> Any:
         """Return a pointer to q or v."""
-        return self.pointer(used(values, name, (self.n,)))
+        return self.pointer(as_c_array(values, name, (self.n,)))
 
     def _output_pointer(self, array: Array) -> Any:
         """Return a pointer to an array that C fills."""

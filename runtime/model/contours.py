@@ -15,7 +15,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, SingularError, UnknownNameError
 from gudgeon.language.argument_checks import mapping, message
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dic
             raise UnknownNameError(f"contour: no contour at {message(joint)}", hint=hint)
         many = runs and np.ndim(depths) == 2
         shape = (None, known[joint].count) if many else (known[joint].count,)
-        found[joint] = used(depths, f"contour[{joint!r}]", shape, finite=True)
+        found[joint] = as_c_array(depths, f"contour[{joint!r}]", shape, finite=True)
     rows = {joint: len(own) for joint, own in found.items() if own.ndim == 2}
     if len(set(rows.values())) > 1 or 0 in rows.values():
         several = ", ".join(f"{joint} has {count}" for joint, count in rows.items())

@@ -21,7 +21,7 @@ from gudgeon.contract.boundary import (
     N_WORK,
 )
 from gudgeon.files.free_space import check_memory
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import CompiledModel
@@ -66,7 +66,7 @@ def evaluate(
     parts: Collection[str],
 ) -> Evaluation:
     """Return the quantities at N samples of one run; arguments as in CompiledModel.evaluate."""
-    time = used(t, "t", (None,))
+    time = as_c_array(t, "t", (None,))
     if compiled.beyond:  # velocities are those after a switching point; rounding hides the side of t
         time = np.asarray(time + around(time))
     N = len(time)
@@ -80,11 +80,11 @@ def evaluate(
     )
     out = _allocate(compiled, N, parts)
     failed, first, chunk, none = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
-    results, numbers = tuple(vars(out).values()), compiled.pointer(used(p, "p", (compiled.n_p,)))  # in C's order
+    results, numbers = tuple(vars(out).values()), compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))  # in C's order
     while first < N:
         before, count = perf_counter(), min(chunk, N - first)
         rows = slice(first, first + count)
-        given = [compiled.pointer(used(values[rows], name, (count, None))) for name, values in inputs]
+        given = [compiled.pointer(as_c_array(values[rows], name, (count, None))) for name, values in inputs]
         filled = [compiled.pointer(x[first:], written=True) if len(x) else none for x in results]
         status = compiled.lib.gudgeon_evaluate(count, compiled.pointer(time[rows]), *given, numbers, *filled, failed)
         if status:
@@ -112,9 +112,9 @@ def evaluate_runs(
     """
     N, time = sum(counts), t + around(t) if compiled.beyond else t
     shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
-    given = [compiled.pointer(used(values, name, shape)) for name, values, shape in shapes]
-    given.append(compiled.pointer(used(memory, "memory", (N, compiled.n_memory))))
-    numbers = compiled.pointer(used(p, "p", (len(counts), compiled.n_p)))
+    given = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
+    given.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
+    numbers = compiled.pointer(as_c_array(p, "p", (len(counts), compiled.n_p)))
     out, failed = _allocate(compiled, N, parts), compiled.ffi.new("long *")
     filled = [compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(out).values()]
     of_each = compiled.ffi.new("long[]", counts)
@@ -175,9 +175,9 @@ def _mark_indeterminate(compiled: CompiledModel, out: Evaluation) -> None:
 def _check_table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
     """Return checked values (rows, columns); arrays of doubles of any layout are not copied."""
     if type(values) is not np.ndarray or values.dtype != np.float64:
-        return used(values, name, (rows, columns))
-    used(values[:0] if values.ndim else values, name, (0, columns))
-    return values if len(values) == rows else used(values, name, (rows, columns))
+        return as_c_array(values, name, (rows, columns))
+    as_c_array(values[:0] if values.ndim else values, name, (0, columns))
+    return values if len(values) == rows else as_c_array(values, name, (rows, columns))
 
 
 def sample_bytes(compiled: CompiledModel) -> int:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.language.argument_checks import mapping, message
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import AT_ONCE, Array, CompiledModel
 from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, number, without_baumgarte
 from gudgeon.model.sizes import unresolved_clearances
@@ -209,7 +209,7 @@ def _read_column(name: str, values: Any) -> Column:
     if len(shape) != 1:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
-        return used(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
+        return as_c_array(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
     return list(values) if hasattr(values, "__iter__") else _read_column(name, np.asarray(values))  # by __array__ alone
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import is_whole, message, positive
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -61,7 +61,7 @@ class Bearing:
 
 def pair(values: ArrayLike, name: str) -> tuple[float, float]:
     """Return two finite components. Raises BadValueError."""
-    x, y = used(values, name, (2,), finite=True)
+    x, y = as_c_array(values, name, (2,), finite=True)
     return float(x), float(y)
 
 

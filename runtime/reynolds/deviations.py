@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
 from gudgeon.language.argument_checks import number_of, positive, text
 from gudgeon.language.names import unknown_name
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 from gudgeon.reynolds.bearing import Bearing, check_finite
 from gudgeon.reynolds.equation import Array
 from gudgeon.reynolds.solver import CELLS
@@ -89,7 +89,7 @@ def deviation(
     """
     ratio = positive(l_over_d, "l_over_d")
     own = _make_bearing(ratio)
-    at, alpha = used(eps, "eps", (None,), finite=True), used(motion, "motion", (None,), finite=True)
+    at, alpha = as_c_array(eps, "eps", (None,), finite=True), as_c_array(motion, "motion", (None,), finite=True)
     if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
     by_law = _evaluate_law(law, ratio, at, alpha, keys)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import instance
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, check_finite, choice
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
@@ -81,7 +81,7 @@ def table(
 def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
     """Return the three arrays as views of one shape. Raises BadValueError."""
     requested = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
-    given = [used(x, name, finite=True, most=MAX_STATES) for x, name in requested]
+    given = [as_c_array(x, name, finite=True, most=MAX_STATES) for x, name in requested]
     try:
         size = math.prod(np.broadcast_shapes(*(x.shape for x in given)))
     except ValueError:

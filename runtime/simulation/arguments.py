@@ -16,7 +16,7 @@ from gudgeon.integrators.batch import Drive
 from gudgeon.integrators.peers import driver
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.argument_checks import is_whole, message
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
@@ -92,7 +92,7 @@ def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
 
     Raises BadValueError for booleans, times that do not increase, and times before t0.
     """
-    times = used(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
+    times = as_c_array(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
         for k, value in enumerate(np.asarray(output, object)[:MOST_TRUTHS]):
             if isinstance(value, (bool, np.bool_)):

@@ -12,7 +12,7 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.files.free_space import check_memory
 from gudgeon.integrators.times import Times
 from gudgeon.language.quantities import holds_names
-from gudgeon.model.arrays import used
+from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameter_sets import column
 from gudgeon.model.parameters import spaced
@@ -24,7 +24,7 @@ Errors = dict[int, BadValueError]
 def rows_of_times(output: Any) -> list[Any] | None:
     """Return the output times as one row per run, of a list of rows or an array (n, N); None if all runs share them."""
     if getattr(output, "ndim", None) == 2:
-        return list(used(output, "output", (None, None), most=MOST_OUTPUT))
+        return list(as_c_array(output, "output", (None, None), most=MOST_OUTPUT))
     of_objects = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
     if not (isinstance(output, (list, tuple)) or of_objects):
         return None

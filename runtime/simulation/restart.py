@@ -20,7 +20,7 @@ from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.language.argument_checks import mapping, number_of, refuse, text
 from gudgeon.language.shown import counted
-from gudgeon.model.arrays import CODE, used
+from gudgeon.model.arrays import CODE, as_c_array
 from gudgeon.model.choices import choice_notes, specified
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import put
@@ -42,16 +42,16 @@ def own(source: KernelSource, start: Any) -> State:
         raise BadValueError(f"start is a {type(start).__name__}: expected a State", hint=f"give {hint}")
     _check_origin(source, start)
     n, clearances = len(source.coordinates), len(source.clearances)
-    state = used(start.state, "start.state", (clearances,), dtype=CODE, own=True)
+    state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, own=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    memory = used(start.memory, "start.memory", (source.n_memory,), own=True)
+    memory = as_c_array(start.memory, "start.memory", (source.n_memory,), own=True)
     _check_memory(source, state, memory)
     return replace(
         start,
         t=number_of(start.t, "start.t"),
-        q=used(start.q, "start.q", (n,), finite=True, own=True),
-        v=used(start.v, "start.v", (n,), finite=True, own=True),
+        q=as_c_array(start.q, "start.q", (n,), finite=True, own=True),
+        v=as_c_array(start.v, "start.v", (n,), finite=True, own=True),
         state=state,
         memory=memory,
     )

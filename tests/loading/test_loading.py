@@ -47,7 +47,7 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
         return tiny(scene=read[0], sha256=read[1])
 
     stands_in: dict[str, dict[str, Any]] = {
-        "reader.read": {"read_scene": read_scene, "touches": lambda *_: True},
+        "reader.read": {"read_scene": read_scene, "overrides_change_scene": lambda *_: True},
         "pipeline": {"equations": lambda read, seconds: read, "in_c": in_c},
     }
     for name, functions in stands_in.items():

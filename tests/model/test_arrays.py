@@ -16,7 +16,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, SolverError
-from gudgeon.model.arrays import CODE, FLAG, used
+from gudgeon.model.arrays import CODE, FLAG, as_c_array
 from gudgeon.model.compiled import CompiledModel
 from tests.programs import needs_compiler
 
@@ -32,8 +32,8 @@ def test_no_other_place_asks_an_array_where_it_lies() -> None:
 
 def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
     plain = np.arange(4.0)
-    assert used(plain, "x", (4,)) is plain
-    copy = used(plain, "x", (None,), own=True)
+    assert as_c_array(plain, "x", (4,)) is plain
+    copy = as_c_array(plain, "x", (None,), own=True)
     assert copy is not plain and not np.shares_memory(copy, plain)
 
 
@@ -61,15 +61,15 @@ def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
 )
 def test_what_is_no_array_of_numbers(values: Any, message: str) -> None:
     with pytest.raises(ArrayError, match=message):
-        used(values, "x", (2,), finite=True)
+        as_c_array(values, "x", (2,), finite=True)
 
 
 def test_codes_and_flags_are_whole_numbers_that_fit() -> None:
-    assert used([0.0, 2.0], "x", dtype=CODE).tolist() == [0, 2]
-    assert used(np.array([True, False]), "x", dtype=FLAG).tolist() == [1, 0]
+    assert as_c_array([0.0, 2.0], "x", dtype=CODE).tolist() == [0, 2]
+    assert as_c_array(np.array([True, False]), "x", dtype=FLAG).tolist() == [1, 0]
     for wrong in ([0.5], [300], [np.nan]):
         with pytest.raises(ArrayError, match=r"x\[0\]"), np.errstate(invalid="ignore"):
-            used(wrong, "x", dtype=CODE)
+            as_c_array(wrong, "x", dtype=CODE)
 
 
 @pytest.fixture(scope="module")

@@ -202,7 +202,7 @@ def test_an_event_that_is_lost(tmp_path: Path) -> None:
     """Every zero is taken for a pole."""
     right = loader(tmp_path)(SPRING.format(events="zero: {zero: b.x}"))
     assert not reported(right, 2.0)
-    edit = ("engine/watch/events.c", "&& is_pole(run, step, share, user_event, p));", ");")
+    edit = ("engine/watch/events.c", "&& is_pole(run, step, fraction, user_event, p));", ");")
     assert "check event" in reported(mutant(right, tmp_path, edit), 2.0)
 
 

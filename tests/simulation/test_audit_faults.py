@@ -104,7 +104,7 @@ def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
     assert not reported(right, 2.5, method=method)
     known = "    error_of_watched(run, t, y, error, p, out);\n"
     exact = "    for (int i = 0; i < N_WATCHED; i++)\n        out[i] = 0.0;\n"
-    drifts = ("engine/run/slips.c", "fabs(v) <= RESTS", "fabs(v) <= INFINITY")
+    drifts = ("engine/run/slips.c", "fabs(v) <= MIN_SLIP", "fabs(v) <= INFINITY")
     wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact), drifts)
     assert "check event" in reported(wrong, 2.5, method=method)
 

@@ -58,7 +58,8 @@ NOT_IN_CODE = frozenset((*_C_LIBRARY.split(), *_C_KEYWORDS.split(), *keyword.kwl
 # names that people would try: locals of emitted code, C's own, and what looks like both
 _TRIED = """
 q v p a y dy e nx ny F W tx ty delta deltadot ratio rhs contact discrete out phi nu gamma lambda_ given is_given
-mass_L1 inverse_a_mass N_Q N_ROWS N_ALL_ROWS Integrator ContactState Parameters Clearance RhsOutputs Impact Workspace dot rates outputs
+mass_L1 inverse_a_mass N_Q N_ROWS N_ALL_ROWS Integrator ContactState Parameters Clearance RhsOutputs Impact Workspace
+dot rates outputs
 clearance_A normal_A_force dry_A film_A max_of min_of sign_of prepare dynamics project constraints jacobian
 DBL_MAX FLT_EPSILON FP_NAN M_PI M_E INT_MAX LONG_BIT SEEK_SET HUGE_VALF EINVAL R_OK BUFSIZ RAND_MAX
 y0 y1 yn j0 j1 jn gammaf drem significand scalb random index read write link unix_ linux_ i386 st_atime si_pid

@@ -43,7 +43,8 @@ ANYWHERE = {
     "pi by its digits": r"(?<!PI )\b3\.14159\d+",
     "a share of pi by its digits": r"\b(?:1\.5707963|4\.7123889|6\.2831853|0\.5235987|1\.0471975|0\.7853981)\d+",
     "a threshold by its digits": r" (?:1e-\d+|3\.16\d+e-07) \* \w*(?:scale|size|bound|pivot)_",
-    "a type and its name on two lines": r"\b(?:const|double|int|Lanes|ContactState|Parameters|DiscreteState|RhsOutputs) *\n *\w+[,)]",
+    "a type and its name on two lines": r"\b(?:const|double|int|Lanes|ContactState|Parameters|DiscreteState|RhsOutputs)"
+    r" *\n *\w+[,)]",
     "a row of a table on two lines": r"\{\d+,\n",
     "something behind a comment that ends": r"\*/static",
     "a loop over nothing": r"int k = (\d+); k < \1;",

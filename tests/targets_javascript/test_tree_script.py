@@ -128,7 +128,7 @@ def test_the_tree_s_lines_at_samples_of_a_run(case: tuple[str, str | None, float
     moved[:, places] -= array("reduced_project.x", range(len(places)), apart)
     before, after = (np.abs(array("closures.out", loops, rows)) for rows in (apart, page.at(moved)))
     assert of_angles.all() and before.max() > 1e-6 and after.max() < 1e-3 * before.max()
-    power = array("reduced_dynamics.aside.power", [2], message)[:, 0]
+    power = array("reduced_dynamics.rhs.power", [2], message)[:, 0]
     np.testing.assert_allclose(power, there.power[:, 2], rtol=1e-6, atol=1e-8 * np.abs(there.power).max())
     if "dry" in case:
         assert (run.state.reshape(len(run.t), -1) > 0).any()

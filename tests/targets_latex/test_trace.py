@@ -156,7 +156,7 @@ def test_lit_lines_of_the_textbooks_function(scene: str) -> None:
     code, state = list(statements(found, "dynamics.c", "dynamics")), state_of(found)
     for number, row in enumerate(found.model.rows, 1):
         lit = {k for k, of in found.lines["dynamics.c"].items() if f"row-{number}" in of}
-        own = [(lines, target, value) for lines, target, value in code if not target.startswith("aside->lambda[")]
+        own = [(lines, target, value) for lines, target, value in code if not target.startswith("rhs->lambda[")]
         name = row.name.replace(".", "_")
         alone = run(own, lit, state)
         assert {f"phi_{name}_", f"phi_dot_{name}_", f"rhs_{name}_"} <= set(alone)

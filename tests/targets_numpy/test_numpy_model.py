@@ -178,7 +178,7 @@ def test_the_text_is_a_page(of: tuple[str, str]) -> None:
     text = model.source
     for what, per in (("phi", ""), ("nu", "/s"), ("gamma_rows", "/s^2")):
         for r, row in enumerate(model.model.all_rows):
-            message = re.escape(f"# {row.name}, {row.unit}{per}")
+            message = re.escape(f"# {row.name}, {row.unit}{per}") + r"(?:; (?:open, \w+ has play|redundant\b.*))?"
             assert re.search(rf"^    {what}\[{r}\] = .*  {message}$|^    {message}\n    {what}\[{r}\] = ", text, re.M)
     assert "**(-1)" not in text and not re.search(r"> \d[\d.e-]+ \*|1/2\*np\.pi", text)
     assert "a pivot vanished" not in text

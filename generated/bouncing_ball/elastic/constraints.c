@@ -20,8 +20,8 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double ball_y_ = q[1];
 
     /* rows */
-    phi[0] = -ball_x_;  /* fall.x, m; open: fall has play in this scene */
-    phi[1] = -ball_y_;  /* fall.y, m; open: fall has play in this scene */
+    phi[0] = -ball_x_;  /* fall.x, m; open, fall has play */
+    phi[1] = -ball_y_;  /* fall.y, m; open, fall has play */
 }
 
 /*
@@ -36,25 +36,25 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 }
 
 /*
- * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.
+ * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* fall.x, m/s; open: fall has play in this scene */
-    nu[1] = 0.0;  /* fall.y, m/s; open: fall has play in this scene */
+    nu[0] = 0.0;  /* fall.x, m/s; open, fall has play */
+    nu[1] = 0.0;  /* fall.y, m/s; open, fall has play */
 }
 
 /*
- * Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.
+ * Right-hand side gamma of the accelerations, Phi_q a = gamma (closed linkage).
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t, (void)q, (void)v, (void)p;
     /* rows */
-    gamma_rows[0] = 0.0;  /* fall.x, m/s^2; open: fall has play in this scene */
-    gamma_rows[1] = 0.0;  /* fall.y, m/s^2; open: fall has play in this scene */
+    gamma_rows[0] = 0.0;  /* fall.x, m/s^2; open, fall has play */
+    gamma_rows[1] = 0.0;  /* fall.y, m/s^2; open, fall has play */
 }
 
 /*

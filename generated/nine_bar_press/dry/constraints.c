@@ -98,10 +98,10 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     phi[1] = -L1_y_ + arm_L1_head_y_;  /* O1.y, m */
     phi[2] = -L4_x_ + arm_L4_head_x_;  /* O4.x, m */
     phi[3] = -L4_y_ + p->O4_y_ + arm_L4_head_y_;  /* O4.y, m */
-    phi[4] = L1_x_ - L2_x_ + arm_L1_head_x_ + arm_L2_head_x_;  /* A.x, m; open: A has play in this scene */
-    phi[5] = L1_y_ - L2_y_ + arm_L1_head_y_ + arm_L2_head_y_;  /* A.y, m; open: A has play in this scene */
-    phi[6] = -L3_x_ + L4_x_ + arm_L3_head_x_ + arm_L4_head_x_;  /* B.x, m; open: B has play in this scene */
-    phi[7] = -L3_y_ + L4_y_ + arm_L3_head_y_ + arm_L4_head_y_;  /* B.y, m; open: B has play in this scene */
+    phi[4] = L1_x_ - L2_x_ + arm_L1_head_x_ + arm_L2_head_x_;  /* A.x, m; open, A has play */
+    phi[5] = L1_y_ - L2_y_ + arm_L1_head_y_ + arm_L2_head_y_;  /* A.y, m; open, A has play */
+    phi[6] = -L3_x_ + L4_x_ + arm_L3_head_x_ + arm_L4_head_x_;  /* B.x, m; open, B has play */
+    phi[7] = -L3_y_ + L4_y_ + arm_L3_head_y_ + arm_L4_head_y_;  /* B.y, m; open, B has play */
     phi[8] = L2_x_ - L7_x_ + arm_L2_head_x_ + arm_L7_head_x_;  /* P2.x, m */
     phi[9] = L2_y_ - L7_y_ + arm_L2_head_y_ + arm_L7_head_y_;  /* P2.y, m */
     phi[10] = L3_x_ - L7_x_ + arm_L3_head_x_ + arm_L7_head_x_;  /* P3.x, m */
@@ -239,7 +239,7 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 }
 
 /*
- * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.
+ * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
@@ -253,10 +253,10 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
     nu[1] = 0.0;  /* O1.y, m/s */
     nu[2] = 0.0;  /* O4.x, m/s */
     nu[3] = 0.0;  /* O4.y, m/s */
-    nu[4] = 0.0;  /* A.x, m/s; open: A has play in this scene */
-    nu[5] = 0.0;  /* A.y, m/s; open: A has play in this scene */
-    nu[6] = 0.0;  /* B.x, m/s; open: B has play in this scene */
-    nu[7] = 0.0;  /* B.y, m/s; open: B has play in this scene */
+    nu[4] = 0.0;  /* A.x, m/s; open, A has play */
+    nu[5] = 0.0;  /* A.y, m/s; open, A has play */
+    nu[6] = 0.0;  /* B.x, m/s; open, B has play */
+    nu[7] = 0.0;  /* B.y, m/s; open, B has play */
     nu[8] = 0.0;  /* P2.x, m/s */
     nu[9] = 0.0;  /* P2.y, m/s */
     nu[10] = 0.0;  /* P3.x, m/s */
@@ -276,7 +276,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 }
 
 /*
- * Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.
+ * Right-hand side gamma of the accelerations, Phi_q a = gamma (closed linkage).
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
@@ -334,13 +334,13 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     gamma_rows[1] = (L1_omega_ * L1_omega_)*arm_L1_head_y_;  /* O1.y, m/s^2 */
     gamma_rows[2] = (L4_omega_ * L4_omega_)*arm_L4_head_x_;  /* O4.x, m/s^2 */
     gamma_rows[3] = (L4_omega_ * L4_omega_)*arm_L4_head_y_;  /* O4.y, m/s^2 */
-    /* A.x, m/s^2; open: A has play in this scene */
+    /* A.x, m/s^2; open, A has play */
     gamma_rows[4] = (L1_omega_ * L1_omega_)*arm_L1_head_x_ + (L2_omega_ * L2_omega_)*arm_L2_head_x_;
-    /* A.y, m/s^2; open: A has play in this scene */
+    /* A.y, m/s^2; open, A has play */
     gamma_rows[5] = (L1_omega_ * L1_omega_)*arm_L1_head_y_ + (L2_omega_ * L2_omega_)*arm_L2_head_y_;
-    /* B.x, m/s^2; open: B has play in this scene */
+    /* B.x, m/s^2; open, B has play */
     gamma_rows[6] = (L3_omega_ * L3_omega_)*arm_L3_head_x_ + (L4_omega_ * L4_omega_)*arm_L4_head_x_;
-    /* B.y, m/s^2; open: B has play in this scene */
+    /* B.y, m/s^2; open, B has play */
     gamma_rows[7] = (L3_omega_ * L3_omega_)*arm_L3_head_y_ + (L4_omega_ * L4_omega_)*arm_L4_head_y_;
     gamma_rows[8] = (L2_omega_ * L2_omega_)*arm_L2_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_;  /* P2.x, m/s^2 */
     gamma_rows[9] = (L2_omega_ * L2_omega_)*arm_L2_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_;  /* P2.y, m/s^2 */

@@ -47,8 +47,8 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     phi[1] = arm_crank_head_y_ - crank_y_;  /* O.y, m */
     phi[2] = arm_crank_head_x_ + arm_rod_head_x_ + crank_x_ - rod_x_;  /* crankpin.x, m */
     phi[3] = arm_crank_head_y_ + arm_rod_head_y_ + crank_y_ - rod_y_;  /* crankpin.y, m */
-    phi[4] = arm_rod_head_x_ + rod_x_ - slider_x_;  /* wristpin.x, m; open: wristpin has play in this scene */
-    phi[5] = arm_rod_head_y_ + rod_y_ - slider_y_;  /* wristpin.y, m; open: wristpin has play in this scene */
+    phi[4] = arm_rod_head_x_ + rod_x_ - slider_x_;  /* wristpin.x, m; open, wristpin has play */
+    phi[5] = arm_rod_head_y_ + rod_y_ - slider_y_;  /* wristpin.y, m; open, wristpin has play */
     phi[6] = slider_y_;  /* cylinder.offset, m */
     phi[7] = slider_theta_;  /* cylinder.angle, rad */
     phi[8] = crank_theta_ - motor_value_;  /* motor, rad */
@@ -99,7 +99,7 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 }
 
 /*
- * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.
+ * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
@@ -112,15 +112,15 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
     nu[1] = 0.0;  /* O.y, m/s */
     nu[2] = 0.0;  /* crankpin.x, m/s */
     nu[3] = 0.0;  /* crankpin.y, m/s */
-    nu[4] = 0.0;  /* wristpin.x, m/s; open: wristpin has play in this scene */
-    nu[5] = 0.0;  /* wristpin.y, m/s; open: wristpin has play in this scene */
+    nu[4] = 0.0;  /* wristpin.x, m/s; open, wristpin has play */
+    nu[5] = 0.0;  /* wristpin.y, m/s; open, wristpin has play */
     nu[6] = 0.0;  /* cylinder.offset, m/s */
     nu[7] = 0.0;  /* cylinder.angle, rad/s */
     nu[8] = motor_rate_;  /* motor, rad/s */
 }
 
 /*
- * Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.
+ * Right-hand side gamma of the accelerations, Phi_q a = gamma (closed linkage).
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
@@ -149,10 +149,8 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     gamma_rows[2] = arm_crank_head_x_*(crank_omega_ * crank_omega_) + arm_rod_head_x_*(rod_omega_ * rod_omega_);
     /* crankpin.y, m/s^2 */
     gamma_rows[3] = arm_crank_head_y_*(crank_omega_ * crank_omega_) + arm_rod_head_y_*(rod_omega_ * rod_omega_);
-    /* wristpin.x, m/s^2; open: wristpin has play in this scene */
-    gamma_rows[4] = arm_rod_head_x_*(rod_omega_ * rod_omega_);
-    /* wristpin.y, m/s^2; open: wristpin has play in this scene */
-    gamma_rows[5] = arm_rod_head_y_*(rod_omega_ * rod_omega_);
+    gamma_rows[4] = arm_rod_head_x_*(rod_omega_ * rod_omega_);  /* wristpin.x, m/s^2; open, wristpin has play */
+    gamma_rows[5] = arm_rod_head_y_*(rod_omega_ * rod_omega_);  /* wristpin.y, m/s^2; open, wristpin has play */
     gamma_rows[6] = 0.0;  /* cylinder.offset, m/s^2 */
     gamma_rows[7] = 0.0;  /* cylinder.angle, rad/s^2 */
     gamma_rows[8] = motor_acceleration_;  /* motor, rad/s^2 */

@@ -79,7 +79,7 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 }
 
 /*
- * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu of the closed linkage.
+ * Right-hand side nu = -Phi_t of the velocity constraints Phi_q v = nu (closed linkage).
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
@@ -93,7 +93,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 }
 
 /*
- * Right-hand side gamma of the acceleration constraints Phi_q a = gamma of the closed linkage.
+ * Right-hand side gamma of the accelerations, Phi_q a = gamma (closed linkage).
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {

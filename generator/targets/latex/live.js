@@ -27,7 +27,7 @@ const gudgeonValues = (() => {
         const call = equations?.functions[name];
         if (!call) return {};
         known.p ??= named(state.p);
-        const given = {t: state.t, q, v, r, all_a, p: known.p, memory: {contact: latches}};
+        const given = {t: state.t, q, v, r, all_a, p: known.p, discrete: {contact: latches}};
         known[name] ??= call(...equations.given[name].map((one) => given[one]));
         return known[name];
     }
@@ -51,7 +51,7 @@ const gudgeonValues = (() => {
         if (name === "reduce_state" || !q) return known[name] ?? {};
         if (name === "reduce_accelerations") return called(name, {...state, all_a: accelerations()});
         const r = name === "reduced_project" && residuals(q);
-        return called(name, {q, v, r, latches: Object.keys(equations.joints).map(contact)});
+        return called(name, {q, v, r, latches: Object.keys(equations.joints).map(contactState)});
     }
 
     /* How far the loops are open, in all rows of the tree's linkage. */
@@ -75,18 +75,15 @@ const gudgeonValues = (() => {
         }
     }
 
-    /* What the functions of a joint with play store at the state, {function of C: its locals}, computed once. */
+    /* The locals of the functions of a joint with play, by function, computed once. */
     function contact(joint) {
         const play = computed("play"), {functions, joints} = equations;
         const motion = joints[joint].map((name) => play[name]);
-        return known[`joint ${joint}`] ??= functions[`clearance_${joint}_`](...motion, contact(joint), known.p, {});
+        return known[`joint ${joint}`] ??= functions[`clearance_${joint}_`](...motion, contactState(joint), known.p, {});
     }
 
-    /*
-     * What a joint remembers at the sample: rates of closing, NaN of the free, first; inner states of laws last. Of a
-     * run that keeps none of it (`Recorded`) a contact is closed by no number, so that its force is none either.
-     */
-    function contact(joint) {
+    /* The contact state of a joint at the sample. A run without stored ones has NaN: its forces are no numbers. */
+    function contactState(joint) {
         const joints = Object.keys(equations.joints), i = joints.indexOf(joint), {run, k} = state;
         const memory = run?.memory ?? [], width = memory.length / (run?.t?.length || 1);
         const own = memory.slice(k * width, (k + 1) * width);

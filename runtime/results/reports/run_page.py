@@ -103,7 +103,7 @@ def joint_rows(joint: Mapping[str, Any], is_examined: bool) -> Rows:
     if joint["asked"] is not None:
         free = joint["free_impact"]
         text = "" if free is None else f", of which a free impact delivers {free:.5g}"
-        rows.append(("restitution asked for", f"{joint['is_examined']:g}{text}"))
+        rows.append(("restitution asked for", f"{joint['asked']:g}{text}"))
     if joint["approach"]:
         rows.append(("approach, least … median … largest", _range_cell(joint["approach"], "m/s")))
         back = joint["restitution"]

@@ -30,7 +30,8 @@ SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean rate that counts as slow
 OFF = 0.02  # fraction of the joints' work; a quadrature that misses more is reported
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
-    r"(?P<title>.*?)\. Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\.(?: Options: (?P<options>.*?)\.)?(?: |$)"
+    r"(?P<title>.*?)\. (?:.*? )??Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\."
+    r"(?: Options: (?P<options>.*?)\.)?(?: |$)"
 )
 NOT_ASKED = "not asked for: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
 

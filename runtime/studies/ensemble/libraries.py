@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 FEWEST = 3  # libraries to make, from which on a second process pays: it begins with loading SymPy
 MOST = 64  # libraries that are left to it: more do not fit into its command line
-OTHER = f"from {__name__} import make; make()"
+OTHER = f"from {__name__} import compile_from_command_line as run; run()"
 
 
 class Structure(NamedTuple):
