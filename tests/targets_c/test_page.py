@@ -191,7 +191,7 @@ def test_angles_and_speeds_of_the_file() -> None:
 
 def test_the_place_of_every_unit_of_lanes_is_said() -> None:
     text = emitted("pendulum", "ideal").files["lanes.c"]
-    assert re.search(r"/\* [^/]*Parameters in model\.h: meanings, addresses, units[^/]* \*/\ntypedef struct L", text)
+    assert re.search(r"/\* [^/]*meanings and units of Parameters in model\.h\. \*/\ntypedef struct L", text)
 
 
 @pytest.mark.parametrize("scene", ["ideal", "elastic", "damped"])

@@ -150,9 +150,20 @@ def play_kernel(model: Model) -> Kernel:
     return build.build((*STATE, PARAMETERS))
 
 
-def embedded_script(text: str) -> str:
-    """Return a JavaScript file without comments and indents, for embedding in a page.
+_TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')""")  # strings within a line of JavaScript
+_SPACED = re.compile(r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?")
 
-    Lines are kept, since they end statements.
+
+def embedded_script(text: str) -> str:
+    """Return a JavaScript file without comments, indents and spaces around punctuation, for embedding in a page.
+
+    Lines are kept, since they end statements. Lines with or within template strings keep their spaces.
     """
-    return re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text))
+    lines, inside = [], False
+    for line in re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text)).split("\n"):
+        parts = _TEXT.split(line)
+        if not inside and "`" not in line:
+            parts[::2] = (_SPACED.sub(r"\1", part) for part in parts[::2])
+        lines.append("".join(parts))
+        inside ^= line.count("`") % 2 == 1
+    return "\n".join(lines)
