@@ -67,18 +67,18 @@ def beyond(app, docname, source):  # type: ignore[no-untyped-def]
 
 
 # Pages whose text is another file's of the sources
-TAKEN = {
+INCLUDED = {
     "benchmarks": "benchmarks/README.md",
     "clearance": "benchmarks/clearance/README.md",
     "contributing": "CONTRIBUTING.md",
 }
 
 
-def used(app, docname, source):  # type: ignore[no-untyped-def]
-    """Fill the pages of TAKEN with the text of their files, with links as from docs/."""
-    if docname not in TAKEN:
+def include_text(app, docname, source):  # type: ignore[no-untyped-def]
+    """Fill the pages of INCLUDED with the text of their files, with links as from docs/."""
+    if docname not in INCLUDED:
         return
-    text = (Path(__file__).parents[1] / TAKEN[docname]).read_text("utf-8").partition("\n")[2]
+    text = (Path(__file__).parents[1] / INCLUDED[docname]).read_text("utf-8").partition("\n")[2]
     text = text.replace("](figures/", "](../benchmarks/figures/").replace("](clearance/README.md)", "](clearance.md)")
     text = re.sub(r"\]\((\.\./)*docs/", "](", text)
     docs = Path(__file__).parent
@@ -149,7 +149,7 @@ def setup(app):  # type: ignore[no-untyped-def]
     app.add_html_math_renderer("mathml", (inline_math, None), (displayed_math, None))
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
     app.connect("source-read", linked)
-    app.connect("source-read", used)
+    app.connect("source-read", include_text)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
     app.connect("source-read", indexed)

@@ -16,7 +16,10 @@ from gudgeon.generator.equations import contact_steps as steps
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
 from gudgeon.generator.kinds.laws.law import RESULTS, bundled_laws
-from gudgeon.generator.targets.latex.play_letters import NAMES
+from gudgeon.generator.targets.latex.letters import letter
+from gudgeon.generator.targets.latex.notation import letter_of_field
+from gudgeon.generator.targets.latex.play import PAIR
+from gudgeon.generator.targets.latex.play_letters import NAMES, sign_of
 from gudgeon.language.units import si_unit
 from gudgeon.results.series import CLEARANCE
 
@@ -60,15 +63,16 @@ SECTIONS = (
     ("bodies.BODY", BODY),
     ("contacts.NAME", CONTACT),
 )
-LETTERS = {
-    "bearings.NAME.clearance": ("c", "r"),
-    "bearings.NAME.radius": ("R_i", "R_i"),
-    "bearings.NAME.length": ("L", "L"),
-    "materials.NAME.E": ("E", "E"),
-    "materials.NAME.nu": ("\\nu", "\\nu"),
-    "bodies.BODY.mass": ("m", "m"),
-    "bodies.BODY.inertia": ("I", "J"),
-    "bodies.BODY.length": ("l", "L"),
+IN_LAWS = {field: sign for field, sign, _ in PAIR}  # letters of a bearing in the laws
+IN_PAPER = {
+    "bearings.NAME.clearance": "r",
+    "bearings.NAME.radius": "R_i",
+    "bearings.NAME.length": "L",
+    "materials.NAME.E": "E",
+    "materials.NAME.nu": "\\nu",
+    "bodies.BODY.mass": "m",
+    "bodies.BODY.inertia": "J",
+    "bodies.BODY.length": "L",
 }
 
 
@@ -107,9 +111,9 @@ def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
 def _of_play() -> Iterator[tuple[str, ...]]:
     for name, (_, unit, meaning) in CLEARANCE.items():
         symbol, paper = PLAY[name]
-        letter = NAMES[symbol].latex if symbol in NAMES else "F_t"
+        shown = NAMES[symbol].latex if symbol in NAMES else "F_t"
         yield (
-            f"${letter}$",
+            f"${shown}$",
             meaning,
             f"${paper}$" * bool(paper),
             f"`JOINT.{name}`",
@@ -122,8 +126,10 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
     for field in record.fields:
         if field.kind == NUMBER:
             key = f"{path}.{field.name}"
-            letter, paper = (f"${one}$" for one in LETTERS.get(key, (_symbol(field), "")))
-            yield letter, field.meaning, paper.replace("$$", ""), f"`{key}`", _unit(field)
+            own = letter(letter_of_field(field.name)).latex
+            shown = IN_LAWS.get(field.name, own) if record is BEARING else own
+            paper = IN_PAPER.get(key, "")
+            yield f"${shown}$", field.meaning, f"${paper}$" * bool(paper), f"`{key}`", _unit(field)
 
 
 def _of_laws() -> Iterator[tuple[str, ...]]:
@@ -132,16 +138,12 @@ def _of_laws() -> Iterator[tuple[str, ...]]:
             for field in law.parameters if law.role == role else ():
                 key = f"contacts.NAME.{role}.{field.name}"
                 yield (
-                    f"${_symbol(field)}$",
+                    f"${sign_of(field)}$",
                     field.meaning,
                     f"`{law.name}`",
                     f"`{key}`",
                     _unit(field),
                 )
-
-
-def _symbol(field: Field) -> str:
-    return field.symbol or f"\\mathrm{{{field.name}}}".replace("_", "\\_")
 
 
 def _unit(field: Field) -> str:

@@ -155,9 +155,9 @@ def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.E
 def after_dry(clearance: Clearance) -> list[Step]:
     """Return the equations of the moments of the dry contact about the centres of bearing i and journal j."""
     tangential = of_part(F_along_t, "dry")
-    rhs = -worn_slope * _symbol("F_n") if clearance.contour else 0
+    moment = -worn_slope * _symbol("F_n") if clearance.contour else 0
     return [
-        Step(of_part(M_i, "dry"), -a_i * tangential + rhs),
+        Step(of_part(M_i, "dry"), -a_i * tangential + moment),
         Step(of_part(M_j, "dry"), a_j * tangential),
     ]
 

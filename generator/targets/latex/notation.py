@@ -185,7 +185,7 @@ def of_address(address: str) -> Name:
         case ["bodies", body, "sides", point, axis]:
             return letter({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
-            return letter(_letter_of(constant), material)
+            return letter(letter_of_field(constant), material)
         case ["bearings", bearing, "length"]:
             return letter("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
@@ -195,21 +195,21 @@ def of_address(address: str) -> Name:
         case ["bodies", body, "shape", "rectangle", axis]:
             return letter({"x": "a", "y": "b"}[axis], body)
         case ["bodies", body, "shape", *_, field]:
-            return letter(_letter_of(field), body)
+            return letter(letter_of_field(field), body)
         case ["contacts", contact, *rest]:
             return letter(rest[-1], contact)
         case ["start", _, body, coordinate]:
             base, dots = _RATES.get(coordinate, (coordinate, 0))
             return letter(base, body, dots=dots, raised="0")
         case [_, owner, field]:
-            return letter(_FREE[field], owner, raised="0") if field in _FREE else letter(_letter_of(field), owner)
+            return letter(_FREE[field], owner, raised="0") if field in _FREE else letter(letter_of_field(field), owner)
         case [_, owner, field, axis]:
             axis = {"x": "1", "y": "2"}[axis] if field == "radii" else axis
-            return letter(_letter_of(field), axis, owner)
+            return letter(letter_of_field(field), axis, owner)
     return letter(address.replace(".", "_"))
 
 
-def _letter_of(field: str) -> str:
+def letter_of_field(field: str) -> str:
     """Return the letter of a field."""
     return _ONE_LETTER.get(field, field)
 
@@ -219,7 +219,7 @@ def _constant(model: Model, symbol: sp.Symbol) -> Name:
     of = model.slots.of_owner.get(symbol)
     if of is None:
         return letter(plain_name(symbol))
-    return letter(_letter_of(of.what), *([of.axis] if of.axis else []), of.owner, hat=bool(of.axis))
+    return letter(letter_of_field(of.what), *([of.axis] if of.axis else []), of.owner, hat=bool(of.axis))
 
 
 def _temporary(meaning: str) -> Name:

@@ -114,7 +114,7 @@ def as_word(value: str | bool) -> str:
     return str(value).lower() if isinstance(value, bool) else value
 
 
-_PAIR = (
+PAIR = (
     ("radius", "R_i", "bearing radius"),
     ("clearance", "c", "radial clearance"),
     ("length", "L", "length of the bearing"),
@@ -136,7 +136,7 @@ class JointWithPlay:
     def _numbers(self) -> Iterator[tuple[Quantity, str, str]]:
         """Yield every parameter of the joint: quantity, letter if it is not a run-time parameter, meaning."""
         bearing = self.play.bearing
-        for field, sign, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else _PAIR:
+        for field, sign, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else PAIR:
             if (quantity := getattr(bearing, field)) is not None:
                 yield quantity, sign, meaning
         i, j = bearing.bearing_material, bearing.journal_material
