@@ -40,17 +40,17 @@ class Figure:
     """
 
     what: str
-    message: str
+    printed: str
     now: float
     within: float = 1.0
 
     @property
-    def now_told(self) -> str:
+    def now_printed(self) -> str:
         """Return the present value with as many digits as in README.md."""
-        digits = self.message.partition("e")[0].partition(".")[2]
-        if self.message == "0":
+        digits = self.printed.partition("e")[0].partition(".")[2]
+        if self.printed == "0":
             return f"{self.now:.0e}" if self.now else "0"
-        if "e" not in self.message:
+        if "e" not in self.printed:
             return f"{self.now:.{len(digits)}f}"
         mantissa, exponent = f"{self.now:.{len(digits)}e}".split("e")
         return f"{mantissa}e{int(exponent)}"
@@ -59,8 +59,8 @@ class Figure:
     def holds(self) -> bool:
         """Return whether the present value agrees."""
         if self.within == 1.0:
-            return self.now_told == self.message
-        return 1.0 / self.within < self.now / float(self.message) < self.within
+            return self.now_printed == self.printed
+        return 1.0 / self.within < self.now / float(self.printed) < self.within
 
 
 def found(rates: Rates, y: Any, times: np.ndarray, **how: Any) -> np.ndarray:
@@ -274,7 +274,7 @@ def main() -> int:
     for name in options.names or COMPARED:
         for figure in COMPARED[name]():
             missed += not figure.holds
-            print(f"{name}: {figure.what}: {figure.message}, now {figure.now_told}", flush=True)
+            print(f"{name}: {figure.what}: {figure.printed}, now {figure.now_printed}", flush=True)
     return 1 if missed else 0
 
 

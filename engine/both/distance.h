@@ -25,3 +25,19 @@ static inline int felt(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
 /* Store h rho: the length of a step times the largest rate that its stages show. */
 static inline void record_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }
+
+/*
+ * Store h rho of an explicit step from two states at its end: that of the step, and the state y of the last stage,
+ * whose rates are `rates`. It is 0 where the two states do not differ.
+ */
+static inline void record_end_stability(IntegratorOf *run, const StepOf *step, Real h, const Real *y, const Real *rates)
+{
+    Real change = real_of(0.0), way = real_of(0.0);
+    for (int k = 0; k < N_MOTION; k++) {
+        const int i = felt(k);
+        const Real by = run->norm.weight[i];
+        change = real_max(real_abs(step->dy[i] - rates[i]) * by, change);
+        way = real_max(real_abs(step->y[i] - y[i]) * by, way);
+    }
+    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+}

@@ -142,18 +142,11 @@ static int dop853_try(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *
         return NOT_FINITE;
     if (is_step_refused(run, step))
         return 0;
-    /* rho h of the last two stages: beyond about 6 the step is bounded by stability */
-    Real change = real_of(0.0), way = real_of(0.0);
     const int status_last = finish_step(run, step, p);
     if (status_last)
         return status_last;
-    for (int k = 0; k < N_MOTION; k++) {
-        const int i = felt(k);
-        const Real by = run->norm.weight[i];
-        change = real_max(real_abs(step->dy[i] - step->k[DOP853_STAGES - 1][i]) * by, change);
-        way = real_max(real_abs(step->y[i] - y[i]) * by, way);
-    }
-    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    /* beyond about 6 the step is bounded by stability */
+    record_end_stability(run, step, h, y, step->k[DOP853_STAGES - 1]);
     return 0;
 }
 

@@ -37,7 +37,7 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
  */
 static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const ParametersOf *p, StepOf *step)
 {
-    Real y[N_Y], change = real_of(0.0), way = real_of(0.0), worst = real_of(0.0);
+    Real y[N_Y], worst = real_of(0.0);
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0, step->error = worst;
     discard_stages(step);
@@ -74,13 +74,7 @@ static int runge_kutta_try(IntegratorOf *run, const Tableau *of, Real h, const P
         return NOT_FINITE;
     if (is_step_refused(run, step))
         return 0;
-    for (int k = 0; k < N_MOTION; k++) { /* h rho from two states at the end: of the last stage and of the step */
-        const int i = felt(k);
-        const Real by = run->norm.weight[i];
-        change = real_max(real_abs(step->dy[i] - step->k[of->stages - 1][i]) * by, change);
-        way = real_max(real_abs(step->y[i] - y[i]) * by, way);
-    }
-    record_stability(run, pick(way > MIN_RESOLVED, h * change / way, real_of(0.0)));
+    record_end_stability(run, step, h, y, step->k[of->stages - 1]);
     return 0;
 }
 

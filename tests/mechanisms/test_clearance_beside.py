@@ -60,6 +60,6 @@ def test_figures_are_told_with_their_own_digits() -> None:
 @pytest.mark.parametrize("name", COMPARED)
 def test_the_page_tells_what_is_found(name: str) -> None:
     figures = list(COMPARED[name]())
-    assert [(one.what, one.now_told) for one in figures if not one.holds] == []
+    assert [(one.what, one.now_printed) for one in figures if not one.holds] == []
     bullets = PAGE[PAGE.index("- **Nowald's rotors.**") : PAGE.index("`python -m benchmarks.clearance.beside`")]
-    assert [one.message for one in figures if one.message not in bullets] == []
+    assert [one.printed for one in figures if one.printed not in bullets] == []
