@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
@@ -13,6 +14,7 @@ from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml import Items, Map, Text, kind_of
 from gudgeon.language.names import unknown_name
 
+WHOLE = 2.0**53  # smaller whole numbers are exact in binary64
 _AXES = {"x": 0, "y": 1}
 
 
@@ -52,6 +54,8 @@ def _as_file_text(value: object, address: str) -> str:
     if isinstance(value, str):
         return value
     try:
+        if isinstance(value, Integral) and abs(float(value)) < WHOLE:
+            return str(int(value))
         return repr(float(value))  # type: ignore[arg-type]
     except (TypeError, ValueError):
         message = f"the override of {address} is of type {type(value).__name__}"

@@ -7,6 +7,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
+from numbers import Integral
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -53,7 +54,7 @@ def _check_override(name: str, value: object) -> str | float | bool:
     if isinstance(value, (str, bool)):
         return text(value, f"overrides: {name}") if isinstance(value, str) else value
     number = number_of(value, f"overrides: {name}")
-    return value if isinstance(value, int) else number
+    return int(value) if isinstance(value, Integral) else number
 
 
 def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:

@@ -204,3 +204,10 @@ def test_what_is_no_contour_is_refused(worn: Simulation, file: Path) -> None:
     assert [one.run for one in failed.failures] == [1]
     with pytest.raises(BadValueError, match="3 runs"):
         worn.simulate_many({"c": [1e-4, 2e-4, 3e-4]}, 0.001, contour={"J": np.zeros((2, N))})
+
+
+@pytest.mark.parametrize("number", [32, np.int64(32)])
+def test_the_number_of_depths_can_be_overridden_by_a_whole_number(file: Path, number: Any) -> None:
+    """A whole number stays one on its way into the file's text: 32.0 is no number of depths."""
+    worn = gudgeon.load(file, "worn", overrides={"scenes.worn.play.J.contour": number})
+    assert worn.simulate(1e-4, contour={"J": np.zeros(32)}).t[-1] == 1e-4
