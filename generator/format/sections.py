@@ -76,8 +76,8 @@ BEARING = record(
         required=True,
         bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
     ),
-    name_in("materials", "bearing_material", "of the hole"),
-    name_in("materials", "journal_material", "of the pin"),
+    name_in("materials", "bearing_material", "material of the hole"),
+    name_in("materials", "journal_material", "material of the pin"),
 )
 
 GUIDE = record(
@@ -85,7 +85,7 @@ GUIDE = record(
     "a block in a slot with parallel walls: what a translational joint with play is",
     number(
         "gap",
-        "half of what the slot is wider than the slider",
+        "half the difference of the widths of slot and slider",
         LENGTH,
         required=True,
         bounds=(Bound(">", 0.0, "a gap is positive"),),
@@ -108,15 +108,15 @@ GUIDE = record(
         "corner_radius",
         "radius of the slider's corners, within its length and height",
         LENGTH,
-        otherwise="sharp ones",
+        otherwise="0 (sharp corners)",
         bounds=(
             Bound(">", 0.0, "a corner's radius is positive"),
             Bound("<", "half_length", "a corner's radius is less than half the slider's length"),
             Bound("<=", "half_height", "a corner's radius is at most half the slider's height"),
         ),
     ),
-    name_in("materials", "guide_material", "of the slot"),
-    name_in("materials", "slider_material", "of the slider"),
+    name_in("materials", "guide_material", "material of the slot"),
+    name_in("materials", "slider_material", "material of the slider"),
 )
 
 
@@ -157,10 +157,10 @@ def _law(role: str, meaning: str) -> Field:
     return Field(role, LAW, meaning, kinds=kinds)
 
 
-_ELASTIC = "no bearing is of it"
+_ELASTIC = "unused in bearings"
 MATERIAL = record(
     "material",
-    "what bearings and shapes of bodies may be of",
+    "material of bearings, guides and shapes of bodies",
     number(
         "E",
         "Young's modulus",
@@ -179,17 +179,17 @@ MATERIAL = record(
         "density",
         "density",
         DENSITY,
-        otherwise="no shape is of it",
+        otherwise="unused in shapes",
         bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
 )
 
-POINT = vector("point", "where it is", LENGTH)
-POINT_OF_GROUND = vector("point", "where it is, in ground axes", LENGTH)
+POINT = vector("point", "position", LENGTH)
+POINT_OF_GROUND = vector("point", "position, in ground axes", LENGTH)
 
 SHAPE = record(
     "shape",
-    "a plate of one thickness, from which inertia follows, and mass by density: one of the first four",
+    "plate of constant thickness, which gives inertia and, by the density, mass: exactly one of the first four keys",
     number(
         "bar",
         "width of a rectangle that is as long as the bar; about the centre of mass",
@@ -208,15 +208,20 @@ SHAPE = record(
         LENGTH,
         bounds=(Bound(">", 0.0, "a radius is positive"),),
     ),
-    Field("triangle", CORNERS, "corners of a triangle, from which the centre of mass follows too"),
+    Field("triangle", CORNERS, "corners of a triangle, from which the centre of mass follows as well"),
     number(
         "density",
-        "density, where the body has no mass of its own",
+        "density, if the body has no `mass`",
         DENSITY,
         bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
-    name_in("materials", "material", "whose density it has, in place of that key", required=False),
-    number("thickness", "goes with density or material", LENGTH, bounds=(Bound(">", 0.0, "a thickness is positive"),)),
+    name_in("materials", "material", "material whose density is used; instead of `density`", required=False),
+    number(
+        "thickness",
+        "thickness, together with density or material",
+        LENGTH,
+        bounds=(Bound(">", 0.0, "a thickness is positive"),),
+    ),
 )
 
 _SIDE = (Bound(">", 0.0, "a side is positive"),)
@@ -226,17 +231,17 @@ SIDES = record(
     number("PQ", "distance of P and Q", LENGTH, required=True, bounds=_SIDE),
     number("QR", "distance of Q and R", LENGTH, required=True, bounds=_SIDE),
     number("PR", "distance of P and R", LENGTH, required=True, bounds=_SIDE),
-    word("side", "where R is, looking from P to Q", ("left", "right"), "left"),
+    word("side", "side of R, seen from P towards Q", ("left", "right"), "left"),
 )
 
-_WITHOUT = "from `shape`; else no freedom may be left and nothing may have play"
+_WITHOUT = "from `shape`; otherwise allowed only if drives determine the motion and no joint has play"
 BODY = record(
     "body",
     "a rigid body with its own frame; with a length a bar: its origin is the tail, its x points to the head",
     number("mass", "mass", MASS, otherwise=_WITHOUT, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
         "inertia",
-        "moment of inertia about the centre of mass; `auto`: of a slender bar, mass length²/12; 0: a point",
+        "moment of inertia about the centre of mass; `auto`: slender bar, mass length²/12; 0: point mass",
         INERTIA,
         otherwise=_WITHOUT,
         words=("auto",),
@@ -246,7 +251,7 @@ BODY = record(
         "length",
         "length of a bar, from tail to head",
         LENGTH,
-        otherwise="it is no bar",
+        otherwise="not a bar",
         bounds=(Bound(">", 0.0, "a length is positive"),),
     ),
     vector(
@@ -263,21 +268,21 @@ BODY = record(
 CONTACT = record(
     "contact",
     "what happens between journal and bearing: a normal law, a film, or both",
-    name_in("contacts", "extends", "contact whose keys it has where it has none of its own", required=False),
+    name_in("contacts", "extends", "contact from which missing keys are taken", required=False),
     _law("normal", "law of the normal force"),
     _law("friction", "law of dry friction"),
     _law("film", "law of the oil film"),
-    _law("mixed", "law of mixed lubrication: how film and dry contact share the load; in place of transition"),
+    _law("mixed", "law of mixed lubrication: shares of the load of film and dry contact; instead of `transition`"),
     number(
         "transition",
-        "length over which the film hands over to the dry contact; where there are both",
+        "length of the transition from film to dry contact, if a contact has both",
         LENGTH,
         bounds=(Bound(">", 0.0, "the width of a transition is positive"),),
     ),
-    flag("clip_ratio", "whether the law sees δ̇/δ̇⁻ within −1 and 1 only"),
+    flag("clip_ratio", "whether δ̇/δ̇⁻ is limited to −1 to 1 in the law"),
     number(
         "velocity_floor",
-        "least δ̇⁻ that an onset of contact stores",
+        "smallest δ̇⁻ that is stored at the onset of a contact",
         VELOCITY,
         otherwise="1e-6 m/s",
         bounds=(Bound(">", 0.0, "the least impact velocity is positive"),),
@@ -287,9 +292,9 @@ CONTACT = record(
 EVENT = record(
     "event",
     "a run is watched for an expression that crosses zero",
-    number("zero", "the expression", None, required=True, varies=OF_MOTION),
-    word("direction", "which crossings count", ("both", "rising", "falling"), "both"),
-    word("action", "whether the run goes on", ("record", "stop"), "record"),
+    number("zero", "event function: the event is its zero", None, required=True, varies=OF_MOTION),
+    word("direction", "direction of the zero crossings that count", ("both", "rising", "falling"), "both"),
+    word("action", "whether an event is only recorded or also ends the run", ("record", "stop"), "record"),
 )
 
 CURVE = record(
@@ -299,19 +304,19 @@ CURVE = record(
     Field("table", TEXT, "CSV file with two columns, in the mechanism's folder or below", otherwise="the points"),
     Field("x", TEXT, "unit of x: mm, deg, s", otherwise="SI, of any dimension"),
     Field("y", TEXT, "unit of y", otherwise="SI, of any dimension"),
-    word("ends", "what holds at both ends; periodic repeats, the last y is the first", ENDS, NATURAL),
+    word("ends", "end conditions; periodic: the curve repeats, and the last y equals the first", ENDS, NATURAL),
     word(
         "interpolation",
         "spline: a continuous second derivative; monotone: no overshoot, dwells stay dwells",
         INTERPOLATIONS,
         SPLINE,
     ),
-    word("extrapolate", "what holds outside the points: an error, the last value, or the tangent", EXTRAPOLATE, STOP),
+    word("extrapolate", "values outside the points: an error, the last value, or the tangent", EXTRAPOLATE, STOP),
 )
 
 SIMULATE = record(
     "simulate",
-    "how this scene is run unless the run is told otherwise",
+    "default settings of runs of this scene",
     number(
         "t_end",
         "time at which the run ends",
@@ -331,7 +336,7 @@ SIMULATE = record(
         "step",
         "length of the steps of rk4",
         TIME,
-        otherwise="as long as is stable, by an estimate",
+        otherwise="an estimate of the largest stable step",
         bounds=(Bound(">", 0.0, "a time span is positive"),),
     ),
 )
@@ -339,14 +344,16 @@ SIMULATE = record(
 PLAY = record(
     "play",
     "the play in a joint",
-    name_in("bearings", "bearing", "its measures, of a revolute joint", False, either="guide", otherwise="a guide"),
-    name_in("guides", "guide", "its measures, of a translational joint", False, otherwise="a bearing"),
-    name_in("contacts", "contact", "its laws"),
+    name_in(
+        "bearings", "bearing", "bearing of a revolute joint: its dimensions", False, either="guide", otherwise="a guide"
+    ),
+    name_in("guides", "guide", "guide of a translational joint: its dimensions", False, otherwise="a bearing"),
+    name_in("contacts", "contact", "contact whose laws apply"),
     Field(
         "contour",
         DEPTHS,
-        "how much deeper than its circle the bearing is, at equal angles from its body's x axis on;"
-        " a number: so many, all 0, which a run sets",
+        "wear depths of the bearing at equal angles, beginning at its body's x axis;"
+        " a number: that many depths, all 0, which a run can set",
         LENGTH,
         otherwise="a circle",
     ),
@@ -362,14 +369,14 @@ _OF_MATERIAL = (
 SCENE = record(
     "scene",
     "which joints have play, and what goes with that",
-    name_in("scenes", "extends", "scene whose entries it has besides its own", required=False),
+    name_in("scenes", "extends", "scene whose entries are added to its own", required=False),
     mapping("play", "joints with play", PLAY),
-    mapping("parameters", "parameters that have another value here", number("value", "the value here", None)),
-    mapping("events", "events of this scene, besides the file's", EVENT),
-    Field("peaks", RESULTS, "series whose largest and smallest values over all steps a run tells", otherwise="none"),
+    mapping("parameters", "other values of parameters in this scene", number("value", "the value here", None)),
+    mapping("events", "events of this scene, in addition to the file's", EVENT),
+    Field("peaks", RESULTS, "results whose largest and smallest values over all steps are reported", otherwise="none"),
     mapping(
         "materials",
-        "materials that are others here: bearings.NAME.journal_material, bodies.NAME.shape.material",
+        "other materials in this scene: bearings.NAME.journal_material, bodies.NAME.shape.material",
         name_in("materials", "value", "the material here"),
         addresses=_OF_MATERIAL,
     ),
@@ -378,26 +385,31 @@ SCENE = record(
 
 PLAY_START = record(
     "apart",
-    "where a joint begins in its play, in scenes that give it some: a journal in ground axes, a slider in its guide",
-    vector("e", "eccentricity: from the bearing's centre to the journal's", LENGTH, otherwise="none"),
-    vector("rate", "the rate of the eccentricity", VELOCITY, otherwise="none"),
-    number("offset", "of a slider: how far its point is off the axis, to the axis' left", LENGTH, otherwise="none"),
-    number("tilt", "of a slider: angle by which it is turned in its guide", DIMENSIONLESS, otherwise="none"),
-    number("offset_rate", "the rate of the offset", VELOCITY, otherwise="none"),
-    number("tilt_rate", "the rate of the tilt", RATE, otherwise="none"),
+    "initial position in a joint with play: of a journal in ground axes, of a slider in its guide",
+    vector("e", "eccentricity vector from the bearing's centre to the journal's", LENGTH, otherwise="none"),
+    vector("rate", "rate of the eccentricity", VELOCITY, otherwise="none"),
+    number(
+        "offset",
+        "of a slider: distance of its point from the axis, positive to the left of the axis",
+        LENGTH,
+        otherwise="none",
+    ),
+    number("tilt", "of a slider: angle of its rotation in the guide", DIMENSIONLESS, otherwise="none"),
+    number("offset_rate", "rate of the offset", VELOCITY, otherwise="none"),
+    number("tilt_rate", "rate of the tilt", RATE, otherwise="none"),
 )
 START = record(
     "start",
-    "how the motion begins: coordinates and velocities of centres of mass, in ground axes",
+    "initial coordinates and velocities of centres of mass, in ground axes",
     mapping(
         "guess",
-        "coordinates, and points of bodies, that pick the branch",
+        "approximate coordinates and points of bodies, which select the assembly branch",
         Field("value", PLACE, "about where", None),
         keys=COORDINATES,
     ),
-    mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
-    mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
-    mapping("play", "joints with play that begin out of the middle, or move there", PLAY_START),
+    mapping("set", "coordinates with exact initial values", number("value", "where", None), keys=COORDINATES),
+    mapping("rates", "initial velocities that drives do not determine", number("value", "how fast", None), keys=RATES),
+    mapping("play", "initial eccentricities and rates of joints with play", PLAY_START),
 )
 
 EXPRESSION = number("value", "what the name stands for", None, varies=OF_MOTION)
@@ -408,19 +420,19 @@ FILE = record(
     "a mechanism",
     Field("format", WORD, "the version of this format", values=(FORMAT,), required=True),
     name_in("", "name", "the mechanism's name"),
-    Field("title", TEXT, "one line for people", otherwise="the name"),
+    Field("title", TEXT, "title of the mechanism, one line", otherwise="the name"),
     vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
-    mapping("parameters", "numbers by name, for every expression", number("value", "the number", None)),
+    mapping("parameters", "parameters by name, which every expression may use", number("value", "the number", None)),
     mapping("curves", "curves by name", CURVE),
     mapping("expressions", "expressions by name, which drives, forces, events and outputs may use", EXPRESSION),
     mapping("materials", "materials by name", MATERIAL),
-    mapping("bodies", "bodies by name: one at least", BODY, required=True),
+    mapping("bodies", "bodies by name, at least one", BODY, required=True),
     mapping("ground", "points of the ground by name, in ground axes", POINT_OF_GROUND),
     number(
         "freedoms",
-        "degrees of freedom that are meant, with all joints closed and all drives: checked",
+        "expected degrees of freedom with all joints closed and all drives; an error if the computed number differs",
         DIMENSIONLESS,
-        otherwise="they are told where there are any",
+        otherwise="the computed number is reported",
         whole=True,
         bounds=(Bound(">=", 0.0, "a count is not negative"),),
     ),
@@ -432,7 +444,7 @@ FILE = record(
     mapping("guides", "guides by name", GUIDE),
     mapping("contacts", "contacts by name", CONTACT),
     mapping("events", "events of every scene by name", EVENT),
-    mapping("scenes", "scenes by name; ideal, without play, is always there", SCENE, given=(IDEAL,)),
-    mapping("outputs", "further results by name", OUTPUT),
+    mapping("scenes", "scenes by name; the scene `ideal`, without play, always exists", SCENE, given=(IDEAL,)),
+    mapping("outputs", "additional results by name", OUTPUT),
 )
 SECTIONS: Mapping[str, Field] = {field.name: field for field in FILE.fields}

@@ -142,7 +142,7 @@ def test_overrides() -> None:
         },
     )
     assert value(changed, changed.forces["coil"].quantities["stiffness"]) == 5000.0
-    assert changed.forces["push"].vectors["value"][0].value == Number(3.0, "3.0")
+    assert changed.forces["push"].vectors["value"][0].value == Number(3.0, "3")
     assert value(changed, changed.forces["band"].quantities["damping"]) == 0.5  # the file has no such key
     assert changed.joints["epicycle"].options["internal"] == "false"
     assert changed.forces["push"].options["axes"] == "body"
